@@ -93,6 +93,8 @@ function(house_optimisation name is_hot is_cold)
 endfunction()
 
 # house_library(NAME SOURCES a.cpp ... [LINK public...] [PRIVATE private...] [HOT|COLD] [SEPARATE])
+# HOT: optimised even in debug builds, because tests spend most of their time in it. COLD: compiled with -Og, because it computes
+# little. SEPARATE: no unity build.
 function(house_library name)
     cmake_parse_arguments(ARG "HOT;COLD;SEPARATE" "" "SOURCES;LINK;PRIVATE" ${ARGN})
     if(ARG_SOURCES)

@@ -44,20 +44,20 @@ void check_eyes(const DisplayFile& displays, Findings& findings) {
 
 // Returns true if the corners make a rectangle of plausible size, so that other checks make sense.
 bool check_shape(const Wall& wall, Findings& findings) {
-    const std::string place = "wall " + in_quotes(wall.name);
+    const std::string label = "wall " + in_quotes(wall.name);
     const double across = width(wall), upwards = height(wall);
     if (!(across >= min_wall_edge && upwards >= min_wall_edge)) {
         findings.push_back(
             {true, fmt::format("{}: it is {:.3g} m wide and {:.3g} m high; expected at least {:g} m "
                                "each: are two corners the same?",
-                               place, across, upwards, min_wall_edge)});
+                               label, across, upwards, min_wall_edge)});
         return false;
     }
     if (std::max(across, upwards) > max_wall_edge)
         findings.push_back(
             {false, fmt::format("{}: it is {:.3g} m wide and {:.3g} m high; expected at most {:g} m: "
                                 "are its corners in metres?",
-                                place, across, upwards, max_wall_edge)});
+                                label, across, upwards, max_wall_edge)});
     const double cosine = glm::dot(wall.lower_left - wall.lower_right, wall.upper_right - wall.lower_right) /
                           (across * upwards);
     const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
@@ -65,7 +65,7 @@ bool check_shape(const Wall& wall, Findings& findings) {
     findings.push_back(
         {true, fmt::format("{}: its angle at the lower right corner is {:.2f} degrees; expected 90 "
                            "to {:g}",
-                           place, to_degrees(angle), to_degrees(right_angle_tolerance))});
+                           label, to_degrees(angle), to_degrees(right_angle_tolerance))});
     return false;
 }
 
@@ -73,32 +73,32 @@ void check_viewer(const DisplayFile& displays, const Wall& wall, Findings& findi
     const WallFrame frame = frame_of(wall);
     const Vec3& eye = displays.head.fixed_head.position;
     const double distance = distance_in_front(frame, eye);
-    const std::string place = "wall " + in_quotes(wall.name);
+    const std::string label = "wall " + in_quotes(wall.name);
     if (distance < 0.0)
         findings.push_back(
             {true, fmt::format("{}: the fixed head {} is {:.3g} m behind it; expected it in front: are "
                                "its left and right corners exchanged?",
-                               place, in_m(eye), -distance)});
+                               label, in_m(eye), -distance)});
     else if (distance < min_viewer_distance)
         findings.push_back(
             {true, fmt::format("{}: the fixed head {} is {:.3g} m in front of it; expected at least "
                                "{:g} m",
-                               place, in_m(eye), distance, min_viewer_distance)});
+                               label, in_m(eye), distance, min_viewer_distance)});
     if (distance > 0.0 && frame.up.y < -0.5)
         findings.push_back(
             {false, fmt::format("{}: its upper corner is below its lower corners: its picture stands "
                                 "on its head",
-                                place)});
+                                label)});
 }
 
 void check_pair(const Wall& wall, const Wall& other, Findings& findings) {
     const WallFrame a = frame_of(wall), b = frame_of(other);
-    const std::string place = fmt::format("walls {} and {}", in_quotes(wall.name), in_quotes(other.name));
-    if (cross(a, b, wall_tolerance)) {
-        findings.push_back({true, place + " cross; expected walls that meet at their edges"});
+    const std::string label = fmt::format("walls {} and {}", in_quotes(wall.name), in_quotes(other.name));
+    if (walls_cross(a, b, wall_tolerance)) {
+        findings.push_back({true, label + " cross; expected walls that meet at their edges"});
         return;
     }
-    const auto a_in_b = ends_inside(a, b, wall_tolerance), b_in_a = ends_inside(b, a, wall_tolerance);
+    const auto a_in_b = edge_inset(a, b, wall_tolerance), b_in_a = edge_inset(b, a, wall_tolerance);
     if (a_in_b || b_in_a) {
         const Wall &ends = a_in_b ? wall : other, &hidden = a_in_b ? other : wall;
         findings.push_back(
@@ -110,7 +110,7 @@ void check_pair(const Wall& wall, const Wall& other, Findings& findings) {
     }
     if (const auto overlap = coplanar_overlap(a, b, wall_tolerance)) {
         findings.push_back({false, fmt::format("{} overlap by {:.1f} mm: their pictures are not blended",
-                                               place, *overlap / mm)});
+                                               label, *overlap / mm)});
         return;
     }
     const auto gap = seam_gap(a, b);
@@ -118,7 +118,7 @@ void check_pair(const Wall& wall, const Wall& other, Findings& findings) {
         findings.push_back(
             {false, fmt::format("{} nearly meet: the gap is up to {:.1f} mm; expected the same edge, "
                                 "unless something stands between them",
-                                place, *gap / mm)});
+                                label, *gap / mm)});
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ std::vector<DisplayFinding> check_walls(const DisplayFile& displays) {
     check_names(displays, findings);
     check_eyes(displays, findings);
     std::vector<std::size_t> shaped;
-    const auto place_at = [&](std::size_t wall, std::size_t from) {
+    const auto assign_wall = [&](std::size_t wall, std::size_t from) {
         for (std::size_t i = from; i < findings.size(); ++i) findings[i].wall = wall;
     };
     for (std::size_t i = 0; i < displays.walls.size(); ++i) {
@@ -137,13 +137,13 @@ std::vector<DisplayFinding> check_walls(const DisplayFile& displays) {
             check_viewer(displays, displays.walls[i], findings);
             shaped.push_back(i);
         }
-        place_at(i, before);
+        assign_wall(i, before);
     }
     for (std::size_t j = 0; j < shaped.size(); ++j)
         for (std::size_t i = 0; i < j; ++i) {
             const std::size_t before = findings.size();
             check_pair(displays.walls[shaped[i]], displays.walls[shaped[j]], findings);
-            place_at(shaped[j], before);
+            assign_wall(shaped[j], before);
         }
     return findings;
 }

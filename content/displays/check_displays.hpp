@@ -42,10 +42,10 @@ inline constexpr double narrow_eyes = 0.05, wide_eyes = 0.08;  // m; nearly all 
 // Names, shapes, the fixed head in front of each wall, crossings, overlaps, seams, and the eye separation.
 std::vector<DisplayFinding> check_walls(const DisplayFile& displays);
 
-// The computer on which walls are checked.
+// One of the computers that show the walls: the one that a check is for.
 struct Computer {
     std::vector<Monitor> monitors;  // none: outputs are compared with one another only
-    int rank = 0;                   // of the process that shows its walls, in the file
+    int rank = 0;                   // of the process that shows its walls: DisplayOutput::rank
     std::string display;            // X display of the program, such as ":0"; empty: unknown
     int processes = 1;              // that show the walls together
 };
@@ -57,7 +57,7 @@ bool is_same_display(std::string_view a, std::string_view b);
 // monitors, or on another X display than the program.
 std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const Computer& computer = {});
 
-// Both; findings that prevent the use come first.
+// The findings of check_walls() and check_outputs(); those that prevent the use come first.
 std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const Computer& computer = {});
 
 // A line each; it begins with file, line and column of the wall.

@@ -17,7 +17,7 @@ struct PixelRect {
 
 // An output of a wall; `rect` is where it is on the desktop, as far as that is known.
 struct PlacedOutput {
-    std::string place;  // for messages
+    std::string label;  // for messages
     const Wall* wall = nullptr;
     std::size_t index = 0;  // of the wall
     const DisplayOutput* output = nullptr;
@@ -34,13 +34,13 @@ PixelRect common_part(const PixelRect& a, const PixelRect& b) {
 
 bool has_pixels(const PixelRect& rect) { return rect.width > 0 && rect.height > 0; }
 
-// Returns true if the rectangles from `first` on cover every pixel.
-bool is_covered(const PixelRect& rect, std::span<const Monitor> by) {
+// Returns true if the monitors together cover every pixel of `rect`.
+bool is_covered(const PixelRect& rect, std::span<const Monitor> monitors) {
     if (!has_pixels(rect)) return true;
-    if (by.empty()) return false;
-    const Monitor& m = by.front();
+    if (monitors.empty()) return false;
+    const Monitor& m = monitors.front();
     const PixelRect common = common_part(rect, {m.x, m.y, m.width, m.height});
-    const auto rest = by.subspan(1);
+    const auto rest = monitors.subspan(1);
     if (!has_pixels(common)) return is_covered(rect, rest);
     const int right = common.x + common.width, bottom = common.y + common.height;
     // The parts above, below, to the left and to the right of the common part.
@@ -54,7 +54,7 @@ std::vector<PlacedOutput> outputs_of(const DisplayFile& displays) {
     std::vector<PlacedOutput> all;
     const auto add = [&](const Wall& wall, const DisplayOutput& output, const char* eye) {
         PlacedOutput placed;
-        placed.place = "wall " + in_quotes(wall.name) + eye;
+        placed.label = "wall " + in_quotes(wall.name) + eye;
         placed.wall = &wall;
         placed.index = static_cast<std::size_t>(&wall - displays.walls.data());
         placed.output = &output;
@@ -99,11 +99,11 @@ std::string suggestion(const std::string& name, std::span<const Monitor> monitor
 }
 
 void report(Findings& findings, bool prevents_use, const PlacedOutput& placed, const std::string& text) {
-    findings.push_back({prevents_use, placed.place + ": " + text, placed.index});
+    findings.push_back({prevents_use, placed.label + ": " + text, placed.index});
 }
 
 // Finds the output's monitor, or reports why there is none.
-void place_on_monitors(PlacedOutput& placed, std::span<const Monitor> monitors, Findings& findings) {
+void assign_monitor(PlacedOutput& placed, std::span<const Monitor> monitors, Findings& findings) {
     const DisplayOutput& output = *placed.output;
     if (placed.rect) {
         if (!is_covered(*placed.rect, monitors))
@@ -144,16 +144,17 @@ void check_pixels(const PlacedOutput& placed, Findings& findings) {
                            beside ? "width" : "height"));
         return;
     }
-    const double tall = width(wall) / across / (height(wall) / upwards);  // pixel: width over height
-    const double halved = beside ? 2.0 * tall : above ? 0.5 * tall : tall;
+    // Width over height of a pixel, and of one in the picture of an eye.
+    const double pixel_aspect = width(wall) / across / (height(wall) / upwards);
+    const double eye_pixel_aspect = beside ? 2.0 * pixel_aspect : above ? 0.5 * pixel_aspect : pixel_aspect;
     const auto is_square = [](double ratio) { return std::abs(ratio - 1.0) <= pixel_tolerance; };
     // Screens that take both pictures squeezed into one have square pixels again.
-    if (is_square(halved) || is_square(tall) || !(height(wall) > 0.0)) return;
+    if (is_square(eye_pixel_aspect) || is_square(pixel_aspect) || !(height(wall) > 0.0)) return;
     report(findings, false, placed,
            fmt::format("its pixels are not square: {:.3g} m by {:.3g} m with {}x{} pixels{}, so a pixel is "
                        "{:.3f} times as wide as high",
                        width(wall), height(wall), across, upwards, beside || above ? " for two eyes" : "",
-                       halved));
+                       eye_pixel_aspect));
 }
 
 // Returns true if both outputs name the same monitor, or rectangles of the same desktop that overlap.
@@ -191,7 +192,7 @@ std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const Com
                        fmt::format("its output is on the X display {}; expected {}, that of the program",
                                    in_quotes(output.display), in_quotes(computer.display)));
             else if (!computer.monitors.empty())
-                place_on_monitors(placed, computer.monitors, findings);
+                assign_monitor(placed, computer.monitors, findings);
         }
         check_pixels(placed, findings);
     }
@@ -201,7 +202,7 @@ std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const Com
                 findings.push_back(
                     {true,
                      fmt::format("{} and {} are shown on the same pixels; expected an output for each",
-                                 outputs[i].place, outputs[j].place),
+                                 outputs[i].label, outputs[j].label),
                      outputs[j].index});
     return findings;
 }

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "content/displays/read_displays.hpp"
+#include "content/displays/display_names.hpp"
 #include "engine/base/file.hpp"
 
 namespace bolt::content {

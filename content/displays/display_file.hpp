@@ -38,7 +38,7 @@ struct DisplayOutput {
     std::optional<PixelPosition> position;  // of a window without a border, on the desktop
     std::optional<PixelSize> resolution;    // a window has one; none: that of the monitor
     std::string display;                    // X display; empty: that of the program
-    int rank = 0;                           // of the computer that shows it
+    int rank = 0;                           // number of the computer that shows it, ParaView's process rank
     bool operator==(const DisplayOutput&) const = default;
 };
 
@@ -80,7 +80,9 @@ struct TrackerAxis {
     bool operator==(const TrackerAxis&) const = default;
 };
 
-// The pose of the head is that of the point between the eyes, which looks along −z with y up.
+// The pose of the head is that of the point between the eyes, which looks along −z with y up. Only the
+// registration in this file is used for the head, not one in a station file
+// (content/station/registration.hpp).
 struct HeadTracking {
     HeadTracker tracker = HeadTracker::fixed;
     Pose fixed_head{{0.0, 1.6, 0.0}, {1.0, 0.0, 0.0, 0.0}};  // without a tracker, and after it lost the head
@@ -90,20 +92,22 @@ struct HeadTracking {
     std::string recording;  // file of recorded poses, relative to the folder of the display file
     std::array<TrackerAxis, 3> axes{{{0}, {1}, {2}}};  // those that point along the room's x, y and z
     double scale = 1.0;                                // m of the room per m of the tracker
-    Pose tracker_in_room;                              // after the axes are renamed and scaled
-    Pose head_in_body;                                 // in the tracked body, after the axes are renamed
-    double hold = 0.5;                                 // s, for which the last pose is kept after a loss
-    double fade = 2.0;                                 // s, from there to the fixed head
-    double max_speed = 4.0;                            // m/s; a faster change is a jump
-    double jump_time = 0.3;                            // s, after which a lasting jump is accepted
+    Pose tracker_in_room;    // the tracker's frame; applied after `axes` and `scale`
+    Pose head_in_body;       // in the tracked body's frame after `axes`
+    double hold = 0.5;       // s of a dropout, during which the last pose is kept
+    double fade = 2.0;       // s, from there to the fixed head
+    double max_speed = 4.0;  // m/s; a faster change is a jump
+    double jump_time = 0.3;  // s, after which a lasting jump is accepted
     bool operator==(const HeadTracking& other) const;
 };
 
 // The rotation from the tracker's axes to the room's.
 Quat orientation_of(const std::array<TrackerAxis, 3>& axes);
 
-inline constexpr double default_eye_separation = 0.065;  // m
-inline constexpr double max_eye_separation = 0.1;        // m
+// m. ParaView's default in a CAVE, so that an imported .pvx file without the value gives the same pictures.
+// view::mean_eye_separation is the mean of adults.
+inline constexpr double default_eye_separation = 0.065;
+inline constexpr double max_eye_separation = 0.1;  // m
 inline constexpr std::size_t max_walls = 32;
 
 struct DisplayFile {
@@ -115,7 +119,7 @@ struct DisplayFile {
     bool operator==(const DisplayFile&) const = default;
 };
 
-// A place in a text file, 1-based; a column counts characters.
+// A position in a text file, 1-based; a column counts characters.
 struct FilePosition {
     int line = 0, column = 0;
 };

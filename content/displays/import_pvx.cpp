@@ -67,7 +67,7 @@ void PvxImport::read_element(pugi::xml_node node) {
     } else if (name == "EyeSeparation") {
         read_eye_separation(node);
     } else if (name == "UseOffAxisProjection") {
-        const auto value = truth(node.attribute("Value").as_string("1"));
+        const auto value = parse_bool(node.attribute("Value").as_string("1"));
         if (!value)
             messages_.fail_at(node, "Value",
                               in_quotes(node.attribute("Value").as_string()) + " is not a truth value",

@@ -16,7 +16,7 @@ constexpr double max_corner = 1000.0;          // m
 
 void read_corner(pugi::xml_node node, const char* attribute, double scale, PvxMessages& messages, Vec3& to) {
     const char* text = node.attribute(attribute).as_string();
-    const std::vector<std::string_view> parts = parts_of(text, ',');
+    const std::vector<std::string_view> parts = split(text, ',');
     bool good = parts.size() == 3;
     for (int i = 0; good && i < 3; ++i) {
         const auto value = finite_number(parts[static_cast<std::size_t>(i)]);
@@ -53,7 +53,7 @@ void read_geometry(PvxMachine& machine, PvxMessages& messages) {
 
 void read_environment(PvxMachine& machine, PvxMessages& messages) {
     constexpr std::string_view display = "DISPLAY=";
-    for (const std::string_view part : parts_of(machine.node.attribute("Environment").as_string(), ';')) {
+    for (const std::string_view part : split(machine.node.attribute("Environment").as_string(), ';')) {
         const std::string_view value = part.starts_with(display) ? part.substr(display.size()) : "";
         if (!value.empty() && value.size() <= max_display_name)
             machine.wall.output.display = value;

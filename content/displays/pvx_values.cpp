@@ -6,11 +6,11 @@
 
 namespace bolt::content {
 
-std::vector<std::string_view> parts_of(std::string_view text, char also) {
+std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
     std::size_t start = 0;
     for (std::size_t i = 0; i <= text.size(); ++i) {
-        if (i < text.size() && !is_blank(text[i]) && text[i] != also) continue;
+        if (i < text.size() && !is_blank(text[i]) && text[i] != separator) continue;
         if (i > start) parts.push_back(text.substr(start, i - start));
         start = i + 1;
     }
@@ -26,7 +26,7 @@ std::optional<double> finite_number(std::string_view text) {
     return value;
 }
 
-std::optional<bool> truth(std::string_view text) {
+std::optional<bool> parse_bool(std::string_view text) {
     for (const std::string_view yes : {"1", "true", "True", "yes", "on"})
         if (text == yes) return true;
     for (const std::string_view no : {"0", "false", "False", "no", "off"})

@@ -12,14 +12,14 @@ namespace bolt::content {
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-// The parts of the text between blanks; `also`: another separator.
-std::vector<std::string_view> parts_of(std::string_view text, char also);
+// The parts of the text between blanks or separators.
+std::vector<std::string_view> split(std::string_view text, char separator);
 
 // None if the whole text is not a finite number.
 std::optional<double> finite_number(std::string_view text);
 
 // "1", "true", "0", "false", ...
-std::optional<bool> truth(std::string_view text);
+std::optional<bool> parse_bool(std::string_view text);
 
 // "1920x1080+0+-20"; none if it has another form, or a size that no window has.
 std::optional<std::pair<PixelPosition, PixelSize>> parse_geometry(std::string_view text);

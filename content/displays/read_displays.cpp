@@ -1,4 +1,4 @@
-#include "content/displays/read_displays.hpp"
+#include "content/displays/display_names.hpp"
 
 #include <fmt/format.h>
 

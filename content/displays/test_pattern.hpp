@@ -1,4 +1,4 @@
-// The picture with which a fitter checks a wall: its border, whether squares are square, the length of a
+// The picture with which an installer checks a wall: its border, whether squares are square, the length of a
 // scale, which eye sees which picture, and whether all walls show the same frame. Lines and texts are in the
 // wall's plane: m to the right of and above its lower left corner.
 #pragma once
@@ -18,7 +18,7 @@ enum class PatternPart : std::uint8_t {
     cross,
     scale,
     frame_marks,   // the row of marks, one for each of frame_mark_count frames
-    present_mark,  // the mark of this frame
+    present_mark,  // the mark that is lit in this frame
 };
 
 struct PatternLine {
@@ -33,7 +33,8 @@ struct PatternText {
 };
 
 struct TestPattern {
-    double scale_length = 0.0;  // m, between the end marks of each scale; a fitter measures it on the wall
+    double scale_length =
+        0.0;  // m, between the end marks of each scale; an installer measures it on the wall
     std::vector<PatternLine> lines;
     std::vector<PatternText> texts;
 };
@@ -43,15 +44,19 @@ enum class PatternEye : std::uint8_t { both, left, right };
 
 inline constexpr int frame_mark_count = 10;
 
-// The border on the edges of the wall; both diagonals; upright crosses in the middle and near the corners; a
-// horizontal and a vertical scale of `scale_length`, the longest of 1, 0.5, 0.2, 0.1, 0.05 and 0.02 m that is
-// at most 0.4 of the shorter edge; the name of the wall, the length of the scale, the eye, and the number of
-// the frame with a row of marks, of which the present one moves on by one each frame: on a photograph of
-// several walls the marks differ by the frames between them. The eye's text is in the left half of the
-// picture for the left eye and in the right half for the right eye. Empty for a wall without width or height.
+// The pattern consists of
+// - the border on the edges of the wall, both diagonals, upright crosses in the middle and near the corners;
+// - a horizontal and a vertical scale of `scale_length`: the longest of 1, 0.5, 0.2, 0.1, 0.05 and 0.02 m
+// that
+//   is at most 0.4 of the shorter edge;
+// - the name of the wall and the length of the scale;
+// - the eye, in the left half of the picture for the left eye and in the right half for the right eye;
+// - the number of the frame, and a row of marks. One is lit, the next one in each frame: on a photograph of
+//   several walls, lit marks that differ show how many frames apart the walls are.
+// It is empty for a wall without width or height.
 TestPattern test_pattern(const Wall& wall, PatternEye eye, std::uint64_t frame = 0);
 
-// The point of the room that a point of the pattern is at.
+// Converts a point of the pattern to the room.
 Vec3 pattern_point(const Wall& wall, const glm::dvec2& point);
 
 }  // namespace bolt::content

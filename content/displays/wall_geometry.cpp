@@ -7,7 +7,7 @@ namespace bolt::content {
 
 namespace {
 
-constexpr double least_sine = 1e-3;  // of the angle between walls that are not parallel
+constexpr double min_sine = 1e-3;  // of the angle between walls that are not parallel
 
 struct WallEdge {
     Vec3 from{0.0}, to{0.0};
@@ -52,16 +52,16 @@ double overlap_along(const Vec3& axis, const std::array<Vec3, 4>& a, const std::
 
 // The larger of the distances at both ends of the part where the edges run side by side; none if they do not.
 std::optional<double> edge_gap(const WallEdge& a, const WallEdge& b) {
-    constexpr double least_cosine = 0.9994;  // of 2°
-    constexpr double least_share = 0.25;     // of the shorter edge
+    constexpr double min_cosine = 0.9994;  // of 2°
+    constexpr double min_share = 0.25;     // of the shorter edge
     const Vec3 along = a.to - a.from, other = b.to - b.from;
     const double length = glm::length(along), other_length = glm::length(other);
     const Vec3 direction = along / length;
     const double cosine = glm::dot(direction, other) / other_length;
-    if (!(std::abs(cosine) >= least_cosine)) return std::nullopt;  // also without a length
+    if (!(std::abs(cosine) >= min_cosine)) return std::nullopt;  // also without a length
     const double start = glm::dot(direction, b.from - a.from), end = glm::dot(direction, b.to - a.from);
     const double low = std::max(0.0, std::min(start, end)), high = std::min(length, std::max(start, end));
-    if (high - low < least_share * std::min(length, other_length)) return std::nullopt;
+    if (high - low < min_share * std::min(length, other_length)) return std::nullopt;
     const auto distance = [&](double at) {
         return glm::length(a.from + direction * at - (b.from + other * ((at - start) / (end - start))));
     };
@@ -89,11 +89,11 @@ std::array<Vec3, 4> corners_of(const WallFrame& wall, double margin) {
             in_room(wall, margin, top)};
 }
 
-bool cross(const WallFrame& a, const WallFrame& b, double margin) {
+bool walls_cross(const WallFrame& a, const WallFrame& b, double margin) {
     // The line that both planes have in common: its direction, and its point nearest to the origin of `a`.
     const Vec3 direction = glm::cross(a.normal, b.normal);
     const double sine = glm::length(direction);
-    if (sine < least_sine) return false;
+    if (sine < min_sine) return false;
     const Vec3 along = direction / sine, towards_b = glm::cross(along, a.normal);
     const Vec3 from = a.origin - towards_b * (distance_in_front(b, a.origin) / glm::dot(towards_b, b.normal));
     const auto [a_first, a_last] = inside(a, from, along, margin);
@@ -101,8 +101,8 @@ bool cross(const WallFrame& a, const WallFrame& b, double margin) {
     return std::min(a_last, b_last) > std::max(a_first, b_first);
 }
 
-std::optional<double> ends_inside(const WallFrame& a, const WallFrame& b, double tolerance) {
-    if (glm::length(glm::cross(a.normal, b.normal)) < least_sine) return std::nullopt;
+std::optional<double> edge_inset(const WallFrame& a, const WallFrame& b, double tolerance) {
+    if (glm::length(glm::cross(a.normal, b.normal)) < min_sine) return std::nullopt;
     std::optional<double> deepest;
     for (const WallEdge& edge : edges_of(corners_of(a))) {
         if (std::abs(distance_in_front(b, edge.from)) > tolerance ||

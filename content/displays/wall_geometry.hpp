@@ -31,11 +31,11 @@ std::array<Vec3, 4> corners_of(const WallFrame& wall, double margin = 0.0);
 
 // Returns true if the walls have a line in common that is at least `margin` inside the edges of both.
 // Parallel walls do not cross.
-bool cross(const WallFrame& a, const WallFrame& b, double margin);
+bool walls_cross(const WallFrame& a, const WallFrame& b, double margin);
 
-// If an edge of `a` lies on `b`, inside its edges by more than `tolerance`: how far inside. The part of `b`
-// behind `a` cannot be seen.
-std::optional<double> ends_inside(const WallFrame& a, const WallFrame& b, double tolerance);
+// Returns how far an edge of `a` that lies in the plane of `b` is inside the outline of `b`, m; none if at
+// most `tolerance`. The part of `b` behind `a` cannot be seen.
+std::optional<double> edge_inset(const WallFrame& a, const WallFrame& b, double tolerance);
 
 // The width of the strip that two walls in the same plane (to `tolerance`) have in common; none if there is
 // none.

@@ -15,6 +15,7 @@
 #include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
 #include "haptics/joint/design.hpp"
+#include "haptics/joint/law.hpp"
 #include "haptics/joint/published.hpp"
 #include "haptics/joint/stage.hpp"
 

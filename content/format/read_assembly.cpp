@@ -174,8 +174,8 @@ Assembly read_assembly(JsonReader& reader, std::string_view variant, const Model
     assembly.title = read_texts(reader, reader.member(root, "title"));
     assembly.instructions = read_texts(reader, reader.member(root, "lesson"));
     assembly.sources = reader.text(reader.member(root, "sources")).value_or("");
-    const bool published = reader.text(reader.member(root, "law")) == "published";
-    assembly.law = published ? joint::Law::published : joint::Law::mechanistic;
+    if (const auto law = reader.text(reader.member(root, "law")))
+        assembly.law = joint::law_named(*law).value_or(assembly.law);
     assembly.published = read_published(reader);
     assembly.published_targets = read_published_targets(reader, assembly.published);
     assembly.flange = read_flange(reader);

@@ -30,9 +30,9 @@ std::array<double, N> read_numbers(MemberReader& members, const json& object, co
     std::array<double, N> numbers{};
     const json* list = members.find(object, at, key);
     if (list == nullptr) return numbers;
-    const std::string place = at + "/" + key;
+    const std::string pointer = at + "/" + key;
     if (!list->is_array() || list->size() != N) {
-        members.report(place, JsonPart::value, fmt::format("\"{}\" is not a list of {} numbers", key, N),
+        members.report(pointer, JsonPart::value, fmt::format("\"{}\" is not a list of {} numbers", key, N),
                        fmt::format("{} numbers in [ ]", N));
         return numbers;
     }
@@ -40,7 +40,7 @@ std::array<double, N> read_numbers(MemberReader& members, const json& object, co
         const json& value = (*list)[i];
         numbers[i] = value.is_number() ? value.get<double>() : bolt::nan;
         if (numbers[i] >= low && numbers[i] <= high) continue;
-        members.report(fmt::format("{}/{}", place, i), JsonPart::value,
+        members.report(fmt::format("{}/{}", pointer, i), JsonPart::value,
                        fmt::format("\"{}\" cannot have {}", key, in_quotes(value.dump())),
                        fmt::format("a number from {} to {}", low, high));
         numbers[i] = low;
@@ -54,11 +54,12 @@ Vec3 read_point(MemberReader& members, const json& object, const std::string& at
     return {x, y, z};
 }
 
-StationFrame read_frame(MemberReader& members, const json& object, const std::string& at, const char* key) {
+CoordinateFrame read_frame(MemberReader& members, const json& object, const std::string& at,
+                           const char* key) {
     const std::string text = members.text(object, at, key);
-    const Result<StationFrame> frame = parse_station_frame(text);
+    const Result<CoordinateFrame> frame = parse_coordinate_frame(text);
     if (!frame) members.report(at + "/" + key, JsonPart::value, frame.error().what, frame.error().expected);
-    return frame.value_or(StationFrame::arm);
+    return frame.value_or(CoordinateFrame::arm);
 }
 
 Quat read_orientation(MemberReader& members, const json& object, const std::string& at) {
@@ -90,17 +91,17 @@ int read_point_count(MemberReader& members, const json& object, const std::strin
     return static_cast<int>(count);
 }
 
-// A point's residual does not shrink when the pose no longer takes the point into account, so the largest
-// residual of a left-out point is at least the rms. Two points determine no pose.
+// Leaving a point out of the fit cannot reduce its residual, so the largest residual of a left-out point is
+// at least the rms.
 void check_residuals(MemberReader& members, const std::string& at, const Registration& one) {
     constexpr double rounding = 1e-9;  // m
     if (!one.largest_left_out) return;
-    const std::string place = at + "/largest_left_out_m";
-    if (one.points == 3)
-        members.report(place, JsonPart::value, "with 3 points none can be left out",
+    const std::string pointer = at + "/largest_left_out_m";
+    if (one.points == 3)  // the two that remain determine no pose
+        members.report(pointer, JsonPart::value, "with 3 points none can be left out",
                        "more points, or no \"largest_left_out_m\"");
     else if (*one.largest_left_out < one.rms - rounding)
-        members.report(place, JsonPart::value,
+        members.report(pointer, JsonPart::value,
                        fmt::format("a largest residual of {:g} is impossible with an rms of {:g}",
                                    *one.largest_left_out, one.rms),
                        "a number that is not less than \"rms_m\"");
@@ -109,14 +110,14 @@ void check_residuals(MemberReader& members, const std::string& at, const Registr
 std::optional<PointPair> read_check_point(MemberReader& members, const json& object, const std::string& at) {
     const auto found = object.find("check_point");
     if (found == object.end()) return std::nullopt;
-    const std::string place = at + "/check_point";
+    const std::string pointer = at + "/check_point";
     if (!found->is_object()) {
-        members.report(place, JsonPart::value, "\"check_point\" is not an object", "an object {...}");
+        members.report(pointer, JsonPart::value, "\"check_point\" is not an object", "an object {...}");
         return std::nullopt;
     }
-    members.check_known(*found, place, {"from_m", "to_m"});
-    return PointPair{read_point(members, *found, place, "from_m"),
-                     read_point(members, *found, place, "to_m")};
+    members.check_known(*found, pointer, {"from_m", "to_m"});
+    return PointPair{read_point(members, *found, pointer, "from_m"),
+                     read_point(members, *found, pointer, "to_m")};
 }
 
 Registration read_registration(MemberReader& members, const json& object, const std::string& at) {
@@ -162,20 +163,22 @@ ordered_json json_of(const Registration& one) {
 
 }  // namespace
 
-const std::vector<std::string>& station_frame_names() {
+const std::vector<std::string>& coordinate_frame_names() {
     static const std::vector<std::string> names{"arm", "wheel", "tracker", "wall", "workpiece", "room"};
     return names;
 }
 
-std::string_view name(StationFrame frame) { return station_frame_names()[static_cast<std::size_t>(frame)]; }
+std::string_view name(CoordinateFrame frame) {
+    return coordinate_frame_names()[static_cast<std::size_t>(frame)];
+}
 
-Result<StationFrame> parse_station_frame(std::string_view text) {
-    const std::vector<std::string>& names = station_frame_names();
+Result<CoordinateFrame> parse_coordinate_frame(std::string_view text) {
+    const std::vector<std::string>& names = coordinate_frame_names();
     const auto found = std::find(names.begin(), names.end(), text);
     if (found == names.end())
         return fail(ErrorCode::bad_content, fmt::format("{} is not a frame", in_quotes(text)),
                     suggest(text, names));
-    return static_cast<StationFrame>(found - names.begin());
+    return static_cast<CoordinateFrame>(found - names.begin());
 }
 
 bool Registration::operator==(const Registration& other) const {
@@ -208,8 +211,8 @@ std::optional<double> check_error(const Registration& registration) {
     return glm::length(registration.pose * registration.check_point->from - registration.check_point->to);
 }
 
-const Registration* find_registration(std::span<const Registration> registrations, StationFrame from,
-                                      StationFrame to) {
+const Registration* find_registration(std::span<const Registration> registrations, CoordinateFrame from,
+                                      CoordinateFrame to) {
     for (const Registration& one : registrations)
         if ((one.from == from && one.to == to) || (one.from == to && one.to == from)) return &one;
     return nullptr;

@@ -1,5 +1,7 @@
 // Registrations of a station: where one frame is in another, such as the arm in the room, and how well that
-// was measured. A station file has them in its list "registrations":
+// was measured. The head in front of projection walls does not use them: its tracker has a registration of
+// its own in the display file (content/displays/display_file.hpp). A station file has them in its list
+// "registrations":
 //
 //   {"from": "arm", "to": "room", "date": "2026-03-02T09:15:00Z",
 //    "position_m": [0.41, 0.72, -0.3], "orientation_wxyz": [1, 0, 0, 0],
@@ -24,7 +26,7 @@ namespace bolt::content {
 struct MemberReader;
 
 // Right-handed frames of a station, in m.
-enum class StationFrame : std::uint8_t {
+enum class CoordinateFrame : std::uint8_t {
     arm,        // of the arm's samples (haptics/device/device.hpp), before its mounting is applied
     wheel,      // of the wheel
     tracker,    // of a tracking system
@@ -32,13 +34,13 @@ enum class StationFrame : std::uint8_t {
     workpiece,  // of the assembly
     room,       // fixed in the room; the STAGE space of OpenXR
 };
-const std::vector<std::string>& station_frame_names();  // in the order of the enumerators
-std::string_view name(StationFrame frame);
+const std::vector<std::string>& coordinate_frame_names();  // in the order of the enumerators
+std::string_view name(CoordinateFrame frame);
 // Fails for an unknown name.
-Result<StationFrame> parse_station_frame(std::string_view text);
+Result<CoordinateFrame> parse_coordinate_frame(std::string_view text);
 
 struct Registration {
-    StationFrame from = StationFrame::arm, to = StationFrame::room;
+    CoordinateFrame from = CoordinateFrame::arm, to = CoordinateFrame::room;
     std::string date;  // UTC, as in 2026-03-02T09:15:00Z
     Pose pose;         // takes coordinates in `from` to those in `to`
     int points = 0;    // from which the pose was computed
@@ -62,8 +64,8 @@ bool is_utc_date(std::string_view text);
 std::optional<double> check_error(const Registration& registration);
 
 // The registration between the two frames, in either direction; null: none.
-const Registration* find_registration(std::span<const Registration> registrations, StationFrame from,
-                                      StationFrame to);
+const Registration* find_registration(std::span<const Registration> registrations, CoordinateFrame from,
+                                      CoordinateFrame to);
 
 // Adds the registration. It replaces one between the same two frames, in either direction.
 void set_registration(std::vector<Registration>& registrations, const Registration& registration);

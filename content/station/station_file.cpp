@@ -161,17 +161,17 @@ void read_limits(MemberReader& members, const json& arm, force::LimitBounds& to)
             to.*bound = members.number(*object, "/arm/limits", number.key, number.low, number.high);
 }
 
-void read_arm(MemberReader& members, const json& root, std::optional<StationArm>& to) {
+void read_arm(MemberReader& members, const json& root, std::optional<StationMover>& to) {
     const json* object = object_member(members, root, "", "arm");
     if (object == nullptr) return;
     members.check_known(
         *object, "/arm",
         {"device", "mounting", "scale", "power", "buttons", "limits", "effector_mass_kg", "tool"});
-    StationArm& arm = to.emplace();
+    StationMover& arm = to.emplace();
     arm.device = read_text(members, *object, "/arm", device_member);
     read_mounting(members, *object, arm.mounting);
     if (object->contains("scale")) arm.scale = members.number(*object, "/arm", "scale", 0.1, 20.0);
-    if (object->contains("power")) arm.power = members.number(*object, "/arm", "power", 0.01, 10.0);
+    if (object->contains("power")) arm.power_ratio = members.number(*object, "/arm", "power", 0.01, 10.0);
     read_buttons(members, *object, "/arm", arm.buttons);
     read_limits(members, *object, arm.limits);
     if (object->contains("effector_mass_kg"))
@@ -241,13 +241,13 @@ void write_buttons(ordered_json& device, const std::optional<Buttons>& buttons) 
         device["buttons"][member.key] = numbers_of(*buttons.*member.mask);
 }
 
-ordered_json json_of(const StationArm& arm) {
+ordered_json json_of(const StationMover& arm) {
     ordered_json object;
     object["device"] = arm.device;
     for (const AngleMember& member : angle_members)
         object["mounting"][member.key] = exact_degrees(arm.mounting.*member.angle);
     if (arm.scale) object["scale"] = *arm.scale;
-    if (arm.power) object["power"] = *arm.power;
+    if (arm.power_ratio) object["power"] = *arm.power_ratio;
     write_buttons(object, arm.buttons);
     for (const auto& [number, bound] : bound_members)
         if (arm.limits.*bound) object["limits"][number.key] = *(arm.limits.*bound);

@@ -1,6 +1,7 @@
-// Reads and writes the station file: the arm, the wheel and the glove of one workplace, with
-// properties that its builder enters because the devices do not report them. A JSON file, whose members
-// content/schema/station.schema.json describes. Registrations (registration.hpp) say where the devices are:
+// Reads and writes the station file: the arm, the wheel and the glove of one station, with properties that
+// the installer enters because the devices do not report them. A JSON file, whose members
+// content/schema/station.schema.json describes. Registrations (registration.hpp) state the poses of the
+// devices:
 //
 //   {"format": "boltwright station 1",
 //    "arm": {"device": "force-dimension:0", "mounting": {"yaw_deg": 180}, "limits": {"force_N": 8}},
@@ -35,16 +36,19 @@ struct Mounting {
 // The rotation from the device's frame to the user's (x right, y up, z towards the user).
 Quat orientation_of(const Mounting& mounting);
 
-struct StationArm {
+// The mover of a station: an arm, or a puck. The file calls it "arm".
+struct StationMover {
     std::string device;  // id, as boltwright devices lists it
     Mounting mounting;
     std::optional<double> scale;  // m of the tool per m of the handle; none: fitted to the reach
-    std::optional<double> power;  // W at the device per W at the tool (force::WorkspaceMap); none: 1/scale
+    // Power at the device / power at the tool (force::WorkspaceMap); none: 1/scale, with which a force on the
+    // tool is as large on the hand. The file calls it "power".
+    std::optional<double> power_ratio;
     std::optional<station::Buttons> buttons;  // none: the defaults
     force::LimitBounds limits;
     double effector_mass = 0.0;  // kg of what is mounted on the arm (device::OpenOptions::effector_mass)
     std::string tool;            // the assembly's tool whose handle is mounted on the arm; empty: any
-    bool operator==(const StationArm&) const = default;
+    bool operator==(const StationMover&) const = default;
 };
 
 struct StationWheel {
@@ -57,7 +61,7 @@ struct StationWheel {
 struct StationFile {
     std::string schema;  // path of the JSON schema, for editors; may be empty
     std::string name;    // for people; may be empty
-    std::optional<StationArm> arm;
+    std::optional<StationMover> arm;
     std::optional<StationWheel> wheel;
     std::string glove_port;                   // empty: no glove
     std::vector<Registration> registrations;  // at most one between two frames

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* wheel_config_format = "boltwright rig 1";
+constexpr const char* wheel_config_format = "boltwright rig 1";  // rig: older name of the configuration
 constexpr std::size_t max_wheel_config_size = 1U << 16U;
 constexpr double max_counts_per_turn = 1U << 24U;
 

@@ -1,4 +1,4 @@
-// Reads the configuration of a wheel: properties that the builder of a station enters because the device does
+// Reads the configuration of a wheel: properties that the installer enters because the device does
 // not report them. A JSON file:
 //
 //   {"format": "boltwright rig 1", "full_torque_Nm": 8, "most_torque_Nm": 4, "counts_per_turn": 65536}

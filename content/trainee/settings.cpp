@@ -117,7 +117,7 @@ Result<TraineeSettings> parse_settings(std::string_view text, const std::string&
         read.captions = members.flag(root, "", "captions");
         read_palette(members, root, read);
         read.left_handed = members.flag(root, "", "left_handed");
-        read.force_scale = members.number(root, "", "force_scale", least_force_scale, 1.0);
+        read.force_scale = members.number(root, "", "force_scale", min_force_scale, 1.0);
         if (root.contains("force_arrow")) read.force_arrow = members.flag(root, "", "force_arrow");
         read_seat(members, root, read);
         read_law(members, root, read);

@@ -31,7 +31,7 @@ inline constexpr std::size_t max_trainee_name_size = 64;         // bytes; the n
 // `distinct`: colours that people with red-green colour blindness can distinguish.
 enum class PaletteKind : std::uint8_t { usual, distinct };
 
-inline constexpr double least_force_scale = 0.1;
+inline constexpr double min_force_scale = 0.1;
 inline constexpr double min_seated_eye_height = 0.9,
                         max_seated_eye_height = 1.5;  // m, of the eyes above the floor
 
@@ -43,7 +43,7 @@ struct TraineeSettings {
     bool captions = false;
     PaletteKind palette = PaletteKind::usual;
     bool left_handed = false;
-    double force_scale = 1.0;  // least_force_scale … 1, share of the force that device and assembly permit
+    double force_scale = 1.0;  // min_force_scale … 1, share of the force that device and assembly permit
     bool force_arrow = true;   // an arrow shows the force on a hand that the mouse moves freely
     std::optional<double> seated_eye_height;  // m, of the eyes above the floor; none: the trainee stands
     std::string law;                          // "mechanistic", "published"; empty: the assembly's own

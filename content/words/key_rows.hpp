@@ -209,6 +209,7 @@ inline constexpr KeyRow key_rows[] = {
     {"menu.force_arrow", ""},
     {"menu.seated", ""},
     {"menu.sound", ""},
+    {"menu.vibration", ""},
     {"menu.settings", ""},
     {"menu.back", ""},
     // The menu: choices, what is missing for them, its pages (game/trainer/menu.cpp).

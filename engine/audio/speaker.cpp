@@ -29,7 +29,7 @@ void Feeder::open(double now) {
     if (!opened) {
         status_.problem = opened.error().message();
         next_attempt_ = now + pause_;
-        pause_ = std::min(2.0 * pause_, longest_pause);
+        pause_ = std::min(2.0 * pause_, max_pause);
         return;
     }
     sink_ = std::move(*opened);
@@ -64,7 +64,7 @@ void Feeder::handle_loss(double now, const Error& error) {
     status_.problem = error.message();
     ++status_.losses;
     next_attempt_ = now + pause_;
-    pause_ = std::min(2.0 * pause_, longest_pause);
+    pause_ = std::min(2.0 * pause_, max_pause);
 }
 
 namespace {

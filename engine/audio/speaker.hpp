@@ -22,7 +22,7 @@ struct PlaybackStatus {
 
 // The pause between attempts to open a sink, s. A failed attempt doubles it: a device that returns soon is
 // found soon, and a missing one costs almost nothing.
-inline constexpr double first_pause = 1.0, longest_pause = 64.0;
+inline constexpr double first_pause = 1.0, max_pause = 64.0;
 
 // Feeds one sink. The time is a parameter, so that tests control it.
 class Feeder {

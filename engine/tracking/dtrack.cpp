@@ -66,17 +66,17 @@ bool is_rotation(const glm::dmat3& m) {
 // Returns false if the text of the body is damaged.
 bool read_body(LineReader& line, DtrackFrame& frame) {
     DtrackBody body;
-    std::array<double, 6> place{};  // position, mm, and angles
+    std::array<double, 6> position{};  // mm, then three angles that are not used
     std::array<double, 9> b{};
     if (!line.sign('[') || !line.number(body.id) || !line.number(body.quality) || !line.sign(']') ||
-        !line.numbers(place) || !line.numbers(b))
+        !line.numbers(position) || !line.numbers(b))
         return false;
     if (body.quality < 0.0) return true;  // not seen
     const glm::dmat3 matrix(b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8]);
-    body.pose.position = Vec3(place[0], place[1], place[2]) * mm;
+    body.pose.position = Vec3(position[0], position[1], position[2]) * mm;
     const bool is_near = glm::length(body.pose.position) <= max_tracked_distance;  // false for NaN
     if (!is_near || !std::isfinite(body.quality) || !is_rotation(matrix)) {
-        ++frame.refused;
+        ++frame.invalid_bodies;
         return true;
     }
     body.pose.orientation = glm::normalize(glm::quat_cast(matrix));
@@ -92,7 +92,7 @@ bool read_bodies(LineReader& line, DtrackFrame& frame) {
     return line.at_end();
 }
 
-// Returns false if the line is one that is read and damaged.
+// Returns false if the line has a kind that is read here, but is damaged.
 bool read_line(std::string_view text, DtrackFrame& frame, bool& has_number) {
     LineReader line(text);
     if (line.word("fr")) {
@@ -109,7 +109,7 @@ bool read_line(std::string_view text, DtrackFrame& frame, bool& has_number) {
     if (line.word("6dcal")) {
         int count = 0;
         if (!line.number(count)) return false;
-        frame.calibrated = count;
+        frame.calibrated_bodies = count;
         return true;
     }
     return !line.word("6d") || read_bodies(line, frame);

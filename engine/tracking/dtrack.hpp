@@ -26,11 +26,11 @@ struct DtrackBody {
 };
 
 struct DtrackFrame {
-    std::uint32_t number = 0;       // of the measurement
-    std::optional<double> time;     // s, on the tracker's clock
-    std::optional<int> calibrated;  // bodies that the tracker knows
+    std::uint32_t number = 0;              // of the measurement
+    std::optional<double> time;            // s, on the tracker's clock
+    std::optional<int> calibrated_bodies;  // number of bodies that the tracker is calibrated for
     std::vector<DtrackBody> bodies;
-    int refused = 0;  // bodies whose values are no pose: not finite, or no rotation
+    int invalid_bodies = 0;  // bodies whose values are no pose: not finite, or no rotation
 };
 
 inline constexpr std::size_t max_dtrack_bodies = 256;

@@ -14,9 +14,9 @@ namespace bolt::tracking {
 
 namespace {
 
-// A number that is lower by less than this is that of a packet which was overtaken on the way; by more: the
-// measurement was started again.
-constexpr std::uint32_t overtaken = 100;
+// A frame number that is less than this behind the newest one belongs to a late packet. A larger step back
+// means that the measurement was restarted.
+constexpr std::uint32_t max_late_frames = 100;
 
 Result<int> bound_port(int socket) {
     sockaddr_in address{};
@@ -61,8 +61,9 @@ DtrackReceiver::~DtrackReceiver() {
 }
 
 bool DtrackReceiver::is_newer(std::uint32_t number) {
-    const std::uint32_t behind = newest_ ? *newest_ - number : overtaken;  // modulo 2³²: huge for a newer one
-    if (behind < overtaken) return false;
+    // Modulo 2³²: huge for a newer number.
+    const std::uint32_t behind = newest_ ? *newest_ - number : max_late_frames;
+    if (behind < max_late_frames) return false;
     newest_ = number;
     return true;
 }
@@ -70,7 +71,7 @@ bool DtrackReceiver::is_newer(std::uint32_t number) {
 std::optional<DtrackFrame> DtrackReceiver::poll() {
     std::optional<DtrackFrame> newest;
     std::array<char, max_dtrack_packet> buffer;
-    for (int i = 0; i < max_packets_a_poll; ++i) {
+    for (int i = 0; i < max_packets_per_poll; ++i) {
         const ssize_t size = ::recv(socket_, buffer.data(), buffer.size(), MSG_TRUNC);
         if (size < 0 && errno == EINTR) continue;
         if (size < 0) break;  // no more packets
@@ -78,15 +79,15 @@ std::optional<DtrackFrame> DtrackReceiver::poll() {
             static_cast<std::size_t>(size);  // of the packet, which may be longer than the buffer
         auto frame = length <= buffer.size() ? parse_dtrack({buffer.data(), length}) : std::nullopt;
         if (!frame) {
-            ++counts_.malformed;
+            ++counts_.malformed_packets;
             continue;
         }
-        ++counts_.frames;
-        counts_.refused += static_cast<std::uint64_t>(frame->refused);
+        ++counts_.good_packets;
+        counts_.invalid_bodies += static_cast<std::uint64_t>(frame->invalid_bodies);
         if (is_newer(frame->number))
             newest = std::move(frame);
         else
-            ++counts_.late;
+            ++counts_.late_packets;
     }
     return newest;
 }

@@ -10,10 +10,10 @@
 namespace bolt::tracking {
 
 struct DtrackCounts {
-    std::uint64_t frames = 0;     // good packets
-    std::uint64_t malformed = 0;  // damaged or too long packets, and those of other programs
-    std::uint64_t late = 0;       // good packets that a newer one had overtaken, or repeated ones
-    std::uint64_t refused = 0;    // bodies whose values are no pose
+    std::uint64_t good_packets = 0;       // late packets included
+    std::uint64_t malformed_packets = 0;  // damaged or too long, or of other programs
+    std::uint64_t late_packets = 0;       // good packets that arrived after a newer one, or twice
+    std::uint64_t invalid_bodies = 0;     // bodies whose values are no pose
 };
 
 class DtrackReceiver {
@@ -26,7 +26,7 @@ class DtrackReceiver {
     ~DtrackReceiver();
 
     // The newest frame that has arrived since the last call; none: no new one. Reads at most
-    // max_packets_a_poll packets, so that a flood of them cannot stop the caller.
+    // max_packets_per_poll packets, so that a flood of them cannot stop the caller.
     std::optional<DtrackFrame> poll();
 
     [[nodiscard]] const DtrackCounts& counts() const { return counts_; }
@@ -43,6 +43,6 @@ class DtrackReceiver {
 };
 
 inline constexpr std::size_t max_dtrack_packet = 16384;  // bytes; a longer packet is malformed
-inline constexpr int max_packets_a_poll = 256;
+inline constexpr int max_packets_per_poll = 256;
 
 }  // namespace bolt::tracking

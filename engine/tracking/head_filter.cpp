@@ -6,13 +6,14 @@ namespace bolt::tracking {
 
 namespace {
 
-Pose between(const Pose& from, const Pose& to, double share) {
-    return {glm::mix(from.position, to.position, share),
-            glm::normalize(glm::slerp(from.orientation, to.orientation, share))};
+// Returns `from` for the fraction 0, `to` for 1.
+Pose interpolate(const Pose& from, const Pose& to, double fraction) {
+    return {glm::mix(from.position, to.position, fraction),
+            glm::normalize(glm::slerp(from.orientation, to.orientation, fraction))};
 }
 
 // Returns true if a head can move from one sample to the other.
-bool agree(const HeadFilterSettings& settings, const HeadSample& from, const HeadSample& to) {
+bool is_reachable(const HeadFilterSettings& settings, const HeadSample& from, const HeadSample& to) {
     const double duration = to.time - from.time;
     const double distance = glm::length(to.pose.position - from.pose.position);
     const double turn = glm::length(turn_between(from.pose.orientation, to.pose.orientation));
@@ -39,16 +40,16 @@ void accept(HeadFilterState& state, const HeadSample& sample, bool is_return, do
 void add_sample(HeadFilterState& state, const HeadFilterSettings& settings, const HeadSample& sample,
                 double now) {
     if (!is_usable(state, sample)) return;
-    if (!state.accepted || agree(settings, *state.accepted, sample)) {
+    if (!state.accepted || is_reachable(settings, *state.accepted, sample)) {
         const bool was_lost = !state.accepted || sample.time - state.accepted->time > max_sample_age;
         // A jump so short that a head could have covered it by now.
-        const bool ends_jump = state.jump_end && agree(settings, *state.jump_end, sample);
+        const bool ends_jump = state.jump_end && is_reachable(settings, *state.jump_end, sample);
         accept(state, sample, was_lost || ends_jump, now);
         return;
     }
-    const bool lasts = state.jump_end && sample.time - state.jump_end->time <= max_sample_age &&
-                       agree(settings, *state.jump_end, sample);
-    if (!lasts) state.jump_start = sample;
+    const bool continues_jump = state.jump_end && sample.time - state.jump_end->time <= max_sample_age &&
+                                is_reachable(settings, *state.jump_end, sample);
+    if (!continues_jump) state.jump_start = sample;
     state.jump_end = sample;
     if (sample.time - state.jump_start->time >= settings.jump_time) accept(state, sample, true, now);
 }
@@ -57,11 +58,12 @@ void add_sample(HeadFilterState& state, const HeadFilterSettings& settings, cons
 FilteredHead target_at(const HeadFilterState& state, const HeadFilterSettings& settings, double now) {
     if (!state.accepted) return {settings.fixed_head, HeadStatus::faded};
     const Pose& last = state.accepted->pose;
-    const double age = now - state.accepted->time, hold = std::max(settings.hold, max_sample_age);
+    const double age = now - state.accepted->time,
+                 dropout_time = std::max(settings.dropout_time, max_sample_age);
     if (age <= max_sample_age) return {last, HeadStatus::tracked};
-    if (age <= hold) return {last, HeadStatus::held};
-    const double share = settings.fade > 0.0 ? minimum_jerk((age - hold) / settings.fade) : 1.0;
-    return {between(last, settings.fixed_head, share), HeadStatus::faded};
+    if (age <= dropout_time) return {last, HeadStatus::held};
+    const double fraction = settings.fade > 0.0 ? minimum_jerk((age - dropout_time) / settings.fade) : 1.0;
+    return {interpolate(last, settings.fixed_head, fraction), HeadStatus::faded};
 }
 
 }  // namespace
@@ -74,7 +76,7 @@ FilteredHead filter_head(HeadFilterState& state, const HeadFilterSettings& setti
         const double passed = now - state.return_from->time;
         if (passed < settings.return_time)
             head.pose =
-                between(state.return_from->pose, head.pose, minimum_jerk(passed / settings.return_time));
+                interpolate(state.return_from->pose, head.pose, minimum_jerk(passed / settings.return_time));
         else
             state.return_from.reset();
     }

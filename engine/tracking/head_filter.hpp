@@ -1,4 +1,4 @@
-// Makes a steady pose of the head from the samples of a tracker: it bridges dropouts and refuses jumps.
+// Makes a steady pose of the head from the samples of a tracker: it bridges dropouts and rejects jumps.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,20 @@
 
 namespace bolt::tracking {
 
-// Pose of the head in the room at a time, s, on any steady clock.
+// Pose of the head in the room at a time, s, on any steady clock. head_pose.hpp makes it from a BodySample.
 struct HeadSample {
     double time = 0.0;
     Pose pose;
 };
 
 struct HeadFilterSettings {
-    Pose fixed_head;         // without a tracker, and after a dropout
-    double hold = 0.5;       // s after the last sample, for which its pose is kept
-    double fade = 2.0;       // s, from there to the fixed head
-    double max_speed = 4.0;  // m/s; a faster change is a jump
-    double max_turn = 20.0;  // rad/s, likewise; people turn their heads at up to 12 rad/s
-    // s, for which the poses after a jump must agree before they are accepted; less if a head could have
-    // covered the jump since the last accepted sample.
+    Pose fixed_head;            // without a tracker, and after a dropout
+    double dropout_time = 0.5;  // s after the last sample, for which its pose is kept
+    double fade = 2.0;          // s, from there to the fixed head
+    double max_speed = 4.0;     // m/s; a faster change is a jump
+    double max_turn = 20.0;     // rad/s, likewise; people turn their heads at up to 12 rad/s
+    // s. After a jump, poses are accepted once they have agreed for this long, or earlier, once a head at
+    // max_speed and max_turn could have moved there since the last accepted sample.
     double jump_time = 0.3;
     double return_time = 0.3;  // s, from the shown pose to the tracked one after a dropout or a jump
 };
@@ -52,7 +52,8 @@ struct HeadFilterState {
 
 // The head at the time `now`, which never decreases from call to call. `samples`: those since the last call,
 // oldest first; samples that are not finite or not newer than the newest one are ignored. The result depends
-// on the arguments alone. It changes without steps, except at the first call and as fast as the head itself.
+// on the arguments alone. Dropouts, jumps and returns cause no step of the pose; while the head is tracked,
+// the pose is that of the newest sample, without smoothing.
 FilteredHead filter_head(HeadFilterState& state, const HeadFilterSettings& settings,
                          std::span<const HeadSample> samples, double now);
 

@@ -5,19 +5,25 @@
 
 namespace bolt::tracking {
 
+// Pose of a tracked body in the tracker's frame at a time, s, on any steady clock.
+struct BodySample {
+    double time = 0.0;
+    Pose pose;
+};
+
 // The pose of the head is that of the point between the eyes, which looks along −z with y up.
 struct TrackerRegistration {
-    Quat axes{1.0, 0.0, 0.0, 0.0};  // rotation from the tracker's axes to the room's: its x, y and z renamed
-    double scale = 1.0;             // m of the room per m of the tracker
-    Pose tracker_in_room;           // after both
-    Pose head_in_body;              // in the body, after its axes are renamed
+    Quat axes_rotation{1.0, 0.0, 0.0, 0.0};  // from the tracker's axes to axes that point like the room's
+    double scale = 1.0;                      // m of the room per m of the tracker
+    Pose tracker_in_room;  // pose of the tracker's frame; applied after `axes_rotation` and `scale`
+    Pose head_in_body;     // in the body's frame after `axes_rotation`
 };
 
 inline Pose head_in_room(const TrackerRegistration& registration, const Pose& body) {
-    const Quat& axes = registration.axes;
-    const Pose renamed{axes * (registration.scale * body.position),
-                       axes * body.orientation * glm::conjugate(axes)};
-    Pose head = registration.tracker_in_room * renamed * registration.head_in_body;
+    const Quat& rotation = registration.axes_rotation;
+    const Pose rotated{rotation * (registration.scale * body.position),
+                       rotation * body.orientation * glm::conjugate(rotation)};
+    Pose head = registration.tracker_in_room * rotated * registration.head_in_body;
     head.orientation = glm::normalize(head.orientation);
     return head;
 }

@@ -35,14 +35,14 @@ struct RowPosition {
     }
 };
 
-Result<HeadSample> parse_row(std::string_view line, const RowPosition& position) {
+Result<BodySample> parse_row(std::string_view line, const RowPosition& position) {
     std::array<double, columns> row{};
     std::size_t at = 0;
     for (std::size_t i = 0; i < columns; ++i) {
         at = std::min(line.find_first_not_of(" \t", at), line.size());
         const auto [end, problem] = std::from_chars(line.data() + at, line.data() + line.size(), row[i]);
         if (problem != std::errc() || !(std::abs(row[i]) <= max_recorded_value))
-            return position.error(at, fmt::format("column {} has no number", i + 1),
+            return position.error(at, fmt::format("column {} is not a number", i + 1),
                                   fmt::format("{} numbers: {}", columns, title));
         at =
             std::min(line.find_first_not_of(" \t", static_cast<std::size_t>(end - line.data())), line.size());
@@ -58,13 +58,13 @@ Result<HeadSample> parse_row(std::string_view line, const RowPosition& position)
     if (std::abs(length - 1.0) > unit_tolerance)
         return position.error(0, fmt::format("the quaternion has the length {:g}", length),
                               "a unit quaternion");
-    return HeadSample{time, {{x, y, z}, glm::normalize(read)}};
+    return BodySample{time, {{x, y, z}, glm::normalize(read)}};
 }
 
 }  // namespace
 
-Result<std::vector<HeadSample>> parse_recorded_poses(std::string_view text, const std::string& file) {
-    std::vector<HeadSample> poses;
+Result<std::vector<BodySample>> parse_recorded_poses(std::string_view text, const std::string& file) {
+    std::vector<BodySample> poses;
     RowPosition position{file};
     bool titled = false;
     while (!text.empty()) {
@@ -76,14 +76,13 @@ Result<std::vector<HeadSample>> parse_recorded_poses(std::string_view text, cons
         if (line.empty() || line.front() == '#') continue;
         if (!titled) {
             titled = line == title;
-            if (!titled)
-                return position.error(0, "the title of the columns is another one", std::string(title));
+            if (!titled) return position.error(0, "the column titles are wrong", std::string(title));
             continue;
         }
         if (poses.size() == max_recorded_poses)
             return position.error(0, "the recording is too long",
                                   fmt::format("at most {} poses", max_recorded_poses));
-        BOLT_TRY_ASSIGN(const HeadSample pose, parse_row(line, position));
+        BOLT_TRY_ASSIGN(const BodySample pose, parse_row(line, position));
         if (!poses.empty() && pose.time <= poses.back().time)
             return position.error(
                 0, fmt::format("the time {:g} s is not after that of the line before", pose.time),
@@ -95,15 +94,15 @@ Result<std::vector<HeadSample>> parse_recorded_poses(std::string_view text, cons
     return poses;
 }
 
-Result<std::vector<HeadSample>> load_recorded_poses(const std::filesystem::path& path) {
+Result<std::vector<BodySample>> load_recorded_poses(const std::filesystem::path& path) {
     BOLT_TRY_ASSIGN(const auto text, read_file(path, max_recording_size, ErrorCode::bad_content));
     return parse_recorded_poses(text, path.string());
 }
 
-std::span<const HeadSample> poses_between(std::span<const HeadSample> poses, double after, double until) {
+std::span<const BodySample> poses_between(std::span<const BodySample> poses, double after, double until) {
     const auto first_after = [&](double time) {
         return std::upper_bound(poses.begin(), poses.end(), time,
-                                [](double t, const HeadSample& pose) { return t < pose.time; });
+                                [](double t, const BodySample& pose) { return t < pose.time; });
     };
     const auto begin = first_after(after), end = first_after(std::max(after, until));
     return {begin, end};

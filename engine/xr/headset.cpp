@@ -38,7 +38,7 @@ bool Headset::find(double now) {
     return true;
 }
 
-bool Headset::keep(const Status& status) {
+bool Headset::drop_on_error(const Status& status) {
     if (status) return true;
     absence_ = status.error();
     log(fmt::format("the headset is lost: {}", status.error().message()));
@@ -54,20 +54,20 @@ void Headset::drop() {
     session_.reset();
     runtime_.reset();
     events_.clear();
-    failed_.reset();
+    pending_error_.reset();
 }
 
 void Headset::begin(gpu::Device& device) {
     Result<std::unique_ptr<Session>> session = Session::create(*runtime_, device, options_.session);
     search_interval_ = std::min(2.0 * search_interval_, longest_interval);
     if (!session) {
-        (void)keep(fail(session.error()));
+        (void)drop_on_error(fail(session.error()));
         return;
     }
     session_ = std::move(*session);
     Result<std::unique_ptr<XrInput>> input = XrInput::create(*session_, options_.names);
     if (!input) {
-        (void)keep(fail(input.error()));
+        (void)drop_on_error(fail(input.error()));
         return;
     }
     input_ = std::move(*input);
@@ -93,8 +93,8 @@ void Headset::end() {
 }
 
 std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
-    if (failed_) (void)keep(fail(*std::exchange(failed_, std::nullopt)));
-    if (!session_ || !keep(session_->poll(events_))) return std::nullopt;
+    if (pending_error_) (void)drop_on_error(fail(*std::exchange(pending_error_, std::nullopt)));
+    if (!session_ || !drop_on_error(session_->poll(events_))) return std::nullopt;
     if (session_->ended()) {
         exit_requested_ = true;
         drop();
@@ -103,7 +103,7 @@ std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
     }
     const Result<std::optional<FrameTiming>> begun = session_->begin_frame(timeout);
     if (!begun) {
-        (void)keep(fail(begun.error()));
+        (void)drop_on_error(fail(begun.error()));
         return std::nullopt;
     }
     if (!*begun) return std::nullopt;
@@ -112,7 +112,7 @@ std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
     frame.focused = session_->focused();
     const Result<Hands> hands = input_->read(frame.timing);
     if (!hands) {
-        (void)keep(fail(hands.error()));
+        (void)drop_on_error(fail(hands.error()));
         return std::nullopt;
     }
     frame.hands = *hands;
@@ -135,28 +135,29 @@ std::vector<SessionEvent> Headset::take_events(XrTime time) {
 }
 
 void Headset::locate(HeadsetFrame& frame) {
-    if (!session_ || failed_) return;
+    if (!session_ || pending_error_) return;
     Result<HeadView> view = session_->locate(frame.timing);
     if (!view) {
-        (void)keep(fail(view.error()));
+        (void)drop_on_error(fail(view.error()));
         return;
     }
     frame.view = std::move(*view);
 }
 
 void Headset::record(VkCommandBuffer commands, std::span<const EyePicture> pictures) {
-    if (session_ && !failed_) (void)keep(session_->record(commands, pictures));
+    if (session_ && !pending_error_) (void)drop_on_error(session_->record(commands, pictures));
 }
 
 void Headset::end_frame(const HeadsetFrame& frame, bool drawn, const DepthRange& depth) {
-    if (failed_) (void)keep(fail(*std::exchange(failed_, std::nullopt)));
-    if (session_) (void)keep(session_->end_frame(frame.timing, {drawn ? &frame.view : nullptr, depth}));
+    if (pending_error_) (void)drop_on_error(fail(*std::exchange(pending_error_, std::nullopt)));
+    if (session_)
+        (void)drop_on_error(session_->end_frame(frame.timing, {drawn ? &frame.view : nullptr, depth}));
 }
 
 void Headset::vibrate(Side side, const Vibration& vibration) {
-    if (!session_ || failed_ || !session_->focused()) return;
+    if (!session_ || pending_error_ || !session_->focused()) return;
     // The session is dropped later: commands that were recorded and not submitted may use its images.
-    if (const Status status = input_->vibrate(side, vibration); !status) failed_ = status.error();
+    if (const Status status = input_->vibrate(side, vibration); !status) pending_error_ = status.error();
 }
 
 }  // namespace bolt::xr

@@ -25,7 +25,7 @@ struct HeadsetFrame {
     FrameTiming timing;
     HeadView view;  // without eyes: nothing can be drawn
     Hands hands;
-    bool focused = false;  // false: pause the lesson, render no force, hide the hands
+    bool focused = false;  // false: pause the lesson, output no force, hide the hands
     // Since the last frame. Recentred comes with the first frame whose poses are in the new space.
     std::vector<SessionEvent> events;
 };
@@ -77,8 +77,8 @@ class Headset {
 
   private:
     void log(const std::string& line) const;
-    // Drops the headset if the status is an error. Returns true if it succeeded.
-    bool keep(const Status& status);
+    // Returns true if `status` is a success; otherwise drops the headset.
+    bool drop_on_error(const Status& status);
     void drop();
     std::vector<SessionEvent> take_events(XrTime time);
 
@@ -90,7 +90,7 @@ class Headset {
     std::optional<Error> absence_;
     // Error of vibrate(). The session is dropped at the end of the frame, because commands that are recorded
     // may use its images.
-    std::optional<Error> failed_;
+    std::optional<Error> pending_error_;
     std::optional<double> last_search_;
     double search_interval_ = 1.0;  // s
     bool exit_requested_ = false;

@@ -22,7 +22,7 @@ struct Profile {
 };
 
 constexpr Profile controller_profiles[] = {
-    // One button does both: what the hand is at decides.
+    // Select and grasp share one button: its target, under the hand, determines which of them applies.
     {"/interaction_profiles/khr/simple_controller",
      "input/select/click",
      "input/select/click",

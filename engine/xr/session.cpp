@@ -193,7 +193,7 @@ Status Session::create_swapchains() {
     return make(depth_, *depth, XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
 }
 
-Status Session::follow(const XrEventDataSessionStateChanged& event) {
+Status Session::handle_state_change(const XrEventDataSessionStateChanged& event) {
     state_ = event.state;
     if (event.state == XR_SESSION_STATE_READY) {
         XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO};
@@ -229,7 +229,7 @@ Status Session::poll(std::vector<SessionEvent>& events) {
                 const auto& changed = reinterpret_cast<const XrEventDataSessionStateChanged&>(buffer);
                 if (changed.session != session_.get()) break;
                 events.emplace_back(StateChanged{changed.state});
-                BOLT_TRY(follow(changed));
+                BOLT_TRY(handle_state_change(changed));
                 break;
             }
             case XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING: {

@@ -42,10 +42,10 @@ struct FrameTiming {
     bool should_render = false;  // false: nothing that is drawn would be seen
 };
 
-// Returns the period of the display, ns. Runtimes such as Monado report that of the program instead: a
-// multiple, once it misses frames. `known`: the period that was returned before; 0: none. `reported`: by the
-// runtime for the next frame. A period that is no multiple of the known one is another frame rate of the
-// display.
+// Returns the period of the display, ns. Some runtimes, such as Monado, report the period of the program's
+// frames instead, which is a multiple of the display's once the program misses frames. `known`: the period
+// that was returned before; 0: none. `reported`: by the runtime for the next frame. A period that is no
+// multiple of the known one is another frame rate of the display.
 XrDuration display_period(XrDuration known, XrDuration reported);
 
 // The frames since a session was created.
@@ -184,7 +184,7 @@ class Session {
     Status create_spaces();
     Status create_swapchains();
     Result<Swapchain> make_swapchain(VkFormat format, std::uint32_t layers, XrSwapchainUsageFlags usage);
-    Status follow(const XrEventDataSessionStateChanged& event);
+    Status handle_state_change(const XrEventDataSessionStateChanged& event);
     void count(XrTime display_time);
     Status acquire(Swapchain& swapchain);
     Status release(Swapchain& swapchain);

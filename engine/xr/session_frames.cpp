@@ -132,24 +132,34 @@ Status Session::release(Swapchain& swapchain) {
 
 namespace {
 
-// Copies a layer; converts the format if it must.
-void copy_picture(VkCommandBuffer commands, const gpu::Image& from, std::uint32_t from_layer, VkImage to,
-                  std::uint32_t to_layer, VkFormat to_format, VkExtent2D extent) {
-    const bool is_depth = to_format == VK_FORMAT_D32_SFLOAT;
+// A layer of a picture, and a layer of a swapchain's image.
+struct SourceLayer {
+    const gpu::Image& image;
+    std::uint32_t layer = 0;
+};
+struct TargetLayer {
+    VkImage image = VK_NULL_HANDLE;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    std::uint32_t layer = 0;
+};
+
+// Copies the part of this size; converts the format if it must.
+void copy_layer(VkCommandBuffer commands, const SourceLayer& from, const TargetLayer& to, VkExtent2D extent) {
+    const bool is_depth = to.format == VK_FORMAT_D32_SFLOAT;
     const auto use = is_depth ? gpu::ResourceUse::depth_target : gpu::ResourceUse::color_target;
     gpu::ImageRange range;
     range.aspect = is_depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
-    range.first_layer = to_layer;
+    range.first_layer = to.layer;
     range.layers = 1;
-    gpu::image_barrier_discarding(commands, to, use, gpu::ResourceUse::transfer_to, range);
-    const VkImageSubresourceLayers source{range.aspect, 0, from_layer, 1},
-        target{range.aspect, 0, to_layer, 1};
-    if (from.info().format == to_format) {
+    gpu::image_barrier_discarding(commands, to.image, use, gpu::ResourceUse::transfer_to, range);
+    const VkImageSubresourceLayers source{range.aspect, 0, from.layer, 1},
+        target{range.aspect, 0, to.layer, 1};
+    if (from.image.info().format == to.format) {
         VkImageCopy region{};
         region.srcSubresource = source;
         region.dstSubresource = target;
         region.extent = {extent.width, extent.height, 1};
-        vkCmdCopyImage(commands, from.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+        vkCmdCopyImage(commands, from.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.image,
                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
     } else {
         VkImageBlit region{};
@@ -157,10 +167,10 @@ void copy_picture(VkCommandBuffer commands, const gpu::Image& from, std::uint32_
         region.dstSubresource = target;
         region.srcOffsets[1] = region.dstOffsets[1] = {static_cast<std::int32_t>(extent.width),
                                                        static_cast<std::int32_t>(extent.height), 1};
-        vkCmdBlitImage(commands, from.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+        vkCmdBlitImage(commands, from.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.image,
                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
     }
-    gpu::image_barrier(commands, to, gpu::ResourceUse::transfer_to, use, range);
+    gpu::image_barrier(commands, to.image, gpu::ResourceUse::transfer_to, use, range);
 }
 
 }  // namespace
@@ -185,8 +195,8 @@ Status Session::record(VkCommandBuffer commands, std::span<const EyePicture> pic
                                  std::uint32_t layer) {
             const bool shared = swapchains.size() == 1;
             const Swapchain& to = swapchains[shared ? 0 : eye];
-            copy_picture(commands, from, layer, to.images[*to.acquired],
-                         shared ? static_cast<std::uint32_t>(eye) : 0, to.format, extent);
+            const std::uint32_t to_layer = shared ? static_cast<std::uint32_t>(eye) : 0;
+            copy_layer(commands, {from, layer}, {to.images[*to.acquired], to.format, to_layer}, extent);
         };
         copy_to(color_, *picture.picture, picture.layer);
         if (depth_drawn_) copy_to(depth_, *picture.depth, picture.depth_layer);

@@ -139,8 +139,8 @@ void HapticMetricsBuilder::update_change(double time, const session::TickRecord&
     };
     (void)change(tick.torque, previous_->torque, torque_changes_);
     const double by = change(tick.force, previous_->force, force_changes_);
-    const bool at_limit =
-        metrics_.device_limits && by > metrics_.device_limits->force_rate * millisecond * (1.0 - rounding);
+    const bool at_limit = metrics_.device_limits &&
+                          by > metrics_.device_limits->force_slew_rate * millisecond * (1.0 - rounding);
     const bool large =
         metrics_.force_jumps.size() < max_force_jumps || by > metrics_.force_jumps.back().change;
     if (by <= 0.0 || !(large || at_limit)) return;
@@ -178,10 +178,11 @@ void HapticMetricsBuilder::add(std::uint64_t first_tick, std::span<const session
 }
 
 HapticMetrics HapticMetricsBuilder::finish() {
-    const force::OutputLimits none{.force = 0.0, .torque = 0.0, .force_rate = 0.0, .torque_rate = 0.0};
+    const force::OutputLimits none{
+        .force = 0.0, .torque = 0.0, .force_slew_rate = 0.0, .torque_slew_rate = 0.0};
     const force::OutputLimits limits = metrics_.device_limits.value_or(none);
-    metrics_.force = statistics_of(force_changes_, limits.force, limits.force_rate * millisecond);
-    metrics_.torque = statistics_of(torque_changes_, limits.torque, limits.torque_rate * millisecond);
+    metrics_.force = statistics_of(force_changes_, limits.force, limits.force_slew_rate * millisecond);
+    metrics_.torque = statistics_of(torque_changes_, limits.torque, limits.torque_slew_rate * millisecond);
     metrics_.faults[0] = 0.0;
     return std::move(metrics_);
 }

@@ -38,7 +38,7 @@ const char* description_of(device::DeviceKind kind) {
             return "a force-feedback arm; moves the tool and renders its forces";
         case device::DeviceKind::puck:
             return "six axes that spring back; moves the tool, renders no force";
-        case device::DeviceKind::board:
+        case device::DeviceKind::open_ffboard:
             return "OpenFFBoard: one axis with a torque; turns the wrench on its bolt";
         case device::DeviceKind::wheel:
             return "a wheel with force feedback: one axis with a torque; turns the wrench on its bolt";
@@ -93,19 +93,20 @@ Result<std::string> examine_device(const DevicesOptions& options) {
     const std::uint64_t before = thread.snapshot().number;
     timer.wait(options.seconds);
     const auto received = static_cast<double>(thread.snapshot().number - before);
-    const device::DeviceReport& report = thread.report();
-    if (report.state != device::DeviceState::usable)
-        return fail(ErrorCode::no_device, report.fault_message.empty()
+    const device::DeviceStatus& status = thread.status();
+    if (status.state != device::DeviceState::usable)
+        return fail(ErrorCode::no_device, status.fault_message.empty()
                                               ? device.description->name + " sends nothing"
-                                              : report.fault_message);
+                                              : status.fault_message);
     std::string text = fmt::format("{}  {}\n", options.device, device.description->name);
     for (const auto& lines :
-         {device::summary_lines(*device.description), device::summary_lines(report.condition)})
+         {device::summary_lines(*device.description), device::summary_lines(status.health)})
         for (const std::string& line : lines) text += fmt::format("  {}\n", line);
     if (options.seconds > 0.0)
         text += fmt::format("  sent {:.0f} samples a second{}\n", received / options.seconds,
                             received < 1.0 ? "; it is at rest" : "");
-    if (report.malformed > 0) text += fmt::format("  {} malformed reports\n", report.malformed);
+    if (status.malformed_samples > 0)
+        text += fmt::format("  {} malformed reports\n", status.malformed_samples);
     return text;
 }
 

@@ -162,9 +162,10 @@ std::string describe_tracker_counts(const displays::TrackerCounts& counts,
     if (head.tracker != content::HeadTracker::dtrack) return text + "\n";
     const tracking::DtrackCounts& packets = counts.dtrack;
     text += fmt::format("; packets: {} good, {} damaged, {} late; {} bodies without a valid pose\n",
-                        packets.frames, packets.malformed, packets.late, packets.refused);
+                        packets.good_packets, packets.malformed_packets, packets.late_packets,
+                        packets.invalid_bodies);
     if (counts.samples > 0) return text;
-    if (packets.frames + packets.malformed == 0)
+    if (packets.good_packets + packets.malformed_packets == 0)
         return text + fmt::format(
                           "No packet has arrived at UDP port {}: is this computer's address an output of "
                           "DTrack, and does a firewall let them pass?\n",

@@ -70,9 +70,9 @@ std::string trial_header(const TrialOptions& options, const content::Assembly& a
 std::string station_remarks(const content::StationFile& file, const station_setup::PlannedStation& planned,
                             station::Station& station) {
     station_setup::StationFacts facts;
-    if (planned.devices.mover && station.mover_report() != nullptr)
-        facts.arm = *station.mover_report()->description;
-    if (station.wheel_report() != nullptr) facts.wheel = *station.wheel_report()->description;
+    if (planned.devices.mover && station.mover_status() != nullptr)
+        facts.arm = *station.mover_status()->description;
+    if (station.wheel_status() != nullptr) facts.wheel = *station.wheel_status()->description;
     content::StationFile devices = file;
     if (devices.arm) devices.arm->tool.clear();  // the trial does not depend on it
     const std::string text = station_setup::describe(station_setup::compare(devices, facts));

@@ -28,15 +28,15 @@ struct RegisterArguments {
 };
 
 struct FramePair {
-    content::StationFrame from, to;
+    content::CoordinateFrame from, to;
 };
 
 Result<FramePair> frames_of(const RegisterArguments& options) {
     const std::string from = !options.from.empty()    ? options.from
                              : options.points.empty() ? "arm"
                                                       : "tracker";
-    const auto frame = [](const char* option, const std::string& text) -> Result<content::StationFrame> {
-        const auto parsed = content::parse_station_frame(text);
+    const auto frame = [](const char* option, const std::string& text) -> Result<content::CoordinateFrame> {
+        const auto parsed = content::parse_coordinate_frame(text);
         if (!parsed)
             return fail(ErrorCode::usage, fmt::format("{}: {}", option, parsed.error().what),
                         parsed.error().expected);
@@ -46,7 +46,7 @@ Result<FramePair> frames_of(const RegisterArguments& options) {
     BOLT_TRY_ASSIGN(const auto second, frame("--to", options.to));
     if (first == second)
         return fail(ErrorCode::usage, fmt::format("--from and --to are both \"{}\"", from), "two frames");
-    if (options.points.empty() && first != content::StationFrame::arm)
+    if (options.points.empty() && first != content::CoordinateFrame::arm)
         return fail(ErrorCode::usage, fmt::format("--from {}: an arm touches the points", from),
                     "--from arm, or --points FILE");
     return FramePair{first, second};

@@ -122,7 +122,7 @@ Finding disk_finding(const ComputerFacts& facts) {
                 {{"folder", facts.sessions.string()}, {"why", facts.folder_error}},
                 words::TextKey("finding.folder.do")};
     const words::TextArgument free{"free", words::Number{facts.free_space / 1e9, 1}};
-    if (facts.free_space < least_free_space)
+    if (facts.free_space < min_free_space)
         return {Severity::bad, "finding.disk_low", {free}, words::TextKey("finding.disk_low.do")};
     return {Severity::good, "finding.disk", {free}, {}};
 }

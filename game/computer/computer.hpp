@@ -73,7 +73,7 @@ struct Finding {
     std::optional<words::TextKey> remedy;
 };
 
-inline constexpr double least_free_space = 1e9;  // bytes; less is a finding of its own
+inline constexpr double min_free_space = 1e9;  // bytes; less is a finding of its own
 
 // The findings, the worst first.
 std::vector<Finding> findings(const ComputerFacts& facts);

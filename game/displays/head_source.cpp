@@ -32,7 +32,7 @@ Result<HeadSource> HeadSource::open(const content::HeadTracking& head, const std
     source.registration_ = {content::orientation_of(head.axes), head.scale, head.tracker_in_room,
                             head.head_in_body};
     source.settings_.fixed_head = head.fixed_head;
-    source.settings_.hold = head.hold;
+    source.settings_.dropout_time = head.hold;
     source.settings_.fade = head.fade;
     source.settings_.max_speed = head.max_speed;
     source.settings_.jump_time = head.jump_time;
@@ -50,7 +50,7 @@ Result<HeadSource> HeadSource::open(const content::HeadTracking& head, const std
     return source;
 }
 
-void HeadSource::add(const tracking::HeadSample& body) {
+void HeadSource::add_sample(const tracking::BodySample& body) {
     ++counts_.samples;
     waiting_.push_back({body.time, tracking::head_in_room(registration_, body.pose)});
 }
@@ -64,7 +64,7 @@ void HeadSource::receive(double now) {
         const auto at = std::lower_bound(counts_.bodies.begin(), counts_.bodies.end(), body.id);
         if (at == counts_.bodies.end() || *at != body.id) counts_.bodies.insert(at, body.id);
     }
-    if (const tracking::DtrackBody* body = tracking::find_body(*frame, body_)) add({now, body->pose});
+    if (const tracking::DtrackBody* body = tracking::find_body(*frame, body_)) add_sample({now, body->pose});
 }
 
 void HeadSource::play(double now) {
@@ -73,8 +73,8 @@ void HeadSource::play(double now) {
         played_until_ = -std::numeric_limits<double>::infinity();
     }
     const double until = now - *started_;
-    for (const tracking::HeadSample& pose : tracking::poses_between(recording_, played_until_, until))
-        add({pose.time + *started_, pose.pose});
+    for (const tracking::BodySample& pose : tracking::poses_between(recording_, played_until_, until))
+        add_sample({pose.time + *started_, pose.pose});
     played_until_ = until;
 }
 
@@ -88,7 +88,7 @@ void HeadSource::track(double now) {
     if (!pose)
         openxr_.reset();
     else if (*pose)
-        add({now, **pose});
+        add_sample({now, **pose});
 }
 
 tracking::FilteredHead HeadSource::at(double now) {

@@ -13,7 +13,7 @@
 
 namespace bolt::displays {
 
-// What has arrived from the tracker.
+// The samples that have arrived from the tracker.
 struct TrackerCounts {
     tracking::DtrackCounts dtrack;  // with tracker dtrack only
     std::uint64_t samples = 0;      // poses of the tracked body
@@ -26,12 +26,13 @@ class HeadSource {
     // is no OpenXR runtime that tracks. A runtime that ends later is searched for once a second.
     static Result<HeadSource> open(const content::HeadTracking& head, const std::filesystem::path& folder);
 
-    // The head at the time `now`, s on a steady clock, which must not decrease from call to call. Reads what
-    // has arrived; never waits. Recorded poses are played once, from the first call on.
+    // Updates the head and returns it at the time `now`, s on a steady clock, which must not decrease from
+    // call to call. Reads the samples that have arrived; never waits. Recorded poses are played once, from
+    // the first call on.
     tracking::FilteredHead at(double now);
 
-    // For trackers that the caller reads: the pose of the tracked body in the tracker's frame. at() uses it.
-    void add(const tracking::HeadSample& body);
+    // For trackers that the caller reads. at() uses the sample.
+    void add_sample(const tracking::BodySample& body);
 
     [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
     [[nodiscard]] int port() const { return receiver_ ? receiver_->port() : 0; }
@@ -50,7 +51,7 @@ class HeadSource {
     std::optional<xr::TrackedThing> tracked_;  // with tracker openxr only
     std::unique_ptr<xr::PoseTracker> openxr_;  // null: the runtime has ended
     double next_search_ = 0.0;                 // s
-    std::vector<tracking::HeadSample> recording_;
+    std::vector<tracking::BodySample> recording_;
     std::optional<double> started_;              // when the recording began, less the time of its first pose
     double played_until_ = 0.0;                  // s, in the recording
     std::vector<tracking::HeadSample> waiting_;  // in the room, since the last call of at()

@@ -17,7 +17,7 @@ namespace {
 using plot::escape;
 using plot::number;
 
-constexpr std::size_t most_small_plots = 40;  // of single cycles of a joint
+constexpr std::size_t max_small_plots = 40;  // of single cycles of a joint
 
 // The axes' ranges of a plot.
 struct CurveExtent {
@@ -183,7 +183,7 @@ std::string joint_section(const analysis::Comparison& c, std::size_t index) {
     if (c.joints.size() > 1 || c.measured.size() < 2) return out;
     const CurveExtent extent = curve_extent(c, joint);
     out += "<h2>Cycle by cycle</h2>\n<div class=\"grid tiny\">\n";
-    for (std::size_t i = 0; i < std::min(c.measured.size(), most_small_plots); ++i) {
+    for (std::size_t i = 0; i < std::min(c.measured.size(), max_small_plots); ++i) {
         const analysis::StageError& all = joint.cycles[i].errors.all;
         out +=
             plot::figure(fmt::format("<h3>{}</h3><span class=\"note\">MAPE {}</span>",
@@ -191,8 +191,8 @@ std::string joint_section(const analysis::Comparison& c, std::size_t index) {
                          plot::draw(cycle_plot(c, joint, i, extent)), "");
     }
     out += "</div>\n";
-    if (c.measured.size() > most_small_plots)
-        out += fmt::format("<p class=\"note\">The first {} of {} cycles.</p>\n", most_small_plots,
+    if (c.measured.size() > max_small_plots)
+        out += fmt::format("<p class=\"note\">The first {} of {} cycles.</p>\n", max_small_plots,
                            c.measured.size());
     return out;
 }

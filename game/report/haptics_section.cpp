@@ -50,7 +50,7 @@ void put_evenness(std::string& out, const analysis::SessionData& s) {
             plot::number(greatest, 0));
     if (f.force.at_limit > 0)
         put(out, " The output stage limited the change {}, to {}\u00a0N in a millisecond.",
-            times_text(f.force.at_limit), plot::number(f.device_limits->force_rate * 1e-3, 1));
+            times_text(f.force.at_limit), plot::number(f.device_limits->force_slew_rate * 1e-3, 1));
     constexpr const char* names[analysis::activity_count] = {"while the output was switched off",
                                                              "releasing a nut",
                                                              "engaging a nut",
@@ -202,7 +202,7 @@ void put_servo(std::string& out, const analysis::SessionData& s) {
             "class=\"n\">{}</td></tr>\n",
             name, plot::number(1e6 * servo::quantile(h, 0.5), 1),
             plot::number(1e6 * servo::quantile(h, 0.99), 1), plot::number(1e6 * servo::quantile(h, 0.999), 1),
-            plot::number(1e-3 * static_cast<double>(h.greatest), 1));
+            plot::number(1e-3 * static_cast<double>(h.max), 1));
     };
     row("wake-up", f.timing->wake_up);
     row("compute", f.timing->compute);

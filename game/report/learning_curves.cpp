@@ -17,12 +17,12 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-constexpr std::size_t least_for_median = 3;  // trainees
+constexpr std::size_t min_for_median = 3;  // trainees
 
 struct LearningMeasure {
     std::string_view name, unit, better;
     std::function<double(const Attempt&)> value;
-    double least_top;  // the axis reaches at least this value
+    double min_top;  // the axis reaches at least this value
 };
 
 std::vector<LearningMeasure> learning_measures(const Attempt& first) {
@@ -41,13 +41,13 @@ std::vector<LearningMeasure> learning_measures(const Attempt& first) {
 struct TaskAttempts {
     std::span<const Attempt> attempts;
     std::vector<Indices> trainees;
-    std::size_t most_attempts = 0;  // of one trainee
+    std::size_t max_attempts = 0;  // of one trainee
 
     [[nodiscard]] const Attempt& first_of(const Indices& trainee) const { return attempts[trainee.front()]; }
 };
 
 double highest_value(const TaskAttempts& task, const LearningMeasure& measure) {
-    double top = measure.least_top;
+    double top = measure.min_top;
     for (const Indices& trainee : task.trainees)
         for (const std::size_t i : trainee)
             if (const double value = measure.value(task.attempts[i]); std::isfinite(value))
@@ -64,7 +64,7 @@ double median_of_trainees(const TaskAttempts& task, const LearningMeasure& measu
         const double value = measure.value(task.attempts[trainee[n]]);
         if (std::isfinite(value)) values.push_back(value);
     }
-    if (values.size() < least_for_median) return std::numeric_limits<double>::quiet_NaN();
+    if (values.size() < min_for_median) return std::numeric_limits<double>::quiet_NaN();
     return analysis::quartiles(std::move(values)).median;
 }
 
@@ -77,12 +77,12 @@ std::string trainee_plot(const TaskAttempts& task, const Indices& trainee, const
     plot.width = 260.0;
     plot.height = 190.0;
     plot.title = fmt::format("{} over the attempts of {}", measure.name, first.trainee);
-    plot.x = {plot::count_ticks(1, static_cast<int>(task.most_attempts), 7), "attempt of this trainee"};
+    plot.x = {plot::count_ticks(1, static_cast<int>(task.max_attempts), 7), "attempt of this trainee"};
     const std::string better = measure.better.empty() ? "" : fmt::format(", {}", measure.better);
     plot.y = {plot::covering_ticks(0.0, highest_value(task, measure), 4),
               fmt::format("{}{}", measure.unit, better)};
     plot::PlotLine median{{}, "ln cl"}, curve{{}, "ln p2"};
-    for (std::size_t n = 0; n < task.most_attempts; ++n) {
+    for (std::size_t n = 0; n < task.max_attempts; ++n) {
         const double value = median_of_trainees(task, measure, first.trainee_kind, n);
         if (std::isfinite(value)) median.points.push_back({static_cast<double>(n + 1), value});
     }
@@ -156,7 +156,7 @@ std::string reading_note(const TaskAttempts& task) {
                         }));
     if (task.trainees.size() > 1) out += " All trainees' plots have the same axes.";
     if (ring) out += " A ring is an attempt that was cut short.";
-    if (task.trainees.size() >= least_for_median)
+    if (task.trainees.size() >= min_for_median)
         out +=
             " The dashed line is the median of all trainees at their first, second, … attempt, where at "
             "least three have one; people and simulated trainees have medians of their own.";
@@ -184,8 +184,8 @@ std::string learning_curves_section(std::span<const Attempt> attempts, std::span
                                     bool linked) {
     TaskAttempts task{attempts, split_by_trainee(attempts, group)};
     for (const Indices& trainee : task.trainees)
-        task.most_attempts = std::max(task.most_attempts, trainee.size());
-    if (task.most_attempts < 2) return {};
+        task.max_attempts = std::max(task.max_attempts, trainee.size());
+    if (task.max_attempts < 2) return {};
     const Attempt& first = attempts[group.front()];
     std::string out = fmt::format("<h2>Learning curve{}: {}</h2>\n{}", task.trainees.size() > 1 ? "s" : "",
                                   plot::escape(task_text(first)), reading_note(task));

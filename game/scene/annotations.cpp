@@ -116,7 +116,7 @@ std::optional<MotionArrow> force_arrow(const Vec3& at, const Vec3& force) {
     // Violet: neither the colours of motions nor those of verdicts.
     constexpr double slenderness = 0.4;
     constexpr glm::vec4 color{0.78F, 0.45F, 1.0F, 1.0F};
-    if (glm::length(force) < least_arrow_force) return std::nullopt;
+    if (glm::length(force) < min_arrow_force) return std::nullopt;
     MotionArrow arrow = straight_arrow(at, at + force_arrow_length * force, color);
     arrow.world = glm::scale(arrow.world, Vec3(slenderness, slenderness, 1.0));
     return arrow;

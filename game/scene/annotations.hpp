@@ -46,7 +46,7 @@ void show_arrow(SceneWorld& world, const std::optional<MotionArrow>& arrow,
 // proportional to the force. None for a force that is too small to see.
 std::optional<MotionArrow> force_arrow(const Vec3& at, const Vec3& force);
 inline constexpr double force_arrow_length = 0.012;  // m/N
-inline constexpr double least_arrow_force = 0.4;     // N
+inline constexpr double min_arrow_force = 0.4;       // N
 
 // The components that work_label() reads.
 using WorkAccess = ecs::Access<const world::Joint, const world::ToolState, const world::WorkingHand>;

@@ -15,7 +15,7 @@ namespace {
 template <class Limits, class Visit>
 void for_each_limit(Limits& l, Visit visit) {
     visit("force_N", l.force), visit("torque_Nm", l.torque);
-    visit("force_rate_N_s", l.force_rate), visit("torque_rate_Nm_s", l.torque_rate);
+    visit("force_rate_N_s", l.force_slew_rate), visit("torque_rate_Nm_s", l.torque_slew_rate);
     visit("ramp_up_s", l.ramp_up), visit("release_s", l.release);
     visit("stiffness_N_m", l.stiffness), visit("torsion_Nm_rad", l.torsion);
     visit("damping_Ns_m", l.damping), visit("angular_damping_Nms_rad", l.angular_damping);
@@ -165,8 +165,7 @@ Result<Header> header_of(const HeaderTexts& texts, const std::string& file) {
     parser.required(key::assembly_file, header.assembly_file);
     parser.required(key::assembly_text, header.assembly_text);
     parser.required(key::variant, header.variant);
-    parser.required(key::law, header.law, "published or mechanistic",
-                    [](std::string_view text) { return named<joint::Law>(text, 2); });
+    parser.required(key::law, header.law, "published or mechanistic", joint::law_named);
     parser.required(key::mode, header.mode, "guided, practice or assessment",
                     [](std::string_view text) { return named<lesson::Mode>(text, 3); });
     parser.required(key::task, header.task, "tighten or loosen",

@@ -13,6 +13,7 @@
 #include "haptics/collision/contact.hpp"
 #include "haptics/force/output_limits.hpp"
 #include "haptics/hand/kinematics.hpp"
+#include "haptics/joint/law.hpp"
 #include "haptics/joint/stage.hpp"
 
 namespace bolt::session {

@@ -26,7 +26,7 @@ std::uint64_t get(std::span<const std::byte> in) {
 }
 
 TimingRow row_of(const char* name, const servo::Histogram& h) {
-    TimingRow row{name, h.count, h.least, h.greatest, h.sum, {}};
+    TimingRow row{name, h.count, h.min, h.max, h.sum, {}};
     for (std::size_t i = 0; i < h.bins; ++i) {
         if (h.counts[i] == 0) continue;
         put(row.bins, i, 4);
@@ -66,8 +66,8 @@ bool read_row(servo::Timing& timing, const TimingRow& row) {
     if (h == nullptr) return false;
     *h = {};
     h->count = row.count;
-    h->least = row.least;
-    h->greatest = row.greatest;
+    h->min = row.min;
+    h->max = row.max;
     h->sum = row.sum;
     if (row.name == "wake_up") timing.ticks = row.count;
     return read_bins(row.bins, *h);
@@ -121,7 +121,7 @@ std::uint64_t row_hash(const ObstacleName& obstacle) {
 std::uint64_t row_hash(const TimingRow& row) {
     const std::string_view bins(reinterpret_cast<const char*>(row.bins.data()), row.bins.size());
     RowHash hash("servo_time");
-    hash.add(std::string_view(row.name)).add(row.count).add(row.least).add(row.greatest).add(row.sum);
+    hash.add(std::string_view(row.name)).add(row.count).add(row.min).add(row.max).add(row.sum);
     return hash.add(bins).value();
 }
 
@@ -198,7 +198,7 @@ Status put_timing(Database& database, const servo::Timing& timing, TableChecksum
                     database.prepare("INSERT OR REPLACE INTO servo_time VALUES(?, ?, ?, ?, ?, ?)"));
     checksums.servo_time = {};  // because all rows are written again
     for (const TimingRow& row : rows_of(timing)) {
-        BOLT_TRY(statement.run_with(std::string_view(row.name), row.count, row.least, row.greatest, row.sum,
+        BOLT_TRY(statement.run_with(std::string_view(row.name), row.count, row.min, row.max, row.sum,
                                     std::span<const std::byte>(row.bins)));
         checksums.servo_time.add(row_hash(row));
     }

@@ -77,9 +77,9 @@ inline std::optional<std::size_t> ticks_per_commit(double dt) {
 struct TimingRow {
     std::string name;  // "wake_up", "compute", "period": a histogram; "missed": only its count
     std::uint64_t count = 0;
-    std::uint64_t least = 0, greatest = 0;  // ns
-    double sum = 0.0;                       // ns
-    std::vector<std::byte> bins;            // non-empty bins: index u32, count u64, little-endian
+    std::uint64_t min = 0, max = 0;  // ns
+    double sum = 0.0;                // ns
+    std::vector<std::byte> bins;     // non-empty bins: index u32, count u64, little-endian
 };
 
 inline constexpr std::size_t timing_rows = 4;

@@ -28,7 +28,7 @@ namespace {
 // s over which a strike must reduce the wrench's speed. A wrench that is held back for one tick and then
 // moves on did not strike.
 constexpr double strike_window = 4e-3;
-constexpr double least_strike = 0.03;  // m/s; smaller changes of speed come from the hand itself
+constexpr double min_strike = 0.03;  // m/s; smaller changes of speed come from the hand itself
 // A wrench that trembles against an obstacle must not strike in every tick: a further strike must be louder
 // by masking_ratio than what remains of the last one after a decay with masking_time (s).
 constexpr double masking_time = 0.05;
@@ -56,7 +56,7 @@ const world::Joint* engaged_joint(const Audible& world) {
 
 std::size_t window_ticks(const servo::Setup& setup) {
     const auto ticks = static_cast<std::size_t>(std::lround(strike_window / setup.dt));
-    return std::clamp<std::size_t>(ticks, 2, EventDetector::longest_history / 2);
+    return std::clamp<std::size_t>(ticks, 2, EventDetector::max_history / 2);
 }
 
 // Returns the speed, m/s, that one end lost in the last n ticks, along its direction in the n ticks before.
@@ -98,7 +98,7 @@ void detect_strike(EventDetector& detector, const servo::Setup& setup, const wor
     // A wrench may stop over several ticks; the strike is the highest loss of speed.
     const double masked =
         masking_ratio * detector.last_strike * std::exp(-detector.since_strike / masking_time);
-    if (strike > detector.pending_strike && strike > std::max(least_strike, masked)) {
+    if (strike > detector.pending_strike && strike > std::max(min_strike, masked)) {
         detector.pending_strike = strike;
         return;
     }

@@ -37,10 +37,10 @@ struct EventDetector {
     struct WrenchEnds {
         Vec3 jaw{0.0}, grip{0.0};
     };
-    static constexpr std::size_t longest_history = 32;      // ticks
-    std::array<WrenchEnds, longest_history + 1> history{};  // newest first
-    std::size_t history_size = 0;                           // valid entries of `history`
-    std::size_t ticks_since_contact = longest_history;
+    static constexpr std::size_t max_history = 32;      // ticks
+    std::array<WrenchEnds, max_history + 1> history{};  // newest first
+    std::size_t history_size = 0;                       // valid entries of `history`
+    std::size_t ticks_since_contact = max_history;
     StruckSurface last_surface = StruckSurface::casing;  // of the last contact
     double since_strike = 0.0;                           // s
     double last_strike = 0.0;                            // m/s

@@ -132,13 +132,13 @@ constexpr double full_force = 10.0;                 // N, at and above which the
 constexpr double full_slide = 0.15;                 // m/s, likewise
 constexpr std::uint32_t band_update_interval = 16;  // samples between updates of the band
 
-constexpr double full_run = 8.0;       // rad/s of a nut that is spun fast with the fingers
-constexpr double most_pitch = 3000.0;  // Hz
-constexpr double tone_from = 150.0;    // Hz; single ticks below, a tone above
+constexpr double full_run = 8.0;      // rad/s of a nut that is spun fast with the fingers
+constexpr double max_pitch = 3000.0;  // Hz
+constexpr double tone_from = 150.0;   // Hz; single ticks below, a tone above
 
 // rad of rotation before a stuck nut slips: stick_angle, and at full load up to extra_stick_angle more.
 constexpr double stick_angle = 0.004, extra_stick_angle = 0.012;
-constexpr double most_slips = 300.0;  // 1/s
+constexpr double max_slips = 300.0;  // 1/s
 
 // Clamps to 0 … `most`; returns 0 if the value is not finite.
 double sanitized(float value, double most) {
@@ -182,7 +182,7 @@ double scrape(Synth& s) {
 double run(Synth& s) {
     const double speed = s.run_speed.next(s.smoothing);
     if (speed == 0.0) return 0.0;
-    const double pitch = std::min(pulses_per_turn * speed / (2.0 * pi), most_pitch);
+    const double pitch = std::min(pulses_per_turn * speed / (2.0 * pi), max_pitch);
     const double level = std::min(1.0, speed / full_run);
     s.run_phase += pitch / s.rate;
     if (s.run_phase >= 1.0) {
@@ -205,7 +205,7 @@ double creep(Synth& s) {
         if (s.stuck_angle > s.release_angle) {
             s.stuck_angle = 0.0;
             const double angle = stick_angle + extra_stick_angle * std::min(1.0, load) * s.noise.uniform();
-            s.release_angle = std::max(angle, speed / most_slips);
+            s.release_angle = std::max(angle, speed / max_slips);
             hit(s.groan_pulses, groan_level * square(load) * s.noise.uniform(0.5, 1.0), 0.8e-3, s.rate);
         }
     }

@@ -116,9 +116,9 @@ double trial_force(const device::Description& description, const force::LimitBou
 Result<DeviceCheck> check_device(device::DeviceThread& thread, const DeviceCheckOptions& options) {
     CheckedDevice checked{thread};
     DeviceCheck check;
-    if (!thread.report().description)
+    if (!thread.status().description)
         return fail(ErrorCode::no_device, "the device is not open", "an open device");
-    check.description = *thread.report().description;
+    check.description = *thread.status().description;
     check.description.limits = force::lowered(check.description.limits, options.bounds);
     const double begun = checked.timer.now();
     {
@@ -137,30 +137,29 @@ Result<DeviceCheck> check_device(device::DeviceThread& thread, const DeviceCheck
         BOLT_TRY_ASSIGN(check.no_stiffness, wait_for_trial(checked, options.stop));
         if (check.no_stiffness.empty()) check.stiffness = std::move(checked.trial);
     }
-    const device::DeviceReport& report = thread.report();
-    if (report.state != device::DeviceState::usable)
-        return fail(ErrorCode::no_device, report.fault_message.empty()
+    const device::DeviceStatus& status = thread.status();
+    if (status.state != device::DeviceState::usable)
+        return fail(ErrorCode::no_device, status.fault_message.empty()
                                               ? check.description.name + " sends nothing"
-                                              : report.fault_message);
-    check.condition = report.condition;
-    check.malformed = report.malformed;
-    check.writes = report.writes;
-    check.mean_write = report.writes > 0 ? report.write_time / static_cast<double>(report.writes) : 0.0;
-    check.longest_write = report.longest_write;
+                                              : status.fault_message);
+    check.health = status.health;
+    check.malformed_samples = status.malformed_samples;
+    check.writes = status.writes;
+    check.mean_write = status.writes > 0 ? status.write_time / static_cast<double>(status.writes) : 0.0;
+    check.longest_write = status.longest_write;
     check.age = checked.age;
     return check;
 }
 
 std::string device_check_report(const DeviceCheck& check) {
     std::string text = fmt::format("{}  {}\n", check.description.id, check.description.name);
-    for (const auto& lines :
-         {device::summary_lines(check.description), device::summary_lines(check.condition)})
+    for (const auto& lines : {device::summary_lines(check.description), device::summary_lines(check.health)})
         for (const std::string& line : lines) text += fmt::format("  {}\n", line);
     if (check.seconds > 0.0)
         text += fmt::format("  sent {:.0f} samples a second{}\n",
                             static_cast<double>(check.samples) / check.seconds,
                             check.samples == 0 ? "; it is at rest" : "");
-    if (check.malformed > 0) text += fmt::format("  {} malformed reports\n", check.malformed);
+    if (check.malformed_samples > 0) text += fmt::format("  {} malformed reports\n", check.malformed_samples);
     if (check.age.count > 0)
         text += fmt::format(
             "  a sample is {:.2f} ms old when a tick of the servo takes it (median; 99 %: {:.2f} ms), from "

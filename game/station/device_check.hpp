@@ -14,9 +14,9 @@ namespace bolt::station_setup {
 
 struct DeviceCheck {
     device::Description description;
-    device::Condition condition;  // at the end
+    device::DeviceHealth health;  // at the end
     double seconds = 0.0;         // in which samples were counted
-    std::uint64_t samples = 0, malformed = 0;
+    std::uint64_t samples = 0, malformed_samples = 0;
     servo::Histogram age;  // from the driver's reading of a sample until a tick of the servo took it
     // Calls of the driver that wrote a command, and their duration, s.
     std::uint64_t writes = 0;

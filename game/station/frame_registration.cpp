@@ -26,7 +26,7 @@ std::size_t worst_point(const MeasuredRegistration& measured) {
 
 }  // namespace
 
-Result<MeasuredRegistration> register_frames(content::StationFrame from, content::StationFrame to,
+Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, content::CoordinateFrame to,
                                              std::span<const PointPair> pairs, const std::string& date) {
     if (pairs.size() < 4)
         return fail(ErrorCode::failed, fmt::format("{} points are too few", pairs.size()),
@@ -95,7 +95,7 @@ std::vector<std::string> warnings_of(const MeasuredRegistration& measured) {
 }
 
 Result<content::Registration> registration_from(std::span<const content::Registration> registrations,
-                                                content::StationFrame from, content::StationFrame to) {
+                                                content::CoordinateFrame from, content::CoordinateFrame to) {
     const content::Registration* found = content::find_registration(registrations, from, to);
     if (found == nullptr)
         return fail(ErrorCode::bad_content,

@@ -29,10 +29,10 @@ struct MeasuredRegistration {
 
 // The last pair is the check point: it is not used for the pose. Fails with fewer than four pairs, or as
 // align_points(), whose AlignmentFaultDetail the error then has. `date`: as content::is_utc_date().
-Result<MeasuredRegistration> register_frames(content::StationFrame from, content::StationFrame to,
+Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, content::CoordinateFrame to,
                                              std::span<const PointPair> pairs, const std::string& date);
 
-// A table of the points, and the figures that assess the registration.
+// A table of the points, and the values that assess the registration.
 std::string describe(const MeasuredRegistration& measured);
 
 // Fails if the rms or the error of the check point is too large, and names the point to touch again.
@@ -43,6 +43,6 @@ std::vector<std::string> warnings_of(const MeasuredRegistration& measured);
 
 // The registration with `from` as its first frame: that of the list, or its inverse. Fails if there is none.
 Result<content::Registration> registration_from(std::span<const content::Registration> registrations,
-                                                content::StationFrame from, content::StationFrame to);
+                                                content::CoordinateFrame from, content::CoordinateFrame to);
 
 }  // namespace bolt::station_setup

@@ -61,11 +61,11 @@ void compare_buttons(const std::optional<station::Buttons>& given, const device:
 
 }  // namespace
 
-std::vector<StationFinding> compare(const content::StationArm& arm, const device::Description& reported) {
+std::vector<StationFinding> compare(const content::StationMover& arm, const device::Description& reported) {
     std::vector<StationFinding> findings;
     compare_buttons(arm.buttons, reported, findings);
     compare_limits(arm.limits, reported, findings);
-    if (reported.sensing == device::Sensing::velocity && (arm.scale || arm.power))
+    if (reported.sensing == device::Sensing::velocity && (arm.scale || arm.power_ratio))
         findings.push_back({false, "scale and power have no effect: the device senses a velocity"});
     return findings;
 }
@@ -152,7 +152,7 @@ station::Buttons buttons_of(const device::Description& reported) {
 content::StationFile station_of(const device::Description* mover, const device::Description* wheel) {
     content::StationFile station;
     if (mover != nullptr) {
-        content::StationArm& arm = station.arm.emplace();
+        content::StationMover& arm = station.arm.emplace();
         arm.device = mover->id;
         arm.buttons = buttons_of(*mover);
         if (station::renders_force(*mover)) {

@@ -22,10 +22,10 @@ struct StationFacts {
 // Opens the devices that the file names, and reads the assemblies.
 StationFacts find_facts(const content::StationFile& station);
 
-// Findings that prevent the use come first. `arm` must sense a pose or a velocity, `wheel` a turn; what they
-// report, not what a station has lowered.
+// Findings that prevent the use come first. `arm` must sense a pose or a velocity, `wheel` a turn. Pass the
+// descriptions that the devices report, not those that a station has lowered.
 std::vector<StationFinding> compare(const content::StationFile& station, const StationFacts& facts);
-std::vector<StationFinding> compare(const content::StationArm& arm, const device::Description& reported);
+std::vector<StationFinding> compare(const content::StationMover& arm, const device::Description& reported);
 std::vector<StationFinding> compare(const content::StationWheel& wheel, const device::Description& reported);
 
 // A line each.

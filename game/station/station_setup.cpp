@@ -26,7 +26,7 @@ std::optional<DeviceRole> role_of(device::DeviceKind kind) {
         case device::DeviceKind::arm:
         case device::DeviceKind::puck:
             return DeviceRole::mover;
-        case device::DeviceKind::board:
+        case device::DeviceKind::open_ffboard:
         case device::DeviceKind::wheel:
             return DeviceRole::wheel;
         case device::DeviceKind::other:
@@ -320,8 +320,8 @@ device::WheelConfig apply_station(const content::StationFile& station, PlannedSt
     const DeviceSelection& selection = planned.devices;
     station::StationOptions& options = planned.options;
     if (is_mover_of(station, selection)) {
-        const content::StationArm& arm = *station.arm;
-        options.workspace = {content::orientation_of(arm.mounting), arm.scale, arm.power};
+        const content::StationMover& arm = *station.arm;
+        options.workspace = {content::orientation_of(arm.mounting), arm.scale, arm.power_ratio};
         options.mover_limits = arm.limits;
         options.mover_buttons = arm.buttons.value_or(options.mover_buttons);
     }

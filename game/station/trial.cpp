@@ -20,7 +20,7 @@ constexpr double supervisor_silence = 0.25;  // s of silence that the device sup
 bool renders(const std::optional<device::Description>& d) {
     return d && (station::renders_force(*d) || station::renders_torque(*d));
 }
-bool renders(const station::Layout& layout) { return renders(layout.mover) || renders(layout.wheel); }
+bool renders(const station::DeviceLayout& layout) { return renders(layout.mover) || renders(layout.wheel); }
 
 std::string sample_summary(double count, double seconds, double age, double silence) {
     return fmt::format(
@@ -44,7 +44,8 @@ std::string report(const DeviceTrial& tried, const char* role, double seconds) {
     std::string text = fmt::format("  {}: {}\n    ", tried.description.name, role);
     text += sample_summary(static_cast<double>(tried.stats.samples), seconds, tried.stats.silence,
                            tried.stats.longest_silence);
-    if (tried.malformed > 0) text += fmt::format("    {} malformed reports\n", tried.malformed);
+    if (tried.malformed_samples > 0)
+        text += fmt::format("    {} malformed reports\n", tried.malformed_samples);
     return text + output_summary(tried);
 }
 
@@ -72,10 +73,10 @@ std::string report(const GloveTrial& tried, double seconds) {
                          "take it\n");
 }
 
-std::optional<DeviceTrial> tried(const std::optional<device::Description>& description,
-                                 const station::LinkStats& stats, const device::DeviceReport* report) {
-    if (!description || report == nullptr) return std::nullopt;
-    return DeviceTrial{*description, stats, report->malformed, report->losses};
+std::optional<DeviceTrial> device_trial(const std::optional<device::Description>& description,
+                                        const station::LinkStats& stats, const device::DeviceStatus* status) {
+    if (!description || status == nullptr) return std::nullopt;
+    return DeviceTrial{*description, stats, status->malformed_samples, status->losses};
 }
 
 }  // namespace
@@ -153,8 +154,9 @@ StationTrial run_trial(station::Station& station, const PlannedStation& planned,
     station.stop();
     poll();
     if (planned.devices.mover)
-        trial.mover = tried(station.layout().mover, station.link_stats().mover, station.mover_report());
-    trial.wheel = tried(station.layout().wheel, station.link_stats().wheel, station.wheel_report());
+        trial.mover =
+            device_trial(station.layout().mover, station.link_stats().mover, station.mover_status());
+    trial.wheel = device_trial(station.layout().wheel, station.link_stats().wheel, station.wheel_status());
     trial.timing = station.servo().timing();
     trial.privileges = station.servo().privileges();
     trial.rate = 1.0 / station.setup().dt;
@@ -162,7 +164,7 @@ StationTrial run_trial(station::Station& station, const PlannedStation& planned,
     return trial;
 }
 
-std::string describe_station(station::Layout layout, const DeviceSelection& devices) {
+std::string describe_station(station::DeviceLayout layout, const DeviceSelection& devices) {
     std::string text;
     if (!devices.mover) {
         layout.mover.reset();

@@ -26,7 +26,7 @@ void update_episodes(std::vector<Episode>& episodes, std::span<const std::string
 struct DeviceTrial {
     device::Description description;
     station::LinkStats stats;
-    std::uint64_t malformed = 0, losses = 0;  // reports; disconnections
+    std::uint64_t malformed_samples = 0, losses = 0;  // losses: disconnections
 };
 
 struct GloveTrial {
@@ -58,7 +58,7 @@ StationTrial run_trial(station::Station& station, const PlannedStation& planned,
 std::string describe(const servo::ThreadPrivileges& privileges);
 
 // Texts for the terminal: the devices with their roles and the button that enables their forces; the results.
-std::string describe_station(station::Layout layout, const DeviceSelection& devices);
+std::string describe_station(station::DeviceLayout layout, const DeviceSelection& devices);
 std::string trial_report(const StationTrial& trial);
 
 // The reasons why the station is unfit for training, worst first; empty if it is fit.

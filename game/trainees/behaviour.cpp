@@ -54,7 +54,7 @@ StepPlan make_step_plan(const TraineeProfile& profile, Random& random, const ser
     const bool full_target = due.kind == StepKind::tighten && due.fraction > 0.999;
     plan.until_yield = !plan.wrong_joint && full_target && spec.strategy == content::Strategy::yield &&
                        random.chance(profile.feels_yield);
-    plan.least_torque = spec.torque.low;
+    plan.min_torque = spec.torque.low;
     if (plan.until_yield)
         plan.goal_torque =
             spec.torque.high * (std::min(0.98, stop - 0.04 * plan.attempt) + 0.04 * plan.attempt);
@@ -278,8 +278,8 @@ constexpr double free_stroke = 40.0;   // degrees at less than free_torque after
 constexpr double free_torque = 1.0;    // N·m at the wrench
 constexpr double visible_turn = to_radians(0.5);  // smallest rotation of the nut that is visible
 constexpr double missing_click = 1.3;  // of the goal; if the wrench has not clicked by then, the pull stops
-constexpr double least_turn = to_radians(1.0);  // rotation of the nut that makes a stroke worthwhile
-constexpr double tight_share = 0.7;             // share of the goal that makes a stroke worthwhile
+constexpr double min_turn = to_radians(1.0);  // rotation of the nut that makes a stroke worthwhile
+constexpr double tight_share = 0.7;           // share of the goal that makes a stroke worthwhile
 
 constexpr double unload_time = 0.18;  // s in which the wrench springs back before it is lifted
 
@@ -309,13 +309,13 @@ void pull(TraineeState& t, const Percept& felt) {
     } else {
         plan.finished = (plan.until_click && felt.clicked) ||
                         load + growth >= (plan.until_click ? missing_click : 1.0) * plan.goal_torque ||
-                        (plan.until_yield && felt.yields && load >= plan.least_torque) ||
+                        (plan.until_yield && felt.yields && load >= plan.min_torque) ||
                         (plan.only_checks && t.joint().nut.angle - t.nut_angle_at_start > visible_turn);
     }
     const bool no_free_swing = std::abs(t.handle_angle - t.stroke_start) >= t.free_swing;
     if (!plan.finished && !no_free_swing) return;
     // A handle that runs against an obstacle feels like a tight nut, but the joint's torque stays low.
-    const bool turned = std::abs(t.joint().nut.angle - t.nut_angle_at_stroke) > least_turn;
+    const bool turned = std::abs(t.joint().nut.angle - t.nut_angle_at_stroke) > min_turn;
     const bool tight = std::abs(t.joint().torque) > tight_share * plan.goal_torque;
     t.fruitless_strokes = turned || tight ? 0 : t.fruitless_strokes + 1;
 

@@ -27,7 +27,7 @@ struct StepPlan {
     bool until_yield = false;   // stops when the bolt begins to yield
     bool until_click = false;   // stops at the click of the torque wrench
     double goal_torque = 0.0;   // N·m at which it stops
-    double least_torque = 0.0;  // N·m, known lower limit: below it, yielding does not stop the pull
+    double min_torque = 0.0;    // N·m, known lower limit: below it, yielding does not stop the pull
     int attempt = 0;            // earlier attempts at this step
     bool finished = false;      // the trainee believes that the step is done
 };

@@ -67,9 +67,9 @@ DragScene drag_scene(const scene::SceneWorld& world, const ActiveLesson& active,
     scene.engaged = client.latest.output.joint >= 0;
     if (const auto nut = hand_of(active).nut)
         scene.nut = force::Pivot{world::nut_centre(world, setup, *nut), setup.nuts[*nut].axis};
-    const station::Layout& layout = client.link->layout();
+    const station::DeviceLayout& layout = client.link->layout();
     scene.handle_length = layout.lever_arm;
-    scene.device = viewer_heading(active) * layout.workspace.rotation;
+    scene.arm_to_assembly = viewer_heading(active) * layout.workspace.rotation;
     scene.scale = layout.workspace.scale;
     return scene;
 }
@@ -81,7 +81,8 @@ void move_camera(ActiveLesson& active, const FrameInput& input, double height, d
     view::turn(active.view.camera.goal, glm::dvec2(turned.x, -turned.y) / height);
     view::pan(active.view.camera.goal, glm::dvec2(input.middle_drag.x, -input.middle_drag.y) / height);
     const glm::dvec2 at(input.pointer.x / height - 0.5 * aspect, 0.5 - input.pointer.y / height);
-    if (input.wheel != 0.0) view::zoom(active.view.camera.goal, input.wheel, at, active.workplace.workpiece);
+    if (input.scroll != 0.0)
+        view::zoom(active.view.camera.goal, input.scroll, at, active.workplace.workpiece);
 }
 
 }  // namespace
@@ -91,57 +92,56 @@ namespace {
 // The head determines the view and the shoulder, the measured hand the tool.
 void enter_room(ActiveLesson& active, const std::optional<RoomInput>& room) {
     static const xr::HandInput no_hand;
-    active.view.head = room ? std::optional(room->room * room->head) : std::nullopt;
+    active.view.head = room ? std::optional(room->room_in_assembly * room->head) : std::nullopt;
     if (active.view.head) active.shoulder = *active.view.head * shoulder_at_head;
     if (!active.station || !active.station->tracked) return;
     StationClient& client = *active.station;
     const bool seen = room && room->hands != nullptr;
     track_hand(*client.tracked,
-               {seen ? (*room->hands)[client.tracked->side] : no_hand, room ? room->room : Pose{},
+               {seen ? (*room->hands)[client.tracked->side] : no_hand, room ? room->room_in_assembly : Pose{},
                 hand_of(active).wrench, client.latest.output.joint >= 0});
 }
 
 }  // namespace
 
-void handle_input(const scene::SceneWorld& world, Frame& frame) {
-    ActiveLesson& active = frame.active;
-    const FrameInput& input = frame.input;
-    enter_room(active, frame.room);
-    const Projection projection = projection_of(active, frame.size);
+namespace {
+
+// Finds the nut and the wrench under the pointer. They stay while the hand is dragged.
+void update_pointer(const scene::SceneWorld& world, ActiveLesson& active, const FrameInput& input,
+                    const Projection& projection) {
+    if (!input.pressed_at && active.pointer.drags_hand && input.left_down) return;
     // In a slow frame the pointer may have moved since the press.
     const glm::dvec2 pointer = input.pressed_at.value_or(input.pointer);
-    if (input.pressed_at || !active.pointer.drags_hand || !input.left_down) {
-        active.pointer.nut =
-            nut_at(projection, pointer, active.session->setup(), nut_centres(world, active.session->setup()));
-        const Vec3 end = hand_of(active).rest * Vec3(active.session->setup().wrench.handle_length, 0.0, 0.0);
-        const auto off = pixels_to_segment(projection, pointer, hand_of(active).rest.position, end);
-        active.pointer.on_wrench =
-            !hand_of(active).wrench && !active.pointer.nut && off && *off < wrench_reach;
-    }
-    if (input.triggered(Action::restart_step)) request_undo(active.undo, active.session->lesson(), 0);
-    if (input.triggered(Action::undo)) request_undo(active.undo, active.session->lesson(), 1);
-    if (active.station) {
-        StationClient& client = *active.station;
-        // A device has no pointer: its hand takes what is beside it.
-        if (!client.dragged || active.pointer.nut != hand_of(active).nut) active.pointer.nut.reset();
-        active.pointer.on_wrench = client.near_wrench && (active.pointer.on_wrench || !client.dragged);
-        active.pointer.drags_hand = client.dragged.has_value();
-        if (client.dragged && !active.clock.paused)
-            drag_hand(*client.dragged,
-                      {input, client.keyboard.input(), client.keyboard.shift_down(), frame.seconds},
-                      drag_scene(world, active, projection));
-        FrameInput of_view = input;
-        if (client.dragged && input.left_down) of_view.wheel = 0.0;
-        move_camera(active, of_view, frame.size.y, frame.size.x / frame.size.y);
-        return;
-    }
+    const servo::Setup& setup = active.session->setup();
+    active.pointer.nut = nut_at(projection, pointer, setup, nut_centres(world, setup));
+    const Vec3 end = hand_of(active).rest * Vec3(setup.wrench.handle_length, 0.0, 0.0);
+    const auto off = pixels_to_segment(projection, pointer, hand_of(active).rest.position, end);
+    active.pointer.on_wrench = !hand_of(active).wrench && !active.pointer.nut && off && *off < wrench_reach;
+}
+
+// The hand of a station: a device, or a simulated arm that the mouse drags, moves it.
+void handle_station_input(const scene::SceneWorld& world, const Frame& frame, const Projection& projection) {
+    ActiveLesson& active = frame.active;
+    const FrameInput& input = frame.input;
+    StationClient& client = *active.station;
+    // A device has no pointer: its hand takes what is beside it.
+    if (!client.dragged || active.pointer.nut != hand_of(active).nut) active.pointer.nut.reset();
+    active.pointer.on_wrench = client.near_wrench && (active.pointer.on_wrench || !client.dragged);
+    active.pointer.drags_hand = client.dragged.has_value();
+    if (client.dragged && !active.clock.paused)
+        drag_hand(*client.dragged,
+                  {input, client.keyboard.input(), client.keyboard.shift_down(), frame.seconds},
+                  drag_scene(world, active, projection));
+}
+
+// The hand that finds the nut by itself: the mouse chooses the nut and turns it.
+void handle_mouse_input(ActiveLesson& active, const FrameInput& input, const Projection& projection) {
     MouseCommand command;
-    command.button_down = input.left_down && active.pointer.drags_hand;
     if (input.pressed_at) {
         active.pointer.press_position = *input.pressed_at;
         press(active, command);
-        command.button_down = input.left_down && active.pointer.drags_hand;
     }
+    command.button_down = input.left_down && active.pointer.drags_hand;
     if (input.triggered(Action::tool))
         (hand_of(active).wrench ? command.lay_down : command.take_wrench) = true;
     if (command.button_down) {
@@ -151,7 +151,27 @@ void handle_input(const scene::SceneWorld& world, Frame& frame) {
     if (active.undo.target && hand_of(active).nut) command.retreat = true;
     if (active.clock.finished || active.clock.paused) command = {};
     trainer::apply_command(active.mouse, command, active.session->setup(), active.session->state());
-    move_camera(active, input, frame.size.y, frame.size.x / frame.size.y);
+}
+
+}  // namespace
+
+void handle_input(const scene::SceneWorld& world, Frame& frame) {
+    ActiveLesson& active = frame.active;
+    const FrameInput& input = frame.input;
+    enter_room(active, frame.room);
+    const Projection projection = projection_of(active, frame.size);
+    update_pointer(world, active, input, projection);
+    if (input.triggered(Action::restart_step)) request_undo(active.undo, active.session->lesson(), 0);
+    if (input.triggered(Action::undo)) request_undo(active.undo, active.session->lesson(), 1);
+    FrameInput of_view = input;
+    if (active.station) {
+        handle_station_input(world, frame, projection);
+        // The dragged hand has used the scrolling.
+        if (active.station->dragged && input.left_down) of_view.scroll = 0.0;
+    } else {
+        handle_mouse_input(active, input, projection);
+    }
+    move_camera(active, of_view, frame.size.y, frame.size.x / frame.size.y);
 }
 
 namespace {

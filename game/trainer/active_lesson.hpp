@@ -111,9 +111,9 @@ inline const world::ToolState& tool_state_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::ToolState>();
 }
 
-// The user's head and hands in a room, for a display that surrounds the user.
+// The trainee's head and hands in a room, for a headset or projection walls.
 struct RoomInput {
-    Pose room;                                                    // its frame in the assembly's
+    Pose room_in_assembly;                                        // the room's frame in the assembly's
     Pose head;                                                    // in the room
     const xr::Hands* hands = nullptr;                             // in the room
     std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
@@ -148,12 +148,12 @@ void guidance_system(scene::SceneWorld& world, Frame& frame);
 void view_system(scene::SceneWorld& world, Frame& frame);
 // Updates the labels at the wrench and at the joints.
 void label_system(scene::SceneWorld& world, Frame& frame);
-// Fills the renderer's scene.
-void present_system(scene::SceneWorld& world, Frame& frame);
+// Collects what the renderer draws into ActiveLesson::scene.
+void collect_system(scene::SceneWorld& world, Frame& frame);
 
 inline constexpr ecs::System<scene::SceneWorld, Frame> frame_systems[] = {
     {"ticks", tick_system}, {"placement", placement_system}, {"guidance", guidance_system},
-    {"view", view_system},  {"labels", label_system},        {"present", present_system}};
+    {"view", view_system},  {"labels", label_system},        {"collect", collect_system}};
 
 // The picture from the camera's present viewpoint.
 Projection projection_of(const ActiveLesson& active, const glm::dvec2& size);

@@ -55,7 +55,7 @@ ScreenAction action_of(const ArmScreen& screen, std::span<const platform::InputE
 
 ScreenAction draw_arm(const ScreenContext& context, const ArmScreen& screen) {
     ScreenAction action = ScreenAction::none;
-    begin_panel(context, "##arm", 420.0F * context.scale, 0.94F);
+    begin_dialog(context, "##arm", 420.0F * context.scale, 0.94F);
     const bool warns = screen.needs.moves || asks(screen.needs);
     draw_wrapped(request_of(context.words, screen.needs), warns ? warning_text : muted_text);
     ImGui::Separator();
@@ -85,9 +85,9 @@ void pause_for_arm(StationClient& client, LessonClock& clock) {
     }
 }
 
-std::optional<words::TextKey> arm_warning(const device::Condition& condition) {
-    if (condition.cooling) return words::TextKey("arm.rests");
-    if (device::is_warm(condition)) return words::TextKey("arm.warm");
+std::optional<words::TextKey> arm_warning(const device::DeviceHealth& health) {
+    if (health.cooling) return words::TextKey("arm.rests");
+    if (device::is_warm(health)) return words::TextKey("arm.warm");
     return {};
 }
 

@@ -35,7 +35,7 @@ ScreenAction draw_arm(const ScreenContext& context, const ArmScreen& screen);
 void pause_for_arm(StationClient& client, LessonClock& clock);
 
 // The text about warm motors; none if they are cool, or if the arm does not report their heat.
-std::optional<words::TextKey> arm_warning(const device::Condition& condition);
+std::optional<words::TextKey> arm_warning(const device::DeviceHealth& health);
 
 // One line for the log; empty if the arm needs nothing.
 std::string describe(const device::ArmNeeds& needs);

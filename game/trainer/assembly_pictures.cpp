@@ -35,7 +35,7 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
 view::Orbit orbit_for(const view::Viewpoint& first, const render::BoundingBox& box, float aspect) {
     const view::Viewpoint from =
         first.fov > 0.0F ? first : view::default_viewpoint(box, view::default_fov, aspect);
-    return view::frame_all(view::orbit_of(from), box, aspect);
+    return view::fit_to_box(view::orbit_of(from), box, aspect);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ void press(const InputState& state, const KeyEvent& key, FrameInput& input) {
         if (state.keys.keys.at(i) == key.key) input.actions.at(i) = true;
 }
 
-void click(InputState& state, const ButtonEvent& button, const InputFocus& focus, FrameInput& input) {
+void press_button(InputState& state, const ButtonEvent& button, const InputFocus& focus, FrameInput& input) {
     state.pointer = button.at;
     // A release counts anywhere; a press on a menu belongs to the menu.
     if (button.down && !focus.pointer) return;
@@ -39,7 +39,7 @@ FrameInput apply_events(InputState& state, std::span<const InputEvent> events, c
         if (const auto* key = std::get_if<KeyEvent>(&event)) {
             if (focus.keys) press(state, *key, input);
         } else if (const auto* button = std::get_if<ButtonEvent>(&event)) {
-            click(state, *button, focus, input);
+            press_button(state, *button, focus, input);
         } else if (const auto* controller = std::get_if<ControllerEvent>(&event)) {
             if (focus.keys && controller->down && controller->button == ControllerButton::start)
                 input.actions.at(static_cast<std::size_t>(Action::pause)) = true;
@@ -54,7 +54,7 @@ FrameInput apply_events(InputState& state, std::span<const InputEvent> events, c
             else if (state.middle)
                 input.middle_drag += movement;
         } else if (const auto* wheel = std::get_if<WheelEvent>(&event)) {
-            if (focus.pointer) input.wheel += wheel->notches.y;
+            if (focus.pointer) input.scroll += wheel->notches.y;
         } else if (const auto* focus_event = std::get_if<platform::FocusEvent>(&event)) {
             // A release outside the window is not reported; without this a hand would keep pulling.
             if (!focus_event->focused) state.left = state.middle = state.right = false;

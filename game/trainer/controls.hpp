@@ -64,7 +64,7 @@ struct FrameInput {
     glm::dvec2 pointer{0.0};
     glm::dvec2 left_drag{0.0}, right_drag{0.0}, middle_drag{0.0};
     glm::dvec2 turn_drag{0.0};  // the part of left_drag with the right button held too
-    double wheel = 0.0;         // notches
+    double scroll = 0.0;        // notches of the mouse wheel
 };
 
 // Kept from frame to frame.

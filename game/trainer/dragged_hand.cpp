@@ -14,7 +14,7 @@ constexpr double wheel_step_on_bolt = 0.01;      // m along the bolt
 constexpr double wheel_turn = to_radians(30.0);  // of the fingers for a notch: within the lead of the arm
 // s in which the hand follows a notch of the mouse wheel. An immediate step would move the tool into the
 // workpiece at 1 m/s and make the fingers slip off the nut.
-constexpr double wheel_time = 0.1, least_notch = 1e-3;
+constexpr double wheel_time = 0.1, min_notch = 1e-3;
 constexpr double finger_turn = to_radians(2.5);  // of the fingers for a pixel of drag
 constexpr double key_speed = 0.25;               // m/s
 constexpr double key_turn_speed = 1.5;           // rad/s
@@ -30,10 +30,10 @@ constexpr double air_compliance = 3.0;
 // arm, so that it cannot push through a wall that holds the wrench.
 constexpr double air_deflection = 0.035;
 
-constexpr double least_depth = 0.15;  // m before the eye
+constexpr double min_depth = 0.15;  // m before the eye
 
 // Sine of the smallest angle between the view and the plane across a bolt in which a drag moves the wrench.
-constexpr double least_slope = 0.25;
+constexpr double min_slope = 0.25;
 
 // Before the hand releases a wrench on a nut, it yields for a short time. Otherwise the wrench would keep its
 // tension until the hand takes it again.
@@ -52,9 +52,9 @@ Vec3 in_picture(const Projection& projection, const Vec3& point, const glm::dvec
     const glm::dmat4 to_clip(projection.eye.clip_from_world);
     glm::dvec4 clip = to_clip * glm::dvec4(point, 1.0);
     const glm::dvec3 ahead(to_clip[0][3], to_clip[1][3], to_clip[2][3]);  // gradient of the depth
-    if (clip.w < least_depth)
-        clip = to_clip *
-               glm::dvec4(point + Vec3(ahead) * ((least_depth - clip.w) / glm::dot(ahead, ahead)), 1.0);
+    if (clip.w < min_depth)
+        clip =
+            to_clip * glm::dvec4(point + Vec3(ahead) * ((min_depth - clip.w) / glm::dot(ahead, ahead)), 1.0);
     const glm::dvec4 moved =
         clip +
         glm::dvec4(2.0 * drag.x / projection.size.x, 2.0 * drag.y / projection.size.y, 0.0, 0.0) * clip.w;
@@ -75,9 +75,9 @@ Vec3 grip_of(const DragScene& scene) {
 
 // The notches of this frame, of all that the mouse wheel was turned while the button is held.
 double smooth_wheel(DraggedHand& hand, const DragInput& input) {
-    hand.wheel = input.mouse.left_down ? hand.wheel + input.mouse.wheel : 0.0;
-    const double followed = std::min(1.0, input.seconds / wheel_time) * hand.wheel;
-    hand.wheel = std::abs(hand.wheel - followed) < least_notch ? 0.0 : hand.wheel - followed;
+    hand.scroll = input.mouse.left_down ? hand.scroll + input.mouse.scroll : 0.0;
+    const double followed = std::min(1.0, input.seconds / wheel_time) * hand.scroll;
+    hand.scroll = std::abs(hand.scroll - followed) < min_notch ? 0.0 : hand.scroll - followed;
     return followed;
 }
 
@@ -93,11 +93,11 @@ HandShift swing_on_bolt(const DragInput& input, const DragScene& scene) {
     // Tightening a right-hand thread turns about −axis.
     const double angle = -drag_angle(lever, input.mouse.left_drag);
     const Vec3 handle = grip_of(scene) - scene.tool.position;
-    return {angle * glm::cross(axis, handle) + along_bolt(scene, axis, input.mouse.wheel), Vec3(0.0)};
+    return {angle * glm::cross(axis, handle) + along_bolt(scene, axis, input.mouse.scroll), Vec3(0.0)};
 }
 
 HandShift twist_nut(const DragInput& input, const DragScene& scene) {
-    const double angle = finger_turn * input.mouse.left_drag.x + wheel_turn * input.mouse.wheel;
+    const double angle = finger_turn * input.mouse.left_drag.x + wheel_turn * input.mouse.scroll;
     return {Vec3(0.0), -angle * scene.nut->axis};
 }
 
@@ -113,7 +113,7 @@ HandShift fingers_to_nut(const DragInput& input, const DragScene& scene) {
 Vec3 across_bolt(const DragScene& scene, const Vec3& axis, const Vec3& shift) {
     const Vec3 view = glm::normalize(grip_of(scene) - Vec3(scene.projection.eye.position));
     const double slope = glm::dot(view, axis);
-    return std::abs(slope) < least_slope ? shift : shift - glm::dot(shift, axis) / slope * view;
+    return std::abs(slope) < min_slope ? shift : shift - glm::dot(shift, axis) / slope * view;
 }
 
 // Beside a bolt a drag and the mouse wheel move the wrench across and along the bolt: nobody sees its depth
@@ -121,7 +121,7 @@ Vec3 across_bolt(const DragScene& scene, const Vec3& axis, const Vec3& shift) {
 HandShift beside_bolt(const DragInput& input, const DragScene& scene) {
     const Vec3& axis = scene.nut->axis;
     const Vec3 shift = in_picture(scene.projection, grip_of(scene), input.mouse.left_drag);
-    return {across_bolt(scene, axis, shift) + along_bolt(scene, axis, input.mouse.wheel), Vec3(0.0)};
+    return {across_bolt(scene, axis, shift) + along_bolt(scene, axis, input.mouse.scroll), Vec3(0.0)};
 }
 
 HandShift in_the_air(const DragInput& input, const DragScene& scene) {
@@ -133,7 +133,7 @@ HandShift in_the_air(const DragInput& input, const DragScene& scene) {
     } else {
         motion.shift = in_picture(scene.projection, grip_of(scene), input.mouse.left_drag);
     }
-    motion.shift += wheel_step * input.mouse.wheel * view_direction(scene);
+    motion.shift += wheel_step * input.mouse.scroll * view_direction(scene);
     return motion;
 }
 
@@ -161,19 +161,19 @@ void drag_hand(DraggedHand& hand, const DragInput& input, const DragScene& scene
 
     hand.motion.compliance_rate = eases ? ease_compliance : scene.engaged ? 0.0 : air_compliance;
     DragInput smooth = input;
-    smooth.mouse.wheel = smooth_wheel(hand, input);
+    smooth.mouse.scroll = smooth_wheel(hand, input);
     // The intention may lead far only while the hand pulls the handle, because only this needs the arm's
     // full force. Overtightening must stay possible.
-    const bool pulls = scene.engaged && smooth.mouse.wheel == 0.0;
+    const bool pulls = scene.engaged && smooth.mouse.scroll == 0.0;
     hand.motion.max_deflection = pulls ? device::HandMotion{}.max_deflection : air_deflection;
     HandShift motion = mouse_motion(hand, smooth, scene);
-    motion.shift += key_speed * input.seconds * (scene.device * input.keys.along);
-    motion.turn += key_turn_speed * input.seconds * (scene.device * input.keys.about);
+    motion.shift += key_speed * input.seconds * (scene.arm_to_assembly * input.keys.along);
+    motion.turn += key_turn_speed * input.seconds * (scene.arm_to_assembly * input.keys.about);
     // The arm holds the grip, and a turn about the jaw moves it.
     const Vec3 handle = grip_of(scene) - scene.tool.position;
     motion.shift += rotation(motion.turn) * handle - handle;
 
-    const Quat back = glm::conjugate(scene.device);
+    const Quat back = glm::conjugate(scene.arm_to_assembly);
     hand.motion.moved += back * motion.shift / scene.scale;
     hand.motion.turned = glm::normalize(rotation(back * motion.turn) * hand.motion.turned);
 }

@@ -20,7 +20,7 @@ struct DraggedHand {
     device::HandMotion motion;  // sent to the arm
     bool grasps = false;  // the left button was pressed on the wrench or the nut that the hand is beside
     bool held = false;    // the left button, in the last frame
-    double wheel = 0.0;   // notches that the hand has still to follow
+    double scroll = 0.0;  // notches of the mouse wheel that the hand has still to follow
     double easing = 0.0;  // s until the hand opens; until then it lets the wrench on the nut spring back
 };
 
@@ -32,11 +32,11 @@ struct DragScene {
     // The pointer is on the wrench or the nut that the hand is beside. A press elsewhere moves the open hand,
     // so that it can leave them.
     bool points_at_reachable = false;
-    std::optional<force::Pivot> nut;  // that the hand holds or is beside
-    bool engaged = false;             // it holds the nut
-    double handle_length = 0.0;       // m
-    Quat device{1.0, 0.0, 0.0, 0.0};  // unit, from the arm's frame to the assembly's
-    double scale = 1.0;               // m of the tool per m of the arm
+    std::optional<force::Pivot> nut;           // that the hand holds or is beside
+    bool engaged = false;                      // it holds the nut
+    double handle_length = 0.0;                // m
+    Quat arm_to_assembly{1.0, 0.0, 0.0, 0.0};  // unit, rotation from the arm's frame to the assembly's
+    double scale = 1.0;                        // m of the tool per m of the arm
 };
 
 struct DragInput {

@@ -137,15 +137,15 @@ ImU32 in_color(const glm::vec4& color, float opacity) {
     return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, opacity * color.a});
 }
 
-void begin_panel(const char* name, const ImVec2& at, const ImVec2& pivot, ImGuiWindowFlags flags) {
+void begin_dialog(const char* name, const ImVec2& at, const ImVec2& pivot, ImGuiWindowFlags flags) {
     ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
     ImGui::SetNextWindowBgAlpha(0.78F);
     ImGui::Begin(name, nullptr, flags);
 }
 
 // A panel that fits its content; for content of constant size.
-void begin_panel(const char* name, const ImVec2& at, const ImVec2& pivot) {
-    begin_panel(name, at, pivot, hud_panel_flags | ImGuiWindowFlags_AlwaysAutoResize);
+void begin_dialog(const char* name, const ImVec2& at, const ImVec2& pivot) {
+    begin_dialog(name, at, pivot, hud_panel_flags | ImGuiWindowFlags_AlwaysAutoResize);
 }
 
 struct HudLine {
@@ -170,7 +170,7 @@ void text_panel(const char* name, const ImVec2& at, const ImVec2& pivot, std::sp
         size = {std::max(size.x, extent.x), size.y + style.ItemSpacing.y + extent.y};
     }
     ImGui::SetNextWindowSize({size.x + 2.0F * style.WindowPadding.x, size.y + 2.0F * style.WindowPadding.y});
-    begin_panel(name, at, pivot, hud_panel_flags);
+    begin_dialog(name, at, pivot, hud_panel_flags);
     ImGui::PushTextWrapPos(max_width);
     for (const HudLine& line : lines) {
         ImGui::PushStyleColor(ImGuiCol_Text, line.color);
@@ -188,9 +188,9 @@ void draw_plot(const ActiveLesson& active, const words::Words& w, const glm::dve
     const auto joint = static_cast<std::size_t>(active.plot.joint);
     const content::Specification& spec = active.session->assembly().joints[joint].spec;
     const ImVec2 area(260.0F * scale, 150.0F * scale);
-    begin_panel("##plot",
-                {static_cast<float>(size.x) - 12.0F * scale, static_cast<float>(size.y) - 12.0F * scale},
-                {1.0F, 1.0F});
+    begin_dialog("##plot",
+                 {static_cast<float>(size.x) - 12.0F * scale, static_cast<float>(size.y) - 12.0F * scale},
+                 {1.0F, 1.0F});
     text(words::format_text(w, "hud.curve", {{"joint", active.session->assembly().joints[joint].design.id}}));
     const ImVec2 low = ImGui::GetCursorScreenPos();
     ImGui::Dummy(area);
@@ -232,8 +232,8 @@ void draw_effort(const ActiveLesson& active, const words::Words& w, const glm::d
     const double force = std::abs(joint.torque) / setup.wrench.handle_length;
     const double greatest = setup.wrench.stiffness * to_radians(2.5) / setup.wrench.handle_length;
     const auto share = static_cast<float>(std::clamp(force / greatest, 0.0, 1.0));
-    begin_panel("##strain", {static_cast<float>(0.5 * size.x), static_cast<float>(size.y) - 12.0F * scale},
-                {0.5F, 1.0F});
+    begin_dialog("##strain", {static_cast<float>(0.5 * size.x), static_cast<float>(size.y) - 12.0F * scale},
+                 {0.5F, 1.0F});
     text(words::format_text(w, "hud.pull", {{"force", words::Number{force, 0}}}));
     const ImVec2 low = ImGui::GetCursorScreenPos(), area(260.0F * scale, 12.0F * scale);
     ImGui::Dummy(area);
@@ -308,7 +308,7 @@ void draw_device_messages(const ActiveLesson& active, const words::Words& w, con
     // The screen about the arm has better words for what it needs.
     if (!active.station || active.station->needs.any()) return;
     std::vector<HudLine> lines;
-    if (const auto warning = arm_warning(active.station->condition)) lines.push_back({w[*warning], warm});
+    if (const auto warning = arm_warning(active.station->health)) lines.push_back({w[*warning], warm});
     for (const std::string& message : active.station->fault_messages) lines.push_back({message, warm});
     text_panel("##fault_messages", {12.0F * scale, static_cast<float>(size.y) - 12.0F * scale}, {0.0F, 1.0F},
                lines, 0.5F * static_cast<float>(size.x));

@@ -1,4 +1,4 @@
-// Overlay of a lesson: captions of the sounds, the torque plot, and the panels with instructions.
+// Overlay of a lesson: captions of the sounds, the torque plot, and the boxes with instructions.
 #pragma once
 
 #include <array>
@@ -51,11 +51,11 @@ struct PlotPoint {
     float torque = 0.0F;  // N·m
 };
 
-// Torque over nut angle of a pull, and the target window.
+// Torque over nut angle of a pull, and the tolerance of the torque.
 struct TorquePlot {
     std::vector<PlotPoint> points;  // of the joint that the wrench engaged last
     int joint = -1;                 // −1: the wrench has not engaged a nut yet
-    // N·m: the due step's window, else the joint's final one; none when loosening.
+    // N·m: the due step's tolerance, else the joint's final one; none when loosening.
     std::optional<content::ToleranceWindow> target;
 };
 
@@ -64,7 +64,7 @@ void observe(TorquePlot& plot, const lesson::Lesson& lesson,
              const ecs::Access<const world::Joint, const world::ToolState>& world);
 
 // Areas in px that the interface covers; labels in the scene avoid them. Call between ui::Ui::begin and end,
-// after the last panel.
+// after the last box.
 std::vector<render::Rectangle> occupied_areas();
 
 // Texts of the overlay.

@@ -52,9 +52,9 @@ view::Orbit first_view(const ActiveLesson& active, const LessonContext& context,
         all.low = glm::min(all.low, end);
         all.high = glm::max(all.high, end);
     }
-    const view::Orbit orbit = view::frame_all(view::orbit_of(viewpoint), all, aspect);
+    const view::Orbit orbit = view::fit_to_box(view::orbit_of(viewpoint), all, aspect);
     const auto eyes = scene::eye_height(workpiece, context.worker);
-    return eyes ? view::frame_all(view::limit_eye_height(orbit, *eyes), all, aspect) : orbit;
+    return eyes ? view::fit_to_box(view::limit_eye_height(orbit, *eyes), all, aspect) : orbit;
 }
 
 }  // namespace
@@ -73,12 +73,10 @@ Result<std::string> tool_of_station(const content::StationFile& station,
                 fmt::format("one of its tools: {}", fmt::join(names, ", ")));
 }
 
-joint::Law law_in_force(const LessonChoice& choice, const content::TraineeSettings& settings,
-                        joint::Law assembly_law) {
+joint::Law effective_law(const LessonChoice& choice, const content::TraineeSettings& settings,
+                         joint::Law assembly_law) {
     if (choice.law) return *choice.law;
-    for (const joint::Law law : {joint::Law::mechanistic, joint::Law::published})
-        if (settings.law == joint::name(law)) return law;
-    return assembly_law;
+    return joint::law_named(settings.law).value_or(assembly_law);
 }
 
 Result<StartedLesson> start_lesson(const LessonStart& start) {
@@ -92,7 +90,7 @@ Result<StartedLesson> start_lesson(const LessonStart& start) {
     context.choice = choice;
     session::LessonOptions& options = context.options;
     options = start.options;
-    options.law = law_in_force(choice, start.settings, loaded.assembly.law);
+    options.law = effective_law(choice, start.settings, loaded.assembly.law);
     options.mode = choice.mode;
     options.task = choice.task;
     options.trainee_profile = "person";

@@ -35,8 +35,8 @@ Result<std::string> tool_of_station(const content::StationFile& station,
                                     std::span<const content::Tool> tools);
 
 // The law of a lesson: the command line's, else the trainee's, else the assembly's.
-joint::Law law_in_force(const LessonChoice& choice, const content::TraineeSettings& settings,
-                        joint::Law assembly_law);
+joint::Law effective_law(const LessonChoice& choice, const content::TraineeSettings& settings,
+                         joint::Law assembly_law);
 
 // trainer::start_station; tests replace it.
 using StartStation = std::function<Result<std::unique_ptr<station_setup::LessonStation>>(
@@ -55,7 +55,7 @@ struct LessonStart {
 // The data that a lesson was started with. It outlives the lesson, because the result screen shows it.
 struct LessonContext {
     LessonChoice choice;
-    content::Assembly assembly;  // with the targets of the law in force, as the lesson uses it
+    content::Assembly assembly;  // with the targets of the effective law, as the lesson uses it
     session::LessonOptions options;
     scene::LessonModels models;
     scene::Worker worker;

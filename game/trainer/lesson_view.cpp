@@ -239,8 +239,8 @@ Projection projection_of(const ActiveLesson& active, const glm::dvec2& size) {
 void view_system(scene::SceneWorld& world, Frame& frame) {
     ActiveLesson& active = frame.active;
     if (frame.input.triggered(Action::whole_view) && !active.view.head)
-        active.view.camera.glide_to(view::frame_all(active.view.camera.goal, active.workplace.workpiece,
-                                                    static_cast<float>(frame.size.x / frame.size.y)));
+        active.view.camera.glide_to(view::fit_to_box(active.view.camera.goal, active.workplace.workpiece,
+                                                     static_cast<float>(frame.size.x / frame.size.y)));
     // In a room the user moves the head; nothing else moves the view.
     if (!active.view.head && (frame.input.triggered(Action::find_view) || joint_out_of_view(active, frame)))
         show_due_joint(active, frame.size);
@@ -339,7 +339,7 @@ void label_system(scene::SceneWorld& world, Frame& frame) {
     view::separate_labels(*frame.fonts, active.scene.labels, projection.eye, glm::vec2(frame.size), occupied);
 }
 
-void present_system(scene::SceneWorld& world, Frame& frame) {
+void collect_system(scene::SceneWorld& world, Frame& frame) {
     scene::appearance_system(world);
     view::collect_objects(world, frame.active.scene);
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr float column_width = 480.0F, menu_margin = 24.0F;
 constexpr float card_width = 176.0F, thumbnail_height = 92.0F, card_padding = 6.0F;
 // Below this size the menu is one column that scrolls.
-constexpr float least_wide_width = 940.0F, least_wide_height = 690.0F;
+constexpr float min_wide_width = 940.0F, min_wide_height = 690.0F;
 
 const ImVec4 primary{0.13F, 0.55F, 0.36F, 1.0F}, primary_hovered{0.16F, 0.64F, 0.42F, 1.0F};
 constexpr ImU32 column_color = IM_COL32(20, 24, 29, 244), strip_color = IM_COL32(20, 24, 29, 226),
@@ -23,7 +23,7 @@ constexpr ImGuiWindowFlags menu_flags = ImGuiWindowFlags_NoDecoration | ImGuiWin
                                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBackground;
 
 bool is_wide(const glm::vec2& size, float scale) {
-    return size.x >= least_wide_width * scale && size.y >= least_wide_height * scale;
+    return size.x >= min_wide_width * scale && size.y >= min_wide_height * scale;
 }
 
 float wrapped_height(const std::string& text, float width) {
@@ -50,7 +50,7 @@ bool draw_wide_button(const ScreenContext& context, words::TextKey key, const Im
     }
     const bool pressed = ImGui::Button(context.words[key].c_str(), size);
     if (is_primary) ImGui::PopStyleColor(2);
-    record_widget(context, key);
+    note_widget(context, key);
     return pressed;
 }
 
@@ -107,7 +107,7 @@ bool draw_card(const ScreenContext& context, const AssemblyEntry& entry, bool is
     ImGui::PushID(entry.name.c_str());
     const bool pressed = ImGui::Selectable("##card", is_selected, 0, size);
     ImGui::PopID();
-    record_widget(context, "menu.assemblies");
+    note_widget(context, "menu.assemblies");
     context.drawn_widgets.back().assembly = entry.name;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 low(at.x + padding, at.y + padding),
@@ -192,10 +192,14 @@ void draw_language_buttons(const ScreenContext& context, float right, content::T
 
 ScreenAction first_of(ScreenAction a, ScreenAction b) { return a != ScreenAction::none ? a : b; }
 
-// The choices on the left; the assembly, its description and the cards on the right. Clears `fits` if the
-// window is not high enough.
-ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictures& pictures,
-                       LessonChoice& choice, Preferences& preferences, bool& fits) {
+struct WideMenu {
+    ScreenAction action = ScreenAction::none;
+    bool fits = true;  // false: the picture is not high enough
+};
+
+// The choices on the left; the assembly, its description and the cards on the right.
+WideMenu draw_wide(const ScreenContext& context, Menu& menu, const MenuPictures& pictures,
+                   LessonChoice& choice, Preferences& preferences) {
     const float scale = context.scale, edge = menu_margin * scale, column = column_width * scale;
     const ImVec2 size(static_cast<float>(context.size.x), static_cast<float>(context.size.y));
     const float inner = column - 2.0F * edge, right_width = size.x - column - 2.0F * edge;
@@ -213,7 +217,7 @@ ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictu
     const float actions =
         3.5F * ImGui::GetFrameHeight() + 3.0F * spacing +
         (menu.first_start ? wrapped_height(context.words["menu.tour.about"], inner) + spacing : 0.0F);
-    fits = ImGui::GetCursorPosY() <= size.y - edge - actions;
+    bool fits = ImGui::GetCursorPosY() <= size.y - edge - actions;
     ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), size.y - edge - actions));
     action = first_of(action, draw_start(context, inner, menu, choice));
     action = first_of(action, draw_pages(context, inner));
@@ -240,7 +244,7 @@ ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictu
     ImGui::SetCursorPosY(size.y - edge - card);
     draw_cards(context, right_width, menu, pictures, choice);
     ImGui::EndGroup();
-    return action;
+    return {action, fits};
 }
 
 // Everything in one column that scrolls, with the buttons at the top.
@@ -320,12 +324,11 @@ ScreenAction draw_menu(const ScreenContext& context, Menu& menu, const MenuPictu
         wide ? menu_flags : menu_flags & ~(ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar));
     ImGui::PopStyleVar(2);
     menu.covered = {};
-    bool fits = true;
-    const ScreenAction action = wide ? draw_wide(context, menu, pictures, choice, preferences, fits)
-                                     : draw_narrow(context, menu, pictures, choice, preferences);
+    const WideMenu drawn = wide ? draw_wide(context, menu, pictures, choice, preferences)
+                                : WideMenu{draw_narrow(context, menu, pictures, choice, preferences), true};
     ImGui::End();
-    if (!fits) menu.too_tall = shown;
-    return action;
+    if (!drawn.fits) menu.too_tall = shown;
+    return drawn.action;
 }
 
 }  // namespace bolt::trainer

@@ -74,12 +74,12 @@ void draw_task_and_mode(const ScreenContext& context, float width, LessonChoice&
     ChoiceRow tasks(context, words["menu.task"], width);
     for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen}) {
         if (tasks.button(words[lesson::text_key(task)], choice.task == task)) choice.task = task;
-        record_widget(context, lesson::text_key(task));
+        note_widget(context, lesson::text_key(task));
     }
     ChoiceRow modes(context, words["menu.mode"], width);
     for (const lesson::Mode mode : {lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment}) {
         if (modes.button(words[lesson::text_key(mode)], choice.mode == mode)) choice.mode = mode;
-        record_widget(context, lesson::text_key(mode));
+        note_widget(context, lesson::text_key(mode));
     }
     const words::TextKey about = choice.mode == lesson::Mode::guided ? words::TextKey("mode.guided.about")
                                  : choice.mode == lesson::Mode::practice
@@ -93,7 +93,7 @@ void draw_task_and_mode(const ScreenContext& context, float width, LessonChoice&
 // A selection replaces the law of the command line and is saved with the trainee's settings.
 void draw_laws(const ScreenContext& context, float width, joint::Law assembly_law, LessonChoice& choice,
                content::TraineeSettings& settings) {
-    const joint::Law selected = law_in_force(choice, settings, assembly_law);
+    const joint::Law selected = effective_law(choice, settings, assembly_law);
     ChoiceRow row(context, context.words["menu.law"], width);
     for (const auto& [key, law] : {std::pair{words::TextKey("menu.law.mechanistic"), joint::Law::mechanistic},
                                    std::pair{words::TextKey("menu.law.published"), joint::Law::published}}) {
@@ -101,7 +101,7 @@ void draw_laws(const ScreenContext& context, float width, joint::Law assembly_la
             settings.law = joint::name(law);
             choice.law.reset();
         }
-        record_widget(context, key);
+        note_widget(context, key);
     }
     ImGui::Indent(label_width(context));
     draw_wrapped(
@@ -194,7 +194,7 @@ ScreenAction draw_choices(const ScreenContext& context, float width, const Choic
     draw_devices(context, width, options.devices, choice.equipment);
     ChoiceRow row(context, context.words["menu.trainee"], width);
     text_field("##trainee", width - label_width(context), choice.trainee);
-    record_widget(context, "menu.trainee");
+    note_widget(context, "menu.trainee");
     if (ImGui::IsItemDeactivatedAfterEdit()) action = ScreenAction::select_trainee;
     ImGui::Spacing();
     if (entry != nullptr) draw_missing(context, width, options, choice);

@@ -26,7 +26,7 @@ void draw_finding(const words::Words& words, const computer::Finding& finding) {
 
 void begin_page(const ScreenContext& context, const char* name, words::TextKey title) {
     const float most = static_cast<float>(context.size.x) - 24.0F * context.scale;
-    begin_panel(context, name, std::min(page_width * context.scale, most), 0.96F);
+    begin_dialog(context, name, std::min(page_width * context.scale, most), 0.96F);
     ImGui::PushFont(context.heading);
     draw_text(context.words[title]);
     ImGui::PopFont();

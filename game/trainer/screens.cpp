@@ -34,7 +34,7 @@ void draw_joint_table(const words::Words& words, std::span<const lesson::JointRe
 
 }  // namespace
 
-void record_widget(const ScreenContext& context, words::TextKey key) {
+void note_widget(const ScreenContext& context, words::TextKey key) {
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     context.drawn_widgets.push_back(
         {key, {0.5F * (low.x + high.x), 0.5F * (low.y + high.y)}, high.x - low.x});
@@ -42,7 +42,7 @@ void record_widget(const ScreenContext& context, words::TextKey key) {
 
 bool draw_button(const ScreenContext& context, words::TextKey key) {
     const bool pressed = ImGui::Button(context.words[key].c_str(), {-1.0F, 0.0F});
-    record_widget(context, key);
+    note_widget(context, key);
     return pressed;
 }
 
@@ -64,7 +64,7 @@ bool draw_choice_button(const std::string& label, bool is_chosen) {
     return pressed;
 }
 
-void begin_panel(const ScreenContext& context, const char* name, float width, float opacity) {
+void begin_dialog(const ScreenContext& context, const char* name, float width, float opacity) {
     ImGui::SetNextWindowPos(
         {static_cast<float>(0.5 * context.size.x), static_cast<float>(0.5 * context.size.y)},
         ImGuiCond_Always, {0.5F, 0.5F});
@@ -106,7 +106,7 @@ void draw_settings_file(const ScreenContext& context, const Preferences& prefere
 
 ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode) {
     ScreenAction action = ScreenAction::none;
-    begin_panel(context, "##pause", 300.0F * context.scale, 0.94F);
+    begin_dialog(context, "##pause", 300.0F * context.scale, 0.94F);
     draw_text(context.words["menu.paused"]);
     ImGui::Separator();
     if (preferences.file_error != Preferences::FileError::none) draw_settings_file(context, preferences);

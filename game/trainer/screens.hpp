@@ -65,12 +65,12 @@ ScreenAction draw_result(const ScreenContext& context, const content::Assembly& 
 
 // Widgets that the menu and the settings screen use as well.
 
-// A button across the window. Returns true when it is pressed.
+// A button as wide as the dialog. Returns true when it is pressed.
 bool draw_button(const ScreenContext& context, words::TextKey key);
-// Records the widget that was drawn last.
-void record_widget(const ScreenContext& context, words::TextKey key);
+// Adds the widget that was drawn last to `drawn_widgets`.
+void note_widget(const ScreenContext& context, words::TextKey key);
 void draw_text(const std::string& line);
-// `width`: px, at which the text wraps; 0: the rest of the window.
+// `width`: px, at which the text wraps; 0: the rest of the dialog.
 void draw_wrapped(const std::string& line, const glm::vec4& color, float width = 0.0F);
 // A button of a row of which one is chosen. Returns true when it is pressed.
 bool draw_choice_button(const std::string& label, bool is_chosen);
@@ -79,7 +79,7 @@ inline constexpr glm::vec4 warning_text{1.0F, 0.55F, 0.45F, 1.0F};  // for what 
 void draw_languages(const ScreenContext& context, content::TraineeSettings& settings);
 // Where the settings are saved, or why they are not.
 void draw_settings_file(const ScreenContext& context, const Preferences& preferences);
-// Begins a window of this width (px) in the middle of the picture; close it with ImGui::End().
-void begin_panel(const ScreenContext& context, const char* name, float width, float opacity);
+// Begins a dialog of this width (px) in the middle of the picture; close it with ImGui::End().
+void begin_dialog(const ScreenContext& context, const char* name, float width, float opacity);
 
 }  // namespace bolt::trainer

@@ -81,9 +81,11 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     const words::Words& words = context.words;
     draw_languages(context, settings);
     draw_slider(words["menu.sound"].c_str(), settings.volume, {});
-    record_widget(context, "menu.sound");
+    note_widget(context, "menu.sound");
+    draw_slider(words["menu.vibration"].c_str(), settings.vibration, {});
+    note_widget(context, "menu.vibration");
     ImGui::Checkbox(words["menu.captions"].c_str(), &settings.captions);
-    record_widget(context, "menu.captions");
+    note_widget(context, "menu.captions");
     ImGui::AlignTextToFramePadding();
     draw_text(words["menu.palette"]);
     for (const auto& [key, kind] :
@@ -91,24 +93,24 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
           std::pair{words::TextKey("menu.palette.distinct"), content::PaletteKind::distinct}}) {
         ImGui::SameLine();
         if (ImGui::RadioButton(words[key].c_str(), settings.palette == kind)) settings.palette = kind;
-        record_widget(context, key);
+        note_widget(context, key);
     }
     ImGui::Separator();
     ImGui::Checkbox(words["menu.left_handed"].c_str(), &settings.left_handed);
-    record_widget(context, "menu.left_handed");
+    note_widget(context, "menu.left_handed");
     bool seated = settings.seated_eye_height.has_value();
     if (ImGui::Checkbox(words["menu.seated"].c_str(), &seated))
         settings.seated_eye_height = seated ? std::optional(default_seat) : std::nullopt;
-    record_widget(context, "menu.seated");
+    note_widget(context, "menu.seated");
     if (settings.seated_eye_height) {
         draw_slider(words["settings.seated_height"].c_str(), *settings.seated_eye_height,
                     {content::min_seated_eye_height, content::max_seated_eye_height, "%.2f m", 1.0});
-        record_widget(context, "settings.seated_height");
+        note_widget(context, "settings.seated_height");
     }
-    draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::least_force_scale, 1.0});
-    record_widget(context, "menu.force_scale");
+    draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::min_force_scale, 1.0});
+    note_widget(context, "menu.force_scale");
     ImGui::Checkbox(words["menu.force_arrow"].c_str(), &settings.force_arrow);
-    record_widget(context, "menu.force_arrow");
+    note_widget(context, "menu.force_arrow");
 }
 
 void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {
@@ -123,7 +125,7 @@ void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {
             waiting_ = waits ? std::nullopt : std::optional(action);
             message_.clear();
         }
-        record_widget(context, text_key(action));
+        note_widget(context, text_key(action));
         ImGui::PopID();
         ImGui::SameLine();
         draw_text(words[text_key(action)]);
@@ -143,7 +145,7 @@ void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {
 }
 
 ScreenAction SettingsScreen::draw(const ScreenContext& context, Preferences& preferences, bool in_lesson) {
-    begin_panel(context, "##settings", 720.0F * context.scale, 0.96F);
+    begin_dialog(context, "##settings", 720.0F * context.scale, 0.96F);
     draw_text(context.words["menu.settings"]);
     ImGui::Separator();
     draw_person(context, preferences.settings);

@@ -12,7 +12,7 @@ class SettingsScreen {
     ScreenAction draw(const ScreenContext& context, Preferences& preferences, bool in_lesson);
 
     // Handles the keys of a frame and returns the events that remain for the interface. After a click on an
-    // action the next key is bound to it; Escape cancels that, or closes the screen (`closes`).
+    // action the next key is bound to it; Escape cancels that, or closes the screen and sets `closes`.
     std::vector<platform::InputEvent> take_keys(std::span<const platform::InputEvent> events,
                                                 const words::Words& words, KeyMap& keys, bool& closes);
 

@@ -205,7 +205,7 @@ void update_client(StationClient& client, const session::LessonSession& session)
     client.latest = client.link->latest_tick();
     client.fault_messages = client.link->fault_messages();
     client.needs = client.link->needs();
-    client.condition = client.link->condition();
+    client.health = client.link->health();
     const station::DisplayedHand* hand = client.link->hand();
     client.gloved = hand != nullptr;
     client.has_gripper = client.link->layout().mover && client.link->layout().mover->senses_gripper;
@@ -263,7 +263,7 @@ WorkingHand hand_of(const StationClient& client) {
     return hand;
 }
 
-bool needs_dead_man(const station::Layout& layout) {
+bool needs_dead_man(const station::DeviceLayout& layout) {
     const auto renders = [](const std::optional<device::Description>& d) {
         return d && (station::renders_force(*d) || station::renders_torque(*d));
     };
@@ -316,7 +316,7 @@ lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys
     if (client == nullptr) return lesson::mouse_controls(words, tool);
     if (client->dragged) return lesson::drag_controls(words, tool);
     if (client->tracked) return lesson::tracked_controls(words);
-    const station::Layout& layout = client->link->layout();
+    const station::DeviceLayout& layout = client->link->layout();
     const std::uint32_t held = layout.mover_buttons.dead_man;
     const bool keyboard = equipment.devices.empty();
     const std::string closes =

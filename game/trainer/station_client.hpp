@@ -14,6 +14,7 @@
 #include "engine/platform/input.hpp"
 #include "game/lesson/hints.hpp"
 #include "game/session/lesson_session.hpp"
+#include "game/station/lesson_station.hpp"
 #include "game/station/station_setup.hpp"
 #include "game/trainer/controls.hpp"
 #include "game/trainer/dragged_hand.hpp"
@@ -40,7 +41,7 @@ class KeyboardPuck {
 
 // How mouse and keyboard move the hand if no device does.
 enum class HandMode : std::uint8_t {
-    helped,    // the mouse chooses a nut, and the hand goes there by itself
+    helped,    // the mouse chooses a nut, and the hand goes there automatically (--hand helped)
     free,      // the mouse moves the hand, which feels the forces of a simulated arm; runs with the frames
     keyboard,  // keys move the tool like a puck
     simulated_arm,  // as `free`, on the threads of a station like a real arm
@@ -99,25 +100,32 @@ struct StationClient {
     std::optional<DraggedHand> dragged;  // the mouse moves a simulated arm
     std::optional<TrackedHand> tracked;  // a headset's hand moves it
 
+    // Received from the station.
     station::StationTick latest;
+    std::vector<std::string> fault_messages;  // of devices and glove
+    device::DeviceHealth health;              // of the device that moves the tool
+    device::ArmNeeds needs;                   // of the device that moves the tool, after it was lost
+    hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench, in the hand or at rest
+    bool gloved = false;
+    bool has_gripper = false;  // of the device that moves the tool
+    bool glove_lost = false;   // the glove sends no valid samples
+
+    // Sent to the station.
     station::StationControls controls;
-    bool tool_placed = false;             // PlaceTool was sent
-    std::uint32_t checkpoints_sent = 0;   // number of station::SaveCheckpoint sent
-    std::uint8_t restore_sent = 0;        // value of the last station::RestoreCheckpoint; 0: none pending
-    bool hand_closed = false;             // in the previous frame
+    bool tool_placed = false;            // PlaceTool was sent
+    std::uint32_t checkpoints_sent = 0;  // number of station::SaveCheckpoint sent
+    std::uint8_t restore_sent = 0;       // value of the last station::RestoreCheckpoint; 0: none pending
+
+    // Derived from the latest tick.
     std::optional<std::size_t> near_nut;  // nut within reach of the tool
     bool near_wrench = false;             // the resting wrench is within reach of the hand
     bool nut_is_nearer = false;           // than the wrench, of both within reach: the hand closes on the nut
-    std::vector<std::string> fault_messages;  // of devices and glove
-    device::Condition condition;              // of the device that moves the tool
-    device::ArmNeeds needs;                   // of the device that moves the tool, after it was lost
-    bool waits_for_arm = false;               // the lesson is paused until the arm has what it needs
-    bool paused_before = false;               // the user had paused the lesson before the arm did
-    hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench, in the hand or at rest
-    bool gloved = false;
-    bool has_gripper = false;        // of the device that moves the tool
-    bool glove_lost = false;         // the glove sends no valid samples
-    double nut_angle_at_grip = 0.0;  // rad, angle of the held nut when it was engaged
+    double nut_angle_at_grip = 0.0;       // rad, angle of the held nut when it was engaged
+
+    // Kept from frame to frame.
+    bool hand_closed = false;    // in the previous frame
+    bool waits_for_arm = false;  // the lesson is paused until the arm has what it needs
+    bool paused_before = false;  // the user had paused the lesson before the arm did
 };
 
 // Angle in rad by which a gloved hand can turn a nut before it has to let go and turn back. A forearm rotates
@@ -146,7 +154,7 @@ struct UserActions {
 
 // Returns true if a device renders forces, which then requires a dead-man switch: a button, or the tool in a
 // gloved hand.
-bool needs_dead_man(const station::Layout& layout);
+bool needs_dead_man(const station::DeviceLayout& layout);
 
 // m between thumb tip and index fingertip below which a gloved hand pinches.
 inline constexpr double pinch_distance = 0.035;

@@ -8,7 +8,7 @@
 
 namespace bolt::trainer {
 
-// A pending request; it is granted once the hand is off the nut.
+// A pending request; it is applied once the hand is off the nut.
 struct StepUndo {
     std::optional<std::size_t> target;  // the step to restart
     bool by_mistake = false;            // requested by a mistake; such a request does not expire
@@ -32,7 +32,7 @@ void observe(StepUndo& undo, const lesson::Lesson& lesson, const lesson::LessonE
 void update(StepUndo& undo, double seconds);
 
 // The number of steps to undo from the lesson's current one; none if no request is pending. It grows if the
-// trainee completes a step before the request is granted.
+// trainee completes a step before the request is applied.
 std::optional<std::size_t> steps_to_undo(const StepUndo& undo, const lesson::Lesson& lesson);
 
 // False once all steps are done and no mistake is pending that can still be undone.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double enough_turn = 0.25;  // rad, of the view
 
-bool& done(Tour& tour, TourStep step) { return tour.done.at(static_cast<std::size_t>(step)); }
+bool& done(Tour& tour, TourTask task) { return tour.done.at(static_cast<std::size_t>(task)); }
 
 std::string motion(const lesson::ControlNames& controls, lesson::HintMotion motion) {
     return controls.at(static_cast<std::size_t>(motion));
@@ -35,7 +35,7 @@ LessonChoice tour_choice(LessonChoice choice) {
     return choice;
 }
 
-std::size_t Tour::due_step() const {
+std::size_t Tour::due_task() const {
     return static_cast<std::size_t>(std::find(done.begin(), done.end(), false) - done.begin());
 }
 
@@ -43,42 +43,42 @@ void update(Tour& tour, const Frame& frame) {
     const FrameInput& input = frame.input;
     const lesson::Lesson& lesson = frame.active.session->lesson();
     tour.turned += view_drag(frame);
-    const auto tick_off = [&](TourStep step, bool condition) {
-        if (condition) done(tour, step) = true;
+    const auto tick_off = [&](TourTask task, bool condition) {
+        if (condition) done(tour, task) = true;
     };
-    tick_off(TourStep::look, tour.turned > enough_turn);
-    tick_off(TourStep::zoom, input.wheel != 0.0);
-    tick_off(TourStep::find, input.triggered(Action::find_view));
-    tick_off(TourStep::run_down, lesson.current > 0);
-    tick_off(TourStep::help, input.triggered(Action::hint));
-    tick_off(TourStep::pause, tour.paused && !frame.active.clock.paused);
-    tick_off(TourStep::take, lesson.current > 0 && hand_of(frame.active).wrench);
-    tick_off(TourStep::tighten, lesson.current > 1);
+    tick_off(TourTask::look, tour.turned > enough_turn);
+    tick_off(TourTask::zoom, input.scroll != 0.0);
+    tick_off(TourTask::find, input.triggered(Action::find_view));
+    tick_off(TourTask::run_down, lesson.current > 0);
+    tick_off(TourTask::help, input.triggered(Action::hint));
+    tick_off(TourTask::pause, tour.paused && !frame.active.clock.paused);
+    tick_off(TourTask::take, lesson.current > 0 && hand_of(frame.active).wrench);
+    tick_off(TourTask::tighten, lesson.current > 1);
     tour.paused = frame.active.clock.paused;
 }
 
-std::string tour_text(const words::Words& words, TourStep step, const ActiveLesson& active,
+std::string tour_text(const words::Words& words, TourTask task, const ActiveLesson& active,
                       const lesson::ControlNames& controls) {
     using lesson::HintMotion;
     const auto key = [&](Action action) { return key_name(active.input.keys, action); };
-    switch (step) {
-        case TourStep::look:
+    switch (task) {
+        case TourTask::look:
             return words["tour.look"];
-        case TourStep::zoom:
+        case TourTask::zoom:
             return words["tour.zoom"];
-        case TourStep::find:
+        case TourTask::find:
             return words::format_text(words, "tour.find", {{"key", key(Action::find_view)}});
-        case TourStep::run_down:
+        case TourTask::run_down:
             return words::format_text(words, "tour.run_down",
                                       {{"grip", motion(controls, HintMotion::grip_nut)},
                                        {"turn", motion(controls, HintMotion::spin)}});
-        case TourStep::help:
+        case TourTask::help:
             return words::format_text(words, "tour.help", {{"key", key(Action::hint)}});
-        case TourStep::pause:
+        case TourTask::pause:
             return words::format_text(words, "tour.pause", {{"key", key(Action::pause)}});
-        case TourStep::take:
+        case TourTask::take:
             return words::format_text(words, "tour.take", {{"control", motion(controls, HintMotion::take)}});
-        case TourStep::tighten:
+        case TourTask::tighten:
             return words::format_text(
                 words, "tour.tighten",
                 {{"torque",
@@ -100,9 +100,9 @@ void draw_tour(const Tour& tour, const ActiveLesson& active, const HudText& text
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoInputs |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
-    const std::size_t due = tour.due_step();
+    const std::size_t due = tour.due_task();
     const float indent = 1.6F * ImGui::GetFontSize();
-    for (std::size_t i = 0; i < tour_step_count; ++i) {
+    for (std::size_t i = 0; i < tour_task_count; ++i) {
         const bool is_done = tour.done.at(i);
         const ImVec4 color = is_done    ? ImVec4(0.5F, 0.75F, 0.55F, 1.0F)
                              : i == due ? ImVec4(1.0F, 0.85F, 0.4F, 1.0F)
@@ -110,7 +110,7 @@ void draw_tour(const Tour& tour, const ActiveLesson& active, const HudText& text
         ImGui::PushStyleColor(ImGuiCol_Text, color);
         ImGui::TextUnformatted(is_done ? "✓" : i == due ? "▶" : "·");
         ImGui::SameLine(indent);
-        const std::string text = tour_text(*texts.words, static_cast<TourStep>(i), active, *texts.controls);
+        const std::string text = tour_text(*texts.words, static_cast<TourTask>(i), active, *texts.controls);
         ImGui::PushTextWrapPos(width - ImGui::GetStyle().WindowPadding.x);
         ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
         ImGui::PopTextWrapPos();

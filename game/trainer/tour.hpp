@@ -17,8 +17,8 @@ inline constexpr const char* tour_assembly = "first-nut";
 // The lesson of the tour, guided, with the trainee and the devices of `choice`.
 LessonChoice tour_choice(LessonChoice choice);
 
-// In the order of the list. The trainee may do them in any order.
-enum class TourStep : std::uint8_t {
+// The tasks in the order of the list. The trainee may do them in any order.
+enum class TourTask : std::uint8_t {
     look,  // turn the view
     zoom,
     find,      // let the program show the due nut
@@ -28,22 +28,22 @@ enum class TourStep : std::uint8_t {
     take,  // the wrench
     tighten,
 };
-inline constexpr std::size_t tour_step_count = 8;
+inline constexpr std::size_t tour_task_count = 8;
 
 struct Tour {
-    std::array<bool, tour_step_count> done{};
+    std::array<bool, tour_task_count> done{};
     double turned = 0.0;  // rad, by which the trainee has turned the view
-    bool paused = false;  // the lesson is paused; its end completes TourStep::pause
+    bool paused = false;  // the lesson is paused; its end completes TourTask::pause
 
-    // The first step that is not done; `tour_step_count` if all are.
-    [[nodiscard]] std::size_t due_step() const;
+    // The first task that is not done; `tour_task_count` if all are.
+    [[nodiscard]] std::size_t due_task() const;
 };
 
-// Call once a frame, after the systems: ticks off the steps that the trainee has done in this frame.
+// Call once a frame, after the systems: ticks off the tasks that the trainee has done in this frame.
 void update(Tour& tour, const Frame& frame);
 
-// The text of a step, with the controls of the trainee's hand.
-std::string tour_text(const words::Words& words, TourStep step, const ActiveLesson& active,
+// The text of a task, with the controls of the trainee's hand.
+std::string tour_text(const words::Words& words, TourTask task, const ActiveLesson& active,
                       const lesson::ControlNames& controls);
 
 // Draws the list at the left edge, between ui::Ui::begin and end. `scale`: px per point.

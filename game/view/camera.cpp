@@ -97,7 +97,7 @@ Orbit limit_eye_height(const Orbit& orbit, double eye) {
     return lower;
 }
 
-Orbit frame_all(const Orbit& o, const render::BoundingBox& box, float aspect) {
+Orbit fit_to_box(const Orbit& o, const render::BoundingBox& box, float aspect) {
     render::Perspective perspective;
     perspective.fov = static_cast<float>(o.fov);
     perspective.aspect = aspect;
@@ -185,7 +185,7 @@ Orbit find_view(const ViewTarget& target, motion::VisibilityModel& model, const 
     near.distance = std::min(from.distance, max_distance * target.setup.wrench.handle_length);
     near.pitch = std::clamp(from.pitch, to_radians(20.0), to_radians(80.0));
     Orbit best = with_wrist(near, target);
-    double most = visibility_from(target, model, eye_of(best)), least_turn = 0.0;
+    double most = visibility_from(target, model, eye_of(best)), min_turn = 0.0;
     if (most >= sufficient_visibility) return best;
     for (int side = 0; side < sides; ++side)
         for (const double pitch : pitches) {
@@ -196,12 +196,12 @@ Orbit find_view(const ViewTarget& target, motion::VisibilityModel& model, const 
                 std::abs(orbit.yaw - from.yaw) + pitch_weight * std::abs(orbit.pitch - near.pitch);
             const Orbit candidate = with_wrist(orbit, target);
             const bool enough = most >= sufficient_visibility;
-            if (enough && turn >= least_turn) continue;
+            if (enough && turn >= min_turn) continue;
             const double visibility =
                 std::min(visibility_from(target, model, eye_of(candidate)), sufficient_visibility);
-            if (visibility < most || (visibility == most && turn >= least_turn)) continue;
+            if (visibility < most || (visibility == most && turn >= min_turn)) continue;
             most = visibility;
-            least_turn = turn;
+            min_turn = turn;
             best = candidate;
         }
     return best;
@@ -252,7 +252,7 @@ CloseUpEye close_up_eye(const ViewTarget& target, const Pose& tool, double swing
     return best;
 }
 
-motion::ViewHelper view_help() {
+motion::ViewHelper make_view_helper() {
     return [model = std::make_shared<motion::VisibilityModel>()](const motion::ViewRequest& request) {
         Viewpoint now;
         now.eye = glm::vec3(request.eye);

@@ -43,7 +43,7 @@ void zoom(Orbit& orbit, double notches, glm::dvec2 at, const render::BoundingBox
 Orbit limit_eye_height(const Orbit& orbit, double eye);
 
 // Shows the whole box from the direction of the orbit.
-Orbit frame_all(const Orbit& orbit, const render::BoundingBox& box, float aspect);
+Orbit fit_to_box(const Orbit& orbit, const render::BoundingBox& box, float aspect);
 
 // A camera that approaches its goal exponentially with a time constant of 70 ms, independent of the frame
 // rate. All values follow the same straight line, so that a zoom keeps its fixed point in between too.
@@ -103,7 +103,8 @@ CloseUpEye close_up_eye(const ViewTarget& target, const Pose& tool, double swing
 // Distance of the close-up's eye from the nut in nut widths, and its field of view in rad.
 inline constexpr double close_up_distance = 4.5, close_up_fov = to_radians(42.0);
 
-// find_view() for simulated trainees. The function caches surface samples: use one per lesson.
-motion::ViewHelper view_help();
+// Makes a function that calls find_view() for a simulated trainee. It caches surface samples: use one per
+// lesson.
+motion::ViewHelper make_view_helper();
 
 }  // namespace bolt::view

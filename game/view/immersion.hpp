@@ -1,5 +1,5 @@
-// The frame of a display that surrounds the user: a headset, or projection walls. Poses are in the room's
-// frame: x to the right, y up, z towards the user's first position, m. The content places its scene in it.
+// One picture frame of a display that surrounds the user: a headset, or projection walls. Poses are in the
+// room's coordinates: x to the right, y up, z towards the user's first position, m.
 #pragma once
 
 #include <functional>
@@ -21,9 +21,9 @@ struct EyeGroup {
 struct Immersion {
     Pose head;
     bool tracked = false;    // false: the head's pose is held or estimated
-    bool attentive = false;  // false: the user does not see the picture; pause, and render no force
-    // Where a viewer is expected, if the display is fixed in the room. Workpiece and panel are placed for it;
-    // none: for the head, once it is tracked.
+    bool attentive = false;  // false: the user does not see the picture; pause, and output no force
+    // Pose of the head for which workpiece and panel are placed, if the display is fixed in the room. None:
+    // they are placed for the tracked head.
     std::optional<Pose> expected_head;
     // Returns true if the display shows a point of the room to the expected head; empty: it shows all points.
     std::function<bool(const Vec3&)> shows;
@@ -37,7 +37,7 @@ struct Immersion {
 };
 
 inline constexpr std::uint32_t immersive_group = 16;
-// m. The near plane is nearer than the hands can comfortably be looked at.
+// m. The near plane is closer than eyes can focus on the hands.
 inline constexpr xr::DepthRange immersive_range{0.03F, 50.0F};
 
 // The eyes of a headset, for pictures of this size.

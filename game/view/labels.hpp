@@ -16,10 +16,10 @@ namespace bolt::view {
 
 struct Palette {
     glm::vec4 due{1.0F, 0.78F, 0.1F, 1.0F};   // the next task and the path to it
-    glm::vec4 low{1.0F, 0.7F, 0.05F, 1.0F};   // below its tolerance window
-    glm::vec4 ok{0.1F, 0.8F, 0.25F, 1.0F};    // inside the window
-    glm::vec4 high{0.95F, 0.1F, 0.1F, 1.0F};  // above the window, or damaged
-    // Text on a dark plate: the present torque is inside the window, or above it.
+    glm::vec4 low{1.0F, 0.7F, 0.05F, 1.0F};   // below its tolerance
+    glm::vec4 ok{0.1F, 0.8F, 0.25F, 1.0F};    // within its tolerance
+    glm::vec4 high{0.95F, 0.1F, 0.1F, 1.0F};  // above its tolerance, or damaged
+    // Text on a dark plate: the present torque is within the tolerance, or above it.
     glm::vec4 ok_text{0.45F, 0.95F, 0.5F, 1.0F};
     glm::vec4 high_text{1.0F, 0.35F, 0.3F, 1.0F};
 };

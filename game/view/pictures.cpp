@@ -54,7 +54,7 @@ Result<GpuContext> make_gpu_context(const gpu::Instance& instance, const gpu::De
 
 std::vector<float> eye_offsets(bool stereo) {
     if (!stereo) return {0.0F};
-    return {-0.5F * interpupillary_distance, 0.5F * interpupillary_distance};
+    return {-0.5F * mean_eye_separation, 0.5F * mean_eye_separation};
 }
 
 glm::mat4 convergence_shear(float offset, float distance, const render::Perspective& lens) {

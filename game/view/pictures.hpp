@@ -35,7 +35,8 @@ std::filesystem::path pipeline_file();
 Result<GpuContext> make_gpu_context(const gpu::Instance& instance, const gpu::DeviceOptions& device_options,
                                     const render::RendererOptions& options = {});
 
-inline constexpr float interpupillary_distance = 0.063F;  // m, mean of adults
+// m, mean of adults (Dodgson 2004: 63 mm). Display files have a default of their own, that of ParaView.
+inline constexpr float mean_eye_separation = 0.063F;
 
 // Offsets of the eyes from the middle, m, to the right: left and right eye, or a single eye at 0.
 std::vector<float> eye_offsets(bool stereo);

@@ -6,7 +6,7 @@
 
 namespace bolt::view {
 
-// Shares of the width and height. The steps are few, because each change makes new render targets.
+// Fractions of the full width and height. The steps are few, because each change makes new render targets.
 inline constexpr float resolution_steps[] = {1.0F, 0.85F, 0.72F, 0.6F, 0.5F, 0.42F, 0.35F};
 
 struct ResolutionControl {

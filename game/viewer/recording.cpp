@@ -7,8 +7,8 @@ namespace bolt::viewer {
 
 namespace {
 
-constexpr double shortest_period = 0.02;     // s
-constexpr std::size_t most_states = 50'000;  // bounds the memory of a long session
+constexpr double shortest_period = 0.02;    // s
+constexpr std::size_t max_states = 50'000;  // bounds the memory of a long session
 
 std::vector<TimelineMark> marks_of(const std::vector<lesson::LessonEvent>& events, double dt) {
     std::vector<TimelineMark> marks;
@@ -69,7 +69,7 @@ Result<std::unique_ptr<Recording>> replay_session(const session::SessionReader& 
     BOLT_TRY_ASSIGN(auto replayed, session::restore_setup(session));
 
     const double duration = static_cast<double>(session.tick_count()) * dt;
-    recording->period = std::max(shortest_period, duration / static_cast<double>(most_states));
+    recording->period = std::max(shortest_period, duration / static_cast<double>(max_states));
     world::World world;
     world::add_haptics(world, replayed.state);
     recording->states.push_back(state_of(world));

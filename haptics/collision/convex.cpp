@@ -213,7 +213,7 @@ Polygon clip(const Polygon& given, const Vec3& outward, double offset) {
 }
 
 // The face whose normal is most aligned with `n`.
-std::uint32_t most_aligned_face(std::span<const Vec3> normals, std::size_t count, const Vec3& n) {
+std::uint32_t max_aligned_face(std::span<const Vec3> normals, std::size_t count, const Vec3& n) {
     std::uint32_t best = 0;
     for (std::uint32_t i = 1; i < count; ++i)
         if (glm::dot(normals[i], n) > glm::dot(normals[best], n)) best = i;
@@ -340,10 +340,10 @@ std::size_t contact_points(const Convex& tool, const Convex& obstacle, const Pos
     for (std::size_t i = 0; i < obstacle.faces.size(); ++i) normals[i] = obstacle.faces[i].plane.normal;
     const std::uint32_t obstacle_face = s.features == FeaturePair::obstacle_face
                                             ? s.on_obstacle
-                                            : most_aligned_face(normals, obstacle.faces.size(), n);
+                                            : max_aligned_face(normals, obstacle.faces.size(), n);
     const std::uint32_t tool_face = s.features == FeaturePair::tool_face
                                         ? s.on_tool
-                                        : most_aligned_face(posed.normals, tool.faces.size(), -n);
+                                        : max_aligned_face(posed.normals, tool.faces.size(), -n);
     const HalfSpace& plane = obstacle.faces[obstacle_face].plane;
     const double cosine = glm::dot(plane.normal, n);
     if (cosine > min_parallel_cosine && -glm::dot(posed.normals[tool_face], n) > min_parallel_cosine) {

@@ -85,7 +85,7 @@ void add_edge(ContactMesh& mesh, const HalfEdge& a, const HalfEdge& b) {
         return;
     }
     const double curvature = angle / width;
-    if (!edge.convex || curvature < least_curvature) return;
+    if (!edge.convex || curvature < min_curvature) return;
     const double spacing = spacing_on_round(curvature);
     if (glm::length(Vec3(mesh.vertices[edge.vertices[1]]) - Vec3(mesh.vertices[edge.vertices[0]])) > spacing)
         mesh.round_edges.push_back({edge.vertices, edge.triangle, static_cast<float>(spacing)});

@@ -70,7 +70,7 @@ inline constexpr double crease = 30.0 * pi / 180.0;
 // m; between neighbouring samples a round surface rises by no more than this.
 inline constexpr double round_rise = 60e-6;
 // 1/m; a lower curvature adds no samples.
-inline constexpr double least_curvature = 10.0;
+inline constexpr double min_curvature = 10.0;
 
 // The largest spacing of samples (m) on a surface of this curvature (1/m).
 inline double spacing_on_round(double curvature) { return std::sqrt(8.0 * round_rise / curvature); }

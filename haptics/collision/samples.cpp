@@ -153,7 +153,7 @@ std::vector<double> spacings(const Solid& solid, double along_edges) {
         }
     std::vector<double> spacing(mesh.vertices.size());
     for (std::size_t v = 0; v < spacing.size(); ++v)
-        spacing[v] = curvature[v] < least_curvature ? infinite_distance : spacing_on_round(curvature[v]);
+        spacing[v] = curvature[v] < min_curvature ? infinite_distance : spacing_on_round(curvature[v]);
     // At a vertex on an edge sharper than `sampled_edge_angle` only the curvature of the edge itself counts.
     const RidgeGraph ridges(solid, sampled_edge_angle);
     for (std::uint32_t v = 0; v < spacing.size(); ++v) {
@@ -170,9 +170,9 @@ std::vector<double> spacings(const Solid& solid, double along_edges) {
         const double bend =
             2.0 * turn /
             (glm::length(from - Vec3(mesh.vertices[v])) + glm::length(to - Vec3(mesh.vertices[v])));
-        spacing[v] = turn > to_radians(20.0)  ? 0.0
-                     : bend < least_curvature ? along_edges
-                                              : std::min(along_edges, spacing_on_round(bend));
+        spacing[v] = turn > to_radians(20.0) ? 0.0
+                     : bend < min_curvature  ? along_edges
+                                             : std::min(along_edges, spacing_on_round(bend));
     }
     return spacing;
 }
@@ -360,7 +360,7 @@ SurfaceSamples make_samples(const Solid& solid, const SampleOptions& options) {
         const PoissonSamples points(solid.mesh, options.on_faces);
         result.samples.insert(result.samples.end(), points.accepted().begin(), points.accepted().end());
     }
-    if (options.edges) add_edges(solid, options.longest_piece, result);
+    if (options.edges) add_edges(solid, options.max_piece, result);
     result.levels.emplace_back();
     build_clusters(result, 0, result.samples.size());
     while (result.levels.back().size() > cluster_size)

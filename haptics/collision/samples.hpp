@@ -46,7 +46,7 @@ struct SurfaceSamples {
 };
 
 struct SampleOptions {
-    double longest_piece = 4e-3;  // m; edges that continue nearly straight are joined up to this length
+    double max_piece = 4e-3;  // m; edges that continue nearly straight are joined up to this length
     // `edges`: pieces of sharp edges, for a tool. `round`: points along round edges, for obstacles. Where a
     // sharp edge meets a round one, the samples of one of the two suffice.
     bool edges = true, round = false;

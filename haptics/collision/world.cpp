@@ -26,7 +26,7 @@ Status add_shape(CollisionWorld& world, std::span<const ContactMesh> parts, std:
 }  // namespace
 
 Result<ToolShape> make_tool(std::span<const ContactMesh> parts, const ToolOptions& options) {
-    if (!(options.samples.longest_piece > 0.0) || options.samples.on_faces > 1'000'000)
+    if (!(options.samples.max_piece > 0.0) || options.samples.on_faces > 1'000'000)
         return fail(ErrorCode::bad_content, "the tool's sample options are invalid",
                     "a positive length of edge pieces and at most 1,000,000 points on faces");
     for (const ContactMesh& part : parts)

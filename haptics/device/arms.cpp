@@ -16,7 +16,7 @@ namespace bolt::device {
 
 namespace {
 
-constexpr int max_arms = 16;  // of one vendor
+constexpr int max_arms = 16;  // of one backend
 
 // The entry of a library that is present and cannot be used.
 ListedDevice unusable_arm(std::string_view vendor, const char* name, Error error) {
@@ -103,16 +103,16 @@ Result<std::unique_ptr<DeviceDriver>> open_listed_plugin_arm(const ListedDevice&
                            steady_timer());
 }
 
-constexpr std::array vendors{
-    ArmVendor{"force-dimension", list_force_dimension, open_listed_force_dimension},
-    ArmVendor{"openhaptics", list_open_haptics, open_listed_open_haptics},
-    ArmVendor{"haply", list_haply_arms, open_listed_haply},
-    ArmVendor{"plugin", list_plugin_arms, open_listed_plugin_arm},
+constexpr std::array backends{
+    ArmBackend{"force-dimension", list_force_dimension, open_listed_force_dimension},
+    ArmBackend{"openhaptics", list_open_haptics, open_listed_open_haptics},
+    ArmBackend{"haply", list_haply_arms, open_listed_haply},
+    ArmBackend{"plugin", list_plugin_arms, open_listed_plugin_arm},
 };
 
 }  // namespace
 
-std::span<const ArmVendor> arm_vendors() { return vendors; }
+std::span<const ArmBackend> arm_backends() { return backends; }
 
 int arm_index(std::string_view id) {
     int index = 0;

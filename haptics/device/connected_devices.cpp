@@ -68,7 +68,7 @@ std::vector<HidNode> enumerate_nodes() {
 // Identifies pucks by vendor and product if the descriptor cannot be read: 3Dconnexion, also under Logitech's
 // name.
 DeviceKind kind_by_number(const HidIdentity& identity) {
-    if (identity.vendor == board_vendor && identity.product == board_product) return DeviceKind::board;
+    if (identity.vendor == board_vendor && identity.product == board_product) return DeviceKind::open_ffboard;
     const bool logitech =
         identity.vendor == 0x046d && identity.product >= 0xc603 && identity.product <= 0xc62b;
     return identity.vendor == 0x256f || logitech ? DeviceKind::puck : DeviceKind::other;
@@ -77,7 +77,7 @@ DeviceKind kind_by_number(const HidIdentity& identity) {
 Status check_driver_support(DeviceKind kind, const ReportDescriptor& descriptor) {
     if (kind == DeviceKind::puck) {
         BOLT_TRY(six_axis_layout(descriptor));
-    } else if (kind == DeviceKind::board || kind == DeviceKind::wheel) {
+    } else if (kind == DeviceKind::open_ffboard || kind == DeviceKind::wheel) {
         BOLT_TRY(wheel_axis(descriptor));
         BOLT_TRY(force_feedback_layout(descriptor));
     }
@@ -115,8 +115,8 @@ ListedDevice listed(const HidNode& one) {
 
 std::vector<ListedDevice> list_arms() {
     std::vector<ListedDevice> arms;
-    for (const ArmVendor& vendor : arm_vendors())
-        for (ListedDevice& arm : vendor.list()) arms.push_back(std::move(arm));
+    for (const ArmBackend& backend : arm_backends())
+        for (ListedDevice& arm : backend.list()) arms.push_back(std::move(arm));
     return arms;
 }
 
@@ -127,8 +127,8 @@ Result<std::unique_ptr<DeviceDriver>> open_arm(const ListedDevice& listed, const
             ErrorCode::usage,
             fmt::format("the mass that is mounted on {} is {:g} kg", listed.id, options.effector_mass),
             fmt::format("0 to {:g} kg", max_effector_mass));
-    for (const ArmVendor& vendor : arm_vendors())
-        if (listed.id.starts_with(std::string(vendor.name) + ':')) return vendor.open(listed, options);
+    for (const ArmBackend& backend : arm_backends())
+        if (listed.id.starts_with(std::string(backend.name) + ':')) return backend.open(listed, options);
     return fail(ErrorCode::no_device, fmt::format("{} is not an arm that can be opened", listed.id),
                 "one that `boltwright devices` lists");
 }
@@ -136,7 +136,7 @@ Result<std::unique_ptr<DeviceDriver>> open_arm(const ListedDevice& listed, const
 }  // namespace
 
 DeviceKind kind_of(const HidIdentity& identity, const ReportDescriptor& descriptor) {
-    if (identity.vendor == board_vendor && identity.product == board_product) return DeviceKind::board;
+    if (identity.vendor == board_vendor && identity.product == board_product) return DeviceKind::open_ffboard;
     for (const Collection& c : descriptor.collections)
         if (c.usage == multi_axis_controller) return DeviceKind::puck;
     for (const ReportField& f : descriptor.fields)
@@ -181,7 +181,7 @@ Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const Ope
     switch (listed.kind) {
         case DeviceKind::puck:
             return make_space_mouse(std::move(transport), descriptor, listed.name, listed.id, options.puck);
-        case DeviceKind::board:
+        case DeviceKind::open_ffboard:
             return make_open_ffboard(std::move(transport), descriptor, listed.name, listed.id, options.wheel);
         case DeviceKind::wheel:
             return make_wheel(std::move(transport), descriptor, listed.name, listed.id, options.wheel);

@@ -14,9 +14,9 @@ namespace bolt::device {
 class UnfinishedCalibrations;  // plugin_arms.hpp
 
 enum class DeviceKind : std::uint8_t {
-    arm,    // through its vendor's library or service (arms.hpp); renders forces
-    puck,   // six axes that spring back; SpaceMouse class
-    board,  // OpenFFBoard
+    arm,   // through its vendor's library or service (arms.hpp); renders forces
+    puck,  // six axes that spring back; SpaceMouse class
+    open_ffboard,
     wheel,  // any other device with USB force feedback
     other,  // unsupported
 };
@@ -43,7 +43,8 @@ struct ListedDevice {
 // The devices connected now; with `others` also unsupported ones such as keyboards.
 std::vector<ListedDevice> list_devices(bool others = false);
 
-inline constexpr double max_effector_mass = 1.0;  // kg; the arms render 1 to 2 kg of weight
+// kg. The arms can lift 1 to 2 kg, depending on the model; the rest is left for forces.
+inline constexpr double max_effector_mass = 1.0;
 
 struct OpenOptions {
     WheelConfig wheel{};

@@ -79,15 +79,15 @@ std::vector<std::string> summary_lines(const Description& d) {
     return lines;
 }
 
-std::vector<std::string> summary_lines(const Condition& condition) {
+std::vector<std::string> summary_lines(const DeviceHealth& health) {
     std::vector<std::string> lines;
-    if (condition.calibrated)
-        lines.emplace_back(*condition.calibrated ? "calibrated" : "not calibrated: its position is unknown");
-    if (condition.heat)
-        lines.push_back(fmt::format("motors at {:.0f} % of their greatest heat{}", 100.0 * *condition.heat,
-                                    condition.cooling    ? ": no force until they are cool"
-                                    : is_warm(condition) ? ": rest the arm"
-                                                         : ""));
+    if (health.calibrated)
+        lines.emplace_back(*health.calibrated ? "calibrated" : "not calibrated: its position is unknown");
+    if (health.heat)
+        lines.push_back(fmt::format("motors at {:.0f} % of their greatest heat{}", 100.0 * *health.heat,
+                                    health.cooling    ? ": no force until they are cool"
+                                    : is_warm(health) ? ": rest the arm"
+                                                      : ""));
     return lines;
 }
 
@@ -109,7 +109,7 @@ Error unprepared_device_error(std::string what, std::string expected, Preparatio
     return error;
 }
 
-Error immobile_device_error(const std::string& name, std::string_view id) {
+Error move_permission_error(const std::string& name, std::string_view id) {
     return unprepared_device_error(
         name + " has to move by itself to find its position, and may not",
         fmt::format("free room around it, then `boltwright devices --device {} --yes`", id),

@@ -59,8 +59,8 @@ struct Description {
     std::vector<std::string> remarks;  // restrictions and peculiarities, each with a remedy
 };
 
-// The state of an open device, as far as the device reports it.
-struct Condition {
+// Calibration and heat of an open device, as far as the device reports them.
+struct DeviceHealth {
     // Its position is calibrated; none: it needs no calibration or does not report it.
     std::optional<bool> calibrated;
     // 0 … 1, of its hottest motor: at 1 the device ends its force. None: it does not report it.
@@ -68,12 +68,12 @@ struct Condition {
     bool cooling = false;  // it renders no force until its motors are cool
 };
 inline constexpr double warm_threshold = 0.8;  // heat from which the user should rest the arm
-[[nodiscard]] inline bool is_warm(const Condition& c) {
+[[nodiscard]] inline bool is_warm(const DeviceHealth& c) {
     return c.cooling || c.heat.value_or(0.0) >= warm_threshold;
 }
 
 struct Sample {
-    Pose pose;                   // of the grip, device frame; Sensing::pose
+    Pose pose;                   // of the handle, device frame; Sensing::pose
     Vec3 velocity{0.0};          // m/s, Sensing::velocity
     Vec3 angular_velocity{0.0};  // rad/s
     double angle = 0.0;          // rad, right-handed about the axis; Sensing::angle
@@ -88,7 +88,7 @@ Error lost_device_error(std::string what, std::string expected);
 // The error of an arm that is connected and cannot be opened before it has what it needs.
 Error unprepared_device_error(std::string what, std::string expected, Preparation preparation);
 // The same for an arm that would have to move by itself and has no permission.
-Error immobile_device_error(const std::string& name, std::string_view id);
+Error move_permission_error(const std::string& name, std::string_view id);
 
 // The interface of a driver: a device that measures the hand and may render force. A driver neither reopens a
 // lost device (DeviceSupervisor does) nor exchanges data with the servo (DeviceThread does). All calls come
@@ -101,15 +101,15 @@ class DeviceDriver {
     // Releases the force if the device is still connected.
     virtual ~DeviceDriver() = default;
 
-    [[nodiscard]] virtual const Description& describe() const = 0;
+    [[nodiscard]] virtual const Description& description() const = 0;
     // As of the latest read(). Does not block.
-    [[nodiscard]] virtual Condition condition() const { return {}; }
+    [[nodiscard]] virtual DeviceHealth health() const { return {}; }
 
     // Waits at most `timeout` s for a sample; nullopt on timeout. An error means that the device is lost; the
     // caller then closes it and opens it again.
     virtual Result<std::optional<Sample>> read(double timeout) = 0;
 
-    // Renders a force (N) and torque (N·m) in the device frame, within describe().limits. May block.
+    // Renders a force (N) and torque (N·m) in the device frame, within description().limits. May block.
     virtual Status write(const force::OutputCommand& command) = 0;
 };
 
@@ -119,7 +119,7 @@ force::OutputCommand clamp_to_limits(const Description& description, force::Outp
 // Opens the device; called again after each loss. The error states a remedy for the user.
 using DeviceFactory = std::function<Result<std::unique_ptr<DeviceDriver>>()>;
 
-// Properties that a wheel does not report: the builder of the station enters them.
+// Properties that a wheel does not report: the installer enters them.
 struct WheelConfig {
     // Motor torque at full drive, N·m. Overestimating it weakens the rendered torque, which is the safe side;
     // the default is that of the strongest wheels on the market.
@@ -148,6 +148,6 @@ struct PuckResponse {
 // it senses, what it renders, and its remarks.
 std::vector<std::string> summary_lines(const Description& description);
 // Its calibration and temperature, as far as it reports them.
-std::vector<std::string> summary_lines(const Condition& condition);
+std::vector<std::string> summary_lines(const DeviceHealth& health);
 
 }  // namespace bolt::device

@@ -30,7 +30,7 @@ DeviceSupervisor::DeviceSupervisor(DeviceFactory open, Timer timer, const Superv
 DeviceSupervisor::~DeviceSupervisor() { close(); }
 
 bool DeviceSupervisor::expects_samples() const {
-    return report_.description->sensing != Sensing::velocity && !report_.description->silent_at_rest;
+    return status_.description->sensing != Sensing::velocity && !status_.description->silent_at_rest;
 }
 
 namespace {
@@ -47,10 +47,10 @@ bool is_within_reach(const Vec3& position, const Vec3& reach) {
 }  // namespace
 
 bool DeviceSupervisor::is_valid(const Sample& s) const {
-    switch (report_.description->sensing) {
+    switch (status_.description->sensing) {
         case Sensing::pose:
             return finite(s.pose.position) &&
-                   is_within_reach(s.pose.position, report_.description->half_workspace) &&
+                   is_within_reach(s.pose.position, status_.description->half_workspace) &&
                    std::abs(glm::dot(s.pose.orientation, s.pose.orientation) - 1.0) < 1e-2;
         case Sensing::velocity:
             return finite(s.velocity) && finite(s.angular_velocity);
@@ -66,27 +66,27 @@ bool DeviceSupervisor::try_open(std::uint64_t number) {
     next_try_ = now + retry_delay_;
     retry_delay_ = std::min(2.0 * retry_delay_, options_.max_retry_delay);
     if (!opened) {
-        ++report_.failed_openings;
-        report_.fault_message = opened.error().message();
-        report_.preparation = preparation_of(opened.error());
+        ++status_.failed_openings;
+        status_.fault_message = opened.error().message();
+        status_.preparation = preparation_of(opened.error());
         return false;
     }
-    ++report_.openings;
-    report_.preparation = {};
+    ++status_.openings;
+    status_.preparation = {};
     device_ = std::move(*opened);
-    report_.description = std::make_shared<const Description>(device_->describe());
+    status_.description = std::make_shared<const Description>(device_->description());
     // One sample period, so that reading does not delay the next command.
-    const double period = 1.0 / std::clamp(report_.description->rate, 1.0, 1e4);
-    read_timeout_ = std::clamp(period, 1e-3, renders(*report_.description) ? 2e-3 : 10e-3);
+    const double period = 1.0 / std::clamp(status_.description->rate, 1.0, 1e4);
+    read_timeout_ = std::clamp(period, 1e-3, renders(*status_.description) ? 2e-3 : 10e-3);
     last_sample_ = now;
     command_number_ = number;
     command_time_ = now - options_.command_timeout;
     may_hold_force_ = true;  // an earlier user may have left a force
     rendering_ = false;
-    report_.state = DeviceState::silent;
+    status_.state = DeviceState::silent;
     if (!expects_samples()) {
-        report_.state = DeviceState::usable;
-        report_.fault_message.clear();
+        status_.state = DeviceState::usable;
+        status_.fault_message.clear();
     }
     return true;
 }
@@ -94,23 +94,23 @@ bool DeviceSupervisor::try_open(std::uint64_t number) {
 void DeviceSupervisor::close() {
     if (!device_) return;
     // An error means that the device is already lost.
-    if (renders(*report_.description) && device_->write({})) ++report_.writes;
+    if (renders(*status_.description) && device_->write({})) ++status_.writes;
     device_.reset();
-    report_.condition = {};
-    report_.state = DeviceState::absent;
+    status_.health = {};
+    status_.state = DeviceState::absent;
 }
 
 void DeviceSupervisor::handle_loss(const Error& error) {
-    ++report_.losses;
-    report_.fault_message = error.message();
+    ++status_.losses;
+    status_.fault_message = error.message();
     device_.reset();
-    report_.condition = {};
-    report_.state = DeviceState::absent;
+    status_.health = {};
+    status_.state = DeviceState::absent;
     next_try_ = timer_.now() + retry_delay_;
 }
 
 Status DeviceSupervisor::write(const ForceCommand& requested, double now) {
-    if (!renders(*report_.description)) return {};
+    if (!renders(*status_.description)) return {};
     const bool is_new = requested.number != command_number_;
     if (is_new) {
         command_number_ = requested.number;
@@ -120,37 +120,37 @@ Status DeviceSupervisor::write(const ForceCommand& requested, double now) {
     force::OutputCommand command;
     const bool is_finite = finite(requested.command.force) && finite(requested.command.torque);
     if (requested.enabled && !stale && is_finite)
-        command = clamp_to_limits(*report_.description, requested.command);
+        command = clamp_to_limits(*status_.description, requested.command);
     const bool forces = command.force != Vec3(0.0) || command.torque != Vec3(0.0);
     // A new command is written even if its force is unchanged: some devices drop the force when writes stop.
     if (!(forces && is_new) && !(!forces && may_hold_force_)) return {};
-    if (stale && requested.enabled && rendering_) ++report_.command_timeouts;
+    if (stale && requested.enabled && rendering_) ++status_.command_timeouts;
     const double begun = timer_.now();
     BOLT_TRY(device_->write(command));
     const double taken = timer_.now() - begun;
-    report_.write_time += taken;
-    report_.longest_write = std::max(report_.longest_write, taken);
-    ++report_.writes;
+    status_.write_time += taken;
+    status_.longest_write = std::max(status_.longest_write, taken);
+    ++status_.writes;
     may_hold_force_ = rendering_ = forces;
     return {};
 }
 
 void DeviceSupervisor::track_silence(bool received, double now) {
     if (received) {
-        ++report_.samples;
+        ++status_.samples;
         last_sample_ = now;
         // A successful opening does not reset the delay: some devices are lost at the first read or write.
         retry_delay_ = options_.first_retry_delay;
-        report_.state = DeviceState::usable;
-        report_.fault_message.clear();
+        status_.state = DeviceState::usable;
+        status_.fault_message.clear();
         return;
     }
     if (!expects_samples() || now - last_sample_ < options_.max_silence) return;
-    report_.state = DeviceState::silent;
-    const std::string message = report_.description->name + " is connected but sends no valid samples";
-    if (report_.fault_message != message) report_.fault_message = message;
+    status_.state = DeviceState::silent;
+    const std::string message = status_.description->name + " is connected but sends no valid samples";
+    if (status_.fault_message != message) status_.fault_message = message;
     if (now - last_sample_ < options_.reopen_after) return;
-    ++report_.silence_timeouts;
+    ++status_.silence_timeouts;
     close();
     next_try_ = now + retry_delay_;
 }
@@ -170,10 +170,10 @@ std::optional<Sample> DeviceSupervisor::poll(FunctionRef<ForceCommand()> latest_
         return {};
     }
     const double now = timer_.now();
-    report_.condition = device_->condition();
+    status_.health = device_->health();
     std::optional<Sample> sample = *read;
     if (sample && !is_valid(*sample)) {
-        ++report_.malformed;
+        ++status_.malformed_samples;
         sample.reset();
     }
     if (Status written = write(latest_command(), now); !written) {
@@ -186,10 +186,10 @@ std::optional<Sample> DeviceSupervisor::poll(FunctionRef<ForceCommand()> latest_
 
 namespace {
 
-constexpr double report_interval = 0.1;  // s between two reports if only counters have changed
+constexpr double publish_interval = 0.1;  // s between two updates of the status if only counters have changed
 
-// True if the report must be published now.
-bool changed(const DeviceReport& now, const DeviceReport& before) {
+// Returns true if the status must be published now.
+bool changed(const DeviceStatus& now, const DeviceStatus& before) {
     return now.state != before.state || now.openings != before.openings || now.losses != before.losses ||
            now.fault_message != before.fault_message || now.preparation != before.preparation;
 }
@@ -201,11 +201,11 @@ void run_once(DeviceSupervisor& supervisor, DeviceMailboxes& mailboxes, DeviceSn
         mailboxes.commands.update();
         return mailboxes.commands.latest();
     });
-    const DeviceReport& report = supervisor.report();
-    const bool usable = report.state == DeviceState::usable;
-    if (!sample && usable == snapshot.usable && report.openings == snapshot.connection_number) return;
+    const DeviceStatus& status = supervisor.status();
+    const bool usable = status.state == DeviceState::usable;
+    if (!sample && usable == snapshot.usable && status.openings == snapshot.connection_number) return;
     snapshot.usable = usable;
-    snapshot.connection_number = report.openings;
+    snapshot.connection_number = status.openings;
     if (sample) {
         snapshot.sample = *sample;
         ++snapshot.number;
@@ -233,19 +233,19 @@ struct DeviceThread::Shared {
             pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
         }
         DeviceSnapshot snapshot;
-        DeviceReport before;
+        DeviceStatus before;
         double published_at = 0.0;
         while (!stop.stop_requested()) {
             run_once(supervisor, mailboxes, snapshot);
             last_return.store(timer.now(), std::memory_order_relaxed);
-            const DeviceReport& now = supervisor.report();
-            if (!changed(now, before) && timer.now() - published_at < report_interval) continue;
+            const DeviceStatus& now = supervisor.status();
+            if (!changed(now, before) && timer.now() - published_at < publish_interval) continue;
             before = now;
             published_at = timer.now();
-            mailboxes.reports.write(now);
+            mailboxes.statuses.write(now);
         }
         supervisor.close();
-        mailboxes.reports.write(supervisor.report());
+        mailboxes.statuses.write(supervisor.status());
     }
 };
 
@@ -273,9 +273,9 @@ const DeviceSnapshot& DeviceThread::snapshot() {
     return shared_->mailboxes.snapshots.latest();
 }
 
-const DeviceReport& DeviceThread::report() {
-    shared_->mailboxes.reports.update();
-    return shared_->mailboxes.reports.latest();
+const DeviceStatus& DeviceThread::status() {
+    shared_->mailboxes.statuses.update();
+    return shared_->mailboxes.statuses.latest();
 }
 
 double DeviceThread::blocked_for() const {
@@ -285,19 +285,19 @@ double DeviceThread::blocked_for() const {
 Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(
     double timeout, const PreparationHandler& on_preparation) {
     double until = shared_->timer.now() + timeout;
-    while (report().openings == 0) {
+    while (status().openings == 0) {
         if (on_preparation) {
-            const bool needs = report().preparation.need != DeviceNeed::none;
-            const bool waits = on_preparation(report().preparation);
+            const bool needs = status().preparation.need != DeviceNeed::none;
+            const bool waits = on_preparation(status().preparation);
             if (!waits) until = 0.0;
             if (waits && needs) until = shared_->timer.now() + timeout;
         }
         if (shared_->timer.now() >= until) {
-            if (!report().fault_message.empty()) {
+            if (!status().fault_message.empty()) {
                 Error error;
                 error.code = ErrorCode::no_device;
-                error.what = report().fault_message;
-                set_preparation(error, report().preparation);
+                error.what = status().fault_message;
+                set_preparation(error, status().preparation);
                 return fail(std::move(error));
             }
             return fail(ErrorCode::no_device, "the device does not open in time",
@@ -306,7 +306,7 @@ Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(
         shared_->timer.wait(5e-3);
     }
     if (on_preparation) (void)on_preparation({});
-    return report().description;
+    return status().description;
 }
 
 }  // namespace bolt::device

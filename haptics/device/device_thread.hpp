@@ -34,16 +34,16 @@ enum class DeviceState : std::uint8_t {
     usable,
 };
 
-struct DeviceReport {
+struct DeviceStatus {
     DeviceState state = DeviceState::absent;
     std::string fault_message;                        // plain text with a remedy; empty: none
-    Preparation preparation;                          // what the device needs before it can be opened
-    Condition condition;                              // while open
+    Preparation preparation;                          // need that must be met before it can be opened
+    DeviceHealth health;                              // while open
     std::shared_ptr<const Description> description;   // from the last opening; null: never opened
     std::uint64_t openings = 0, failed_openings = 0;  // successful and failed attempts to open
     std::uint64_t losses = 0;                         // closed after a read or write error
     std::uint64_t silence_timeouts = 0;               // closed after reopen_after s of silence
-    std::uint64_t samples = 0, malformed = 0;
+    std::uint64_t samples = 0, malformed_samples = 0;
     std::uint64_t writes = 0;
     double write_time = 0.0, longest_write = 0.0;  // s that the driver took for them
     std::uint64_t command_timeouts = 0;            // command timeouts while a force was rendered
@@ -66,7 +66,7 @@ class DeviceSupervisor {
     // Releases the force if possible and closes the device.
     void close();
 
-    [[nodiscard]] const DeviceReport& report() const { return report_; }
+    [[nodiscard]] const DeviceStatus& status() const { return status_; }
 
   private:
     bool try_open(std::uint64_t number);
@@ -79,7 +79,7 @@ class DeviceSupervisor {
     DeviceFactory open_;
     Timer timer_;
     SupervisorOptions options_;
-    DeviceReport report_;
+    DeviceStatus status_;
     std::unique_ptr<DeviceDriver> device_;
     double read_timeout_ = 0.0;
     double retry_delay_ = 0.0, next_try_ = 0.0;  // s
@@ -87,7 +87,8 @@ class DeviceSupervisor {
     std::uint64_t command_number_ = 0;           // of the newest command
     double command_time_ = 0.0;                  // when that command was first seen
     bool rendering_ = false;                     // the last write was not zero
-    bool may_hold_force_ = false;                // a force may remain: no zero has been written since
+    // A force may remain: no zero command was written since the device was opened or last rendered a force.
+    bool may_hold_force_ = false;
 };
 
 // The device as the servo sees it.
@@ -101,7 +102,7 @@ struct DeviceSnapshot {
 struct DeviceMailboxes {
     TripleBuffer<ForceCommand> commands;
     TripleBuffer<DeviceSnapshot> snapshots;
-    TripleBuffer<DeviceReport> reports;
+    TripleBuffer<DeviceStatus> statuses;
 };
 
 // Polls the supervisor once and updates the mailboxes. The thread repeats it; tests call it in virtual time.
@@ -127,14 +128,14 @@ class DeviceThread {
     const DeviceSnapshot& snapshot();
 
     // At most 0.1 s old. One calling thread, not necessarily the servo's.
-    const DeviceReport& report();
+    const DeviceStatus& status();
 
     // s since the driver's last call returned. A driver that hangs cannot update its report.
     [[nodiscard]] double blocked_for() const;
 
     // Waits until the device is open and returns its description; the error after `timeout` s states why it
     // is not. The time in which the device needs something and `on_preparation` waits for it does not count.
-    // Reads report(), so call it from the same thread.
+    // Reads status(), so call it from the same thread.
     Result<std::shared_ptr<const Description>> wait_until_open(double timeout,
                                                                const PreparationHandler& on_preparation = {});
 

@@ -159,7 +159,7 @@ class ForceDimensionArm final : public DeviceDriver {
     Status enable(const ForceDimensionOptions& options) {
         BOLT_TRY(balance(options.effector_mass));
         if (!api_.is_initialized(id_)) {
-            if (!options.may_move) return fail(immobile_device_error(description_.name, description_.id));
+            if (!options.may_move) return fail(move_permission_error(description_.name, description_.id));
             if (api_.auto_init(id_) < 0) return failure("it does not find its position");
         }
         // Ends the regulation of the position; the forces stay on.
@@ -171,7 +171,7 @@ class ForceDimensionArm final : public DeviceDriver {
         return {};
     }
 
-    [[nodiscard]] const Description& describe() const override { return description_; }
+    [[nodiscard]] const Description& description() const override { return description_; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double now = timer_.now();
@@ -204,7 +204,7 @@ class ForceDimensionArm final : public DeviceDriver {
         return send(command);
     }
 
-    [[nodiscard]] Condition condition() const override { return {true, {}, false}; }
+    [[nodiscard]] DeviceHealth health() const override { return {true, {}, false}; }
 
   private:
     Status read_gripper(Sample& sample) const {

@@ -128,10 +128,10 @@ class HaplyArm final : public DeviceDriver {
         return {};
     }
 
-    [[nodiscard]] const Description& describe() const override { return description_; }
+    [[nodiscard]] const Description& description() const override { return description_; }
 
     // An arm that loses its calibration is lost.
-    [[nodiscard]] Condition condition() const override { return {true, {}, false}; }
+    [[nodiscard]] DeviceHealth health() const override { return {true, {}, false}; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double end = timer_.now() + timeout;

@@ -14,8 +14,8 @@ struct HaplyService {
     SocketAddress events{.port = 10020};
 };
 
-// The service that BOLTWRIGHT_HAPLY names as ADDRESS:PORT, or the one on this computer. The port of the
-// events follows from the other one, as the service's own ports do.
+// The service that BOLTWRIGHT_HAPLY names as ADDRESS:PORT, or the one on this computer. The events have the
+// given port plus 19, as with the service's default ports.
 Result<HaplyService> haply_service();
 
 struct HaplyListing {

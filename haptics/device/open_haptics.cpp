@@ -160,9 +160,9 @@ class OpenHapticsArm final : public DeviceDriver {
                     "an arm that was calibrated with the vendor's program Touch_Diagnostic");
     }
 
-    [[nodiscard]] const Description& describe() const override { return arm_.description; }
+    [[nodiscard]] const Description& description() const override { return arm_.description; }
 
-    [[nodiscard]] Condition condition() const override {
+    [[nodiscard]] DeviceHealth health() const override {
         return {report_.calibration == calibrated, report_.heat, report_.cooling};
     }
 

@@ -16,12 +16,13 @@ inline constexpr unsigned calibrated = 0x5000, needs_update = 0x5001, force_outp
 inline constexpr unsigned warm_motors = 0x200, first_fault = 0x300, already_initiated = 0x301,
                           no_licence = 0x600;
 
+// A frame, here and in OpenHaptics, is a tick of the library's scheduler.
 inline constexpr double frame_time = 1e-3;  // s, the scheduler's period
 inline constexpr int max_buttons = 4;
 
 using Doubles = std::array<double, 16>;  // room for the longest value, the transform
 
-// Not a number where the library reports nothing.
+// Returns the 16 values, NaN where the library reports none.
 Doubles get_doubles(const OpenHapticsApi& api, unsigned what);
 int get_integer(const OpenHapticsApi& api, unsigned what);
 

@@ -154,8 +154,8 @@ class PluginArm final : public DeviceDriver {
           timer_(std::move(timer)),
           next_(timer_.now()) {}
 
-    [[nodiscard]] const Description& describe() const override { return description_; }
-    [[nodiscard]] Condition condition() const override { return {true, {}, false}; }
+    [[nodiscard]] const Description& description() const override { return description_; }
+    [[nodiscard]] DeviceHealth health() const override { return {true, {}, false}; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double now = timer_.now();
@@ -277,7 +277,7 @@ Error calibration_error(const ArmProcess& process, const PluginReply& reply, con
             return error;
         }
         case BW_ARM_MUST_MOVE: {
-            const Error immobile = immobile_device_error("the arm", id);
+            const Error immobile = move_permission_error("the arm", id);
             error = process.error(immobile.what, immobile.expected);
             error.detail = immobile.detail;
             return error;

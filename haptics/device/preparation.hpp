@@ -13,7 +13,7 @@
 
 namespace bolt::device {
 
-// A need of a connected device that cannot be opened yet. Once it is met, the same attempt succeeds.
+// The action that a connected device needs before it can be opened. After it, opening the device succeeds.
 enum class DeviceNeed : std::uint8_t {
     none,
     permission,  // to move by itself, so that it finds its position
@@ -22,6 +22,7 @@ enum class DeviceNeed : std::uint8_t {
     wait,        // it calibrates itself without a visible movement
 };
 
+// A need with the text that the device gives for it.
 struct Preparation {
     DeviceNeed need = DeviceNeed::none;
     std::string instruction;  // of the device, for DeviceNeed::user
@@ -79,7 +80,7 @@ struct ArmDialog {
     std::shared_ptr<MovePermission> permission{};
 };
 
-// For the screen.
+// What the arm screen shows: the arm's need, and whether the arm moves by itself.
 struct ArmNeeds {
     Preparation preparation;
     bool moves = false;  // it has the permission and moves by itself, or is about to

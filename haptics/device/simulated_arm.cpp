@@ -32,7 +32,7 @@ Pose encoder_pose(const ArmModel& arm) {
 }
 
 void step(ArmModel& arm, const force::OutputCommand& command, double dt) {
-    const ArmParameters& p = arm.parameters;
+    const HandAndArmParameters& p = arm.parameters;
     for (std::size_t i = arm.sent.size() - 1; i > 0; --i) arm.sent[i] = arm.sent[i - 1];
     arm.sent[0] = command;
     const force::OutputCommand& had = arm.sent[static_cast<std::size_t>(p.delay)];
@@ -74,7 +74,7 @@ struct TimedMotion {
 
 struct SimulatedArm::Shared {
     Description description;
-    ArmParameters parameters;
+    HandAndArmParameters parameters;
     Timer timer;
     TripleBuffer<TimedMotion> motions;
     ArmModel arm;  // of the thread that reads the device; outlives a disconnection
@@ -96,7 +96,7 @@ class SimulatedArmDevice final : public DeviceDriver {
     SimulatedArmDevice& operator=(const SimulatedArmDevice&) = delete;
     ~SimulatedArmDevice() override = default;
 
-    [[nodiscard]] const Description& describe() const override { return shared_->description; }
+    [[nodiscard]] const Description& description() const override { return shared_->description; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double due = next_ - shared_->timer.now();
@@ -177,7 +177,8 @@ class SimulatedArmDevice final : public DeviceDriver {
 
 }  // namespace
 
-SimulatedArm::SimulatedArm(const Description& description, const ArmParameters& parameters, Timer timer)
+SimulatedArm::SimulatedArm(const Description& description, const HandAndArmParameters& parameters,
+                           Timer timer)
     : shared_(std::make_shared<Shared>()) {
     shared_->description = description;
     shared_->parameters = parameters;
@@ -227,8 +228,8 @@ Description tracked_hand_description() {
     return d;
 }
 
-ArmParameters simulated_arm_parameters() {
-    ArmParameters p;
+HandAndArmParameters simulated_arm_parameters() {
+    HandAndArmParameters p;
     p.damping = 18.0;          // close to critical with 0.3 kg and 300 N/m
     p.angular_damping = 0.13;  // close to critical with 2e-3 kg·m² and 2 N·m/rad
     return p;

@@ -13,7 +13,8 @@
 
 namespace bolt::device {
 
-struct ArmParameters {
+// The values of the hand that holds the arm and of the arm itself, as one system.
+struct HandAndArmParameters {
     double mass = 0.3;               // kg, hand and device
     double damping = 5.0;            // N·s/m
     double stiffness = 300.0;        // N/m
@@ -28,8 +29,8 @@ struct ArmParameters {
 };
 
 struct ArmModel {
-    ArmParameters parameters;
-    Pose pose;       // of the grip, device frame
+    HandAndArmParameters parameters;
+    Pose pose;       // of the handle, device frame
     Pose intention;  // intended pose
     Vec3 velocity{0.0};
     Vec3 angular_velocity{0.0};
@@ -68,7 +69,7 @@ struct HandMotion {
 class SimulatedArm {
   public:
     // `parameters` should damp the hand well, because the user cannot see and stop a vibration of the hand.
-    SimulatedArm(const Description& description, const ArmParameters& parameters, Timer timer);
+    SimulatedArm(const Description& description, const HandAndArmParameters& parameters, Timer timer);
     SimulatedArm(SimulatedArm&&) noexcept;
     SimulatedArm& operator=(SimulatedArm&&) noexcept;
     ~SimulatedArm();
@@ -87,11 +88,10 @@ class SimulatedArm {
 // The arm of `train --device simulated-arm`: the force of an omega.7 (12 N), a lower stiffness, because the
 // hand is a spring of 300 N/m, no torque, and an unlimited workspace.
 Description simulated_arm_description();
-ArmParameters simulated_arm_parameters();
+HandAndArmParameters simulated_arm_parameters();
 
-// A hand whose pose is measured and that feels no force, such as one with a headset's controller: it moves an
-// arm of the same strength, so that contact and a seated nut hold the shown hand back. Closing is its
-// gripper.
+// The simulated arm that a tracked hand moves. Contacts and seated nuts hold this arm back, and so the drawn
+// hand. Closing the hand closes the arm's gripper.
 Description tracked_hand_description();
 
 }  // namespace bolt::device

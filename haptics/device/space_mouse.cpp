@@ -59,7 +59,7 @@ class SpaceMouse : public DeviceDriver {
           response_(response),
           clock_(std::move(clock)) {}
 
-    [[nodiscard]] const Description& describe() const override { return description_; }
+    [[nodiscard]] const Description& description() const override { return description_; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double start = clock_();

@@ -41,7 +41,7 @@ class VirtualPuckDevice final : public DeviceDriver {
   public:
     explicit VirtualPuckDevice(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {}
 
-    [[nodiscard]] const Description& describe() const override { return shared_->description; }
+    [[nodiscard]] const Description& description() const override { return shared_->description; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double period = 1.0 / shared_->options.rate;
@@ -107,7 +107,7 @@ class RecordedDevice final : public DeviceDriver {
         if (next_) start_ = timer_.now() - next_->time;
     }
 
-    [[nodiscard]] const Description& describe() const override { return description_; }
+    [[nodiscard]] const Description& description() const override { return description_; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double until = timer_.now() + timeout;
@@ -163,28 +163,28 @@ tl::unexpected<Error> unplugged(const Description& description) {
 
 }  // namespace
 
-class SimulatedDevice::Connection final : public DeviceDriver {
+class ScriptedDevice::Connection final : public DeviceDriver {
   public:
-    explicit Connection(SimulatedDevice& device) : device_(device), due_(device.timer_.now()) {}
+    explicit Connection(ScriptedDevice& device) : device_(device), due_(device.timer_.now()) {}
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
     ~Connection() override { device_.command_ = {}; }
 
-    [[nodiscard]] const Description& describe() const override { return device_.options_.description; }
+    [[nodiscard]] const Description& description() const override { return device_.options_.description; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         wait_if_stuck();
         const double until = device_.timer_.now() + timeout;
         if (device_.is_active(InjectedFault::silent) || due_ > until) {
             device_.timer_.wait(timeout);
-            if (device_.is_unplugged()) return unplugged(describe());
+            if (device_.is_unplugged()) return unplugged(description());
             return std::optional<Sample>{};
         }
         device_.timer_.wait(due_ - device_.timer_.now());
-        if (device_.is_unplugged()) return unplugged(describe());
+        if (device_.is_unplugged()) return unplugged(description());
         device_.advance();
         // Missed samples are skipped.
-        due_ = std::max(due_, device_.now_.time - 1.0 / describe().rate) + 1.0 / describe().rate;
+        due_ = std::max(due_, device_.now_.time - 1.0 / description().rate) + 1.0 / description().rate;
         Sample sample = device_.now_;
         if (device_.is_active(InjectedFault::not_a_number))
             sample.pose.position.y = sample.velocity.y = sample.angle =
@@ -199,9 +199,9 @@ class SimulatedDevice::Connection final : public DeviceDriver {
     Status write(const force::OutputCommand& command) override {
         wait_if_stuck();
         if (device_.is_active(InjectedFault::slow)) device_.timer_.wait(slow_write_time);
-        if (device_.is_unplugged()) return unplugged(describe());
+        if (device_.is_unplugged()) return unplugged(description());
         device_.advance();
-        const force::OutputLimits& limits = describe().limits;
+        const force::OutputLimits& limits = description().limits;
         device_.command_ = {force::clamp_length(command.force, limits.force),
                             force::clamp_length(command.torque, limits.torque)};
         return {};
@@ -213,17 +213,17 @@ class SimulatedDevice::Connection final : public DeviceDriver {
             device_.timer_.wait(stuck->until - device_.timer_.now() + 1e-9);
     }
 
-    SimulatedDevice& device_;
+    ScriptedDevice& device_;
     double due_;  // s, of the next sample
 };
 
-SimulatedDevice::SimulatedDevice(SimulatedDeviceOptions design, Timer timer)
+ScriptedDevice::ScriptedDevice(ScriptedDeviceOptions design, Timer timer)
     : options_(std::move(design)), timer_(std::move(timer)) {
     time_ = timer_.now();
     advance();
 }
 
-DeviceFactory SimulatedDevice::factory() {
+DeviceFactory ScriptedDevice::factory() {
     return [this]() -> Result<std::unique_ptr<DeviceDriver>> {
         if (is_unplugged()) return unplugged(options_.description);
         advance();
@@ -231,12 +231,12 @@ DeviceFactory SimulatedDevice::factory() {
     };
 }
 
-void SimulatedDevice::inject(const FaultInterval& fault) {
+void ScriptedDevice::inject(const FaultInterval& fault) {
     std::erase_if(options_.faults, [now = timer_.now()](const FaultInterval& t) { return t.until < now; });
     options_.faults.push_back(fault);
 }
 
-const FaultInterval* SimulatedDevice::find(InjectedFault what) const {
+const FaultInterval* ScriptedDevice::find(InjectedFault what) const {
     const double now = timer_.now();
     const auto found = std::find_if(
         options_.faults.begin(), options_.faults.end(),
@@ -244,21 +244,21 @@ const FaultInterval* SimulatedDevice::find(InjectedFault what) const {
     return found == options_.faults.end() ? nullptr : &*found;
 }
 
-bool SimulatedDevice::is_active(InjectedFault what) const { return find(what) != nullptr; }
+bool ScriptedDevice::is_active(InjectedFault what) const { return find(what) != nullptr; }
 
 // Returns true while unplugged. Without power the motors also lose their command.
-bool SimulatedDevice::is_unplugged() {
+bool ScriptedDevice::is_unplugged() {
     if (!is_active(InjectedFault::unplugged)) return false;
     command_ = {};
     return true;
 }
 
-force::OutputCommand SimulatedDevice::rendered() const {
+force::OutputCommand ScriptedDevice::rendered() const {
     return is_active(InjectedFault::unplugged) ? force::OutputCommand{} : command_;
 }
 
 // Advances the hand to the current time.
-void SimulatedDevice::advance() {
+void ScriptedDevice::advance() {
     const double now = timer_.now();
     if (!options_.hand || !begun_ || now - time_ > idle_reset) {
         now_ = options_.script(now);
@@ -278,7 +278,7 @@ void SimulatedDevice::advance() {
 }
 
 // Semi-implicit Euler; stable for much stiffer springs at this step.
-void SimulatedDevice::step(const Sample& intended, double dt) {
+void ScriptedDevice::step(const Sample& intended, double dt) {
     const HandImpedance& hand = *options_.hand;
     const force::OutputCommand force = rendered();
     if (options_.description.sensing == Sensing::angle) {

@@ -1,5 +1,5 @@
-// Devices without hardware: mouse and keyboard as a puck, recorded samples, and a simulated device with fault
-// injection.
+// Devices without hardware: mouse and keyboard as a puck, recorded samples, and, for tests, a scripted device
+// with fault injection.
 #pragma once
 
 #include <cstddef>
@@ -66,27 +66,28 @@ struct FaultInterval {
     double from = 0.0, until = 0.0;  // s on the timer's clock
 };
 
-// The hand that holds the device: a mass, pulled by a spring and damper to the intended pose and pushed by
-// the device's force. Defaults: a relaxed grip, the middle of the ranges in tests/support/random_arm.hpp.
+// The hand that holds a scripted device, for tests: a mass, pulled by a spring and damper to the intended
+// pose and pushed by the device's force. The hand at the arm that a user can select is HandAndArmParameters
+// (simulated_arm.hpp). Defaults: a relaxed grip, the middle of the ranges in tests/support/random_arm.hpp.
 struct HandImpedance {
     double mass = 0.3, stiffness = 300.0, damping = 10.0;          // kg, N/m, N·s/m
     double inertia = 2e-3, torsion = 2.0, angular_damping = 0.05;  // kg·m², N·m/rad, N·m·s/rad
 };
 
-struct SimulatedDeviceOptions {
+struct ScriptedDeviceOptions {
     Description description;
     std::function<Sample(double time)> script;  // the intended motion
     std::optional<HandImpedance> hand;  // nullopt: the motion follows the script and ignores the force
     std::vector<FaultInterval> faults;
 };
 
-// A simulated device: a script gives the intended motion, an optional hand impedance yields to the rendered
-// force, and faults of real devices can be injected. It is for tests; the arm that a user can select is that
-// of simulated_arm.hpp. Works on any clock. Not thread-safe: one thread uses it, or a test without threads
+// A device for tests: a script gives the intended motion, an optional hand impedance yields to the rendered
+// force, and faults of real devices can be injected. The arm that a user can select is SimulatedArm
+// (simulated_arm.hpp). Works on any clock. Not thread-safe: one thread uses it, or a test without threads
 // in virtual time. It must outlive the connections that its factory creates.
-class SimulatedDevice {
+class ScriptedDevice {
   public:
-    SimulatedDevice(SimulatedDeviceOptions design, Timer timer);
+    ScriptedDevice(ScriptedDeviceOptions design, Timer timer);
 
     [[nodiscard]] DeviceFactory factory();
     void inject(const FaultInterval& fault);
@@ -103,7 +104,7 @@ class SimulatedDevice {
     void step(const Sample& intended, double dt);
     [[nodiscard]] const FaultInterval* find(InjectedFault what) const;
 
-    SimulatedDeviceOptions options_;
+    ScriptedDeviceOptions options_;
     Timer timer_;
     force::OutputCommand command_;
     Sample now_;

@@ -9,7 +9,7 @@
 #include "haptics/device/report_descriptor.hpp"
 #include "haptics/device/usb_force_feedback.hpp"
 
-namespace bolt::device::board {
+namespace bolt::device::open_ffboard {
 
 namespace {
 
@@ -57,7 +57,7 @@ std::optional<std::int64_t> reply_value(Command question, const Message& message
     return message.data;
 }
 
-}  // namespace bolt::device::board
+}  // namespace bolt::device::open_ffboard
 
 namespace bolt::device {
 
@@ -177,7 +177,7 @@ class Wheel : public DeviceDriver {
     explicit Wheel(WheelCore core) : core_(std::move(core)), last_report_(core_.clock()) {}
     ~Wheel() override { core_.force.stop(*core_.transport); }
 
-    [[nodiscard]] const Description& describe() const override { return core_.description; }
+    [[nodiscard]] const Description& description() const override { return core_.description; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         for (int i = 0; i < max_wheel_reports; ++i) {
@@ -204,7 +204,7 @@ class OpenFfboard : public DeviceDriver {
     OpenFfboard(WheelCore core, double range) : core_(std::move(core)), range_(range) {}
     ~OpenFfboard() override { core_.force.stop(*core_.transport); }
 
-    [[nodiscard]] const Description& describe() const override { return core_.description; }
+    [[nodiscard]] const Description& description() const override { return core_.description; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         timeout = std::min(timeout, position_interval);  // a request may have to be repeated
@@ -212,8 +212,8 @@ class OpenFfboard : public DeviceDriver {
         const double since = begun - requested_at_;
         // Replies delay axis reports, so request no more than needed.
         if (since >= (reply_pending_ ? position_retry : has_counts() ? 0.0 : position_interval)) {
-            const auto question =
-                board::encode_message({.command = static_cast<std::uint32_t>(board::Command::position)});
+            const auto question = open_ffboard::encode_message(
+                {.command = static_cast<std::uint32_t>(open_ffboard::Command::position)});
             BOLT_TRY(core_.transport->write(question));
             requested_at_ = begun;
             reply_pending_ = true;
@@ -223,8 +223,8 @@ class OpenFfboard : public DeviceDriver {
             const double left = has_sample ? 0.0 : std::max(begun + timeout - core_.clock(), 0.0);
             BOLT_TRY_ASSIGN(const auto report, core_.transport->read(left));
             if (report.empty()) break;
-            if (const auto message = board::decode_message(report)) {
-                const auto counts = reply_value(board::Command::position, *message);
+            if (const auto message = open_ffboard::decode_message(report)) {
+                const auto counts = reply_value(open_ffboard::Command::position, *message);
                 if (!counts) continue;
                 reply_pending_ = false;
                 counts_ = static_cast<double>(*counts);
@@ -252,15 +252,15 @@ class OpenFfboard : public DeviceDriver {
 };
 
 // nullopt: no reply.
-Result<std::optional<std::int64_t>> query_setting(WheelCore& core, board::Command question) {
+Result<std::optional<std::int64_t>> query_setting(WheelCore& core, open_ffboard::Command question) {
     for (int i = 0; i < max_attempts; ++i) {
-        const auto bytes = board::encode_message({.command = static_cast<std::uint32_t>(question)});
+        const auto bytes = open_ffboard::encode_message({.command = static_cast<std::uint32_t>(question)});
         BOLT_TRY(core.transport->write(bytes));
         const double until = core.clock() + reply_timeout;
         for (int n = 0; n < max_wheel_reports; ++n) {
             BOLT_TRY_ASSIGN(const auto report, core.transport->read(std::max(until - core.clock(), 0.0)));
             if (report.empty()) break;
-            if (const auto message = board::decode_message(report)) {
+            if (const auto message = open_ffboard::decode_message(report)) {
                 if (const auto reply = reply_value(question, *message)) return reply;
             } else {
                 decode_report(core.axis, report, core.state);
@@ -292,17 +292,17 @@ Result<std::unique_ptr<DeviceDriver>> make_open_ffboard(std::unique_ptr<HidTrans
                                                         SecondsClock clock) {
     BOLT_TRY_ASSIGN(auto core, make_core(std::move(transport), descriptor, std::move(name), std::move(id),
                                          config, std::move(clock)));
-    const auto degrees = query_setting(core, board::Command::degrees);
+    const auto degrees = query_setting(core, open_ffboard::Command::degrees);
     if (!degrees) return fail(degrees.error());
     if (!*degrees || **degrees <= 0 || **degrees > max_degrees)
         return fail(ErrorCode::no_device,
                     fmt::format("{} does not report the range of its axis", core.description.name),
                     "an OpenFFBoard whose main class is a force feedback wheel, with commands over HID");
-    const auto power = query_setting(core, board::Command::power);
+    const auto power = query_setting(core, open_ffboard::Command::power);
     if (!power) return fail(power.error());
     // If the power is unknown, assume full power: the rendered torque is then too weak, never too strong.
     const double power_share =
-        *power ? std::clamp(static_cast<double>(**power) / board::full_power, 0.0, 1.0) : 1.0;
+        *power ? std::clamp(static_cast<double>(**power) / open_ffboard::full_power, 0.0, 1.0) : 1.0;
     core.available = config.full_torque * power_share;
     describe_torque(core);
     if (core.available <= 0.0)

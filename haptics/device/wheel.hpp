@@ -17,7 +17,7 @@
 
 // Encodes and decodes the vendor report of OpenFFBoard (1209:ffb0), which reads settings that USB force
 // feedback lacks. No I/O.
-namespace bolt::device::board {
+namespace bolt::device::open_ffboard {
 
 constexpr std::uint8_t report_id = 0xa1;
 constexpr std::size_t report_bytes = 25;  // with the id
@@ -58,7 +58,7 @@ std::optional<Message> decode_message(std::span<const std::uint8_t> report);
 // The value that axis 0 returns for `question`; nullopt if the message is not that reply.
 std::optional<std::int64_t> reply_value(Command question, const Message& message);
 
-}  // namespace bolt::device::board
+}  // namespace bolt::device::open_ffboard
 
 namespace bolt::device {
 

@@ -96,11 +96,11 @@ OutputLimits in_assembly(const WorkspaceMap& w, const OutputLimits& device) {
     OutputLimits limits = device;
     const double force = w.power_ratio * w.scale, stiffness = force * w.scale, torque = w.power_ratio;
     limits.force /= force;
-    limits.force_rate /= force;
+    limits.force_slew_rate /= force;
     limits.stiffness /= stiffness;
     limits.damping /= stiffness;
     limits.torque /= torque;
-    limits.torque_rate /= torque;
+    limits.torque_slew_rate /= torque;
     limits.torsion /= torque;
     limits.angular_damping /= torque;
     limits.speed *= w.scale;

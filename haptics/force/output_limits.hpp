@@ -16,12 +16,12 @@ struct OutputCommand {
 // The defaults are the published values of a 6-DoF arm of the Virtuose class; speeds and jumps are chosen
 // above those of deliberate hand motion.
 struct OutputLimits {
-    double force = 20.0;         // N, magnitude
-    double torque = 2.0;         // N·m, magnitude; 0: no torque output
-    double force_rate = 2000.0;  // N/s, slew rate while rendering
-    double torque_rate = 200.0;  // N·m/s, the same
-    double ramp_up = 0.5;        // s from closing the dead-man switch to the full force
-    double release = 0.02;       // s from releasing the dead-man switch to zero output, at most
+    double force = 20.0;              // N, magnitude
+    double torque = 2.0;              // N·m, magnitude; 0: no torque output
+    double force_slew_rate = 2000.0;  // N/s, slew rate while rendering
+    double torque_slew_rate = 200.0;  // N·m/s, the same
+    double ramp_up = 0.5;             // s from closing the dead-man switch to the full force
+    double release = 0.02;            // s from releasing the dead-man switch to zero output, at most
 
     double stiffness = 2000.0;     // N/m, largest stiffness that the device renders stably
     double torsion = 40.0;         // N·m/rad
@@ -53,13 +53,13 @@ inline Vec3 clamp_length(const Vec3& v, double max_length) {
 inline OutputLimits scaled(const OutputLimits& limits, double scale) {
     const double share = scale > 0.0 ? std::min(scale, 1.0) : 0.0;
     OutputLimits less = limits;
-    for (double OutputLimits::*limit :
-         {&OutputLimits::force, &OutputLimits::torque, &OutputLimits::force_rate, &OutputLimits::torque_rate})
+    for (double OutputLimits::*limit : {&OutputLimits::force, &OutputLimits::torque,
+                                        &OutputLimits::force_slew_rate, &OutputLimits::torque_slew_rate})
         less.*limit *= share;
     return less;
 }
 
-// Upper bounds that the builder of a station sets for a device; none: the device's own limit. Units as in
+// Upper bounds that the installer sets for a device; none: the device's own limit. Units as in
 // OutputLimits.
 struct LimitBounds {
     std::optional<double> force, torque;

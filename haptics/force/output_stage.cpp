@@ -202,8 +202,8 @@ OutputCommand limit_output(const OutputLimits& limits, LimiterState& state, cons
         state.ramp = std::min(1.0, state.ramp + dt / limits.ramp_up);
         const Vec3 force = clamp_length(requested.force, limits.force) * state.ramp;
         const Vec3 torque = clamp_length(requested.torque, limits.torque) * state.ramp;
-        state.force = step_towards(state.force, force, limits.force_rate * dt);
-        state.torque = step_towards(state.torque, torque, limits.torque_rate * dt);
+        state.force = step_towards(state.force, force, limits.force_slew_rate * dt);
+        state.torque = step_towards(state.torque, torque, limits.torque_slew_rate * dt);
     }
     // Final clamp: it bounds the effect of any error above.
     state.force = clamp_length(state.force, limits.force);

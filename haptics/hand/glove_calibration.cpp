@@ -12,7 +12,7 @@ namespace bolt::hand {
 
 namespace {
 
-constexpr double least_span = 5.0;  // counts; a smaller span is not a usable measurement
+constexpr double min_span = 5.0;  // counts; a smaller span is not a usable measurement
 constexpr std::array<const char*, posture_count> posture_names = {"flat hand", "fist", "spread hand",
                                                                   "thumb across"};
 
@@ -138,13 +138,13 @@ Result<CalibrationResult> calibrate(std::span<const PostureSamples> held) {
         SensorQuality& q = result.quality[i];
         q.span = high->raw - low->raw;
         any = true;
-        const std::optional<LinearFit> line = q.span >= least_span ? fit_line(at) : std::nullopt;
+        const std::optional<LinearFit> line = q.span >= min_span ? fit_line(at) : std::nullopt;
         if (!line) {
             result.score = 0.0;
             result.remarks.push_back(fmt::format(
                 "{}: moved by {:.0f} counts; expected at least {:.0f}: check that the glove is worn "
                 "properly, and repeat the posture",
-                name_of(sensor), q.span, least_span));
+                name_of(sensor), q.span, min_span));
             continue;
         }
         for (const PostureReading& s : at) q.noise = std::max(q.noise, std::abs(line->gain) * s.deviation);

@@ -243,7 +243,7 @@ std::vector<std::uint8_t> GloveHandshake::update(std::span<const std::uint8_t> r
     if (!received.empty()) last_byte_ = now;
     if (step_ == HandshakeStep::silencing) {
         if (now - last_byte_ >= options_.quiet) return start_step(HandshakeStep::sensors, now);
-        if (now - since_ < options_.longest_quiet) return {};
+        if (now - since_ < options_.max_quiet) return {};
         if (attempts_ < options_.tries) return start_step(HandshakeStep::silencing, now);
         fail_with("the port is never quiet", "a CyberGlove at 115200 baud, which stops streaming on command");
         return {};

@@ -78,13 +78,13 @@ struct GloveFrame {
     bool unplugged = false;         // "eg": the glove is not connected to its interface unit
 };
 
-inline constexpr std::size_t longest_frame = 1 + sensor_count + 5 + 1 + 4 + 1;
+inline constexpr std::size_t max_frame_size = 1 + sensor_count + 5 + 1 + 4 + 1;
 
 struct GloveFrameReader {
     GloveFrameLayout layout;
     char letter = 'S';
     // The partial frame, and totals.
-    std::array<std::uint8_t, longest_frame> bytes{};
+    std::array<std::uint8_t, max_frame_size> bytes{};
     std::size_t count = 0;
     std::uint64_t frames = 0;
     std::uint64_t lost = 0;  // bytes outside valid frames
@@ -110,7 +110,7 @@ struct GloveHandshakeOptions {
     double quiet = 0.06;         // s without a byte: streaming has stopped
     double reply_timeout = 0.3;  // s until a reply times out
     int tries = 3;               // attempts per query
-    double longest_quiet = 1.0;  // s until a line that keeps sending is rejected
+    double max_quiet = 1.0;      // s until a line that keeps sending is rejected
 };
 
 // The handshake with a glove: reads its identity and configures the stream.

@@ -59,7 +59,7 @@ struct GloveWearer {
     Calibration calibration;
     hand::Hand hand;  // its side is the glove's
     OneEuroOptions filter;
-    double longest_gap = 0.25;  // s between frames; after a longer gap the filters restart
+    double max_gap = 0.25;  // s between frames; after a longer gap the filters restart
 };
 
 struct MeasuredHand {
@@ -69,7 +69,7 @@ struct MeasuredHand {
     bool any = false;     // a frame has been received
 };
 
-inline constexpr double least_gap = 1e-3;  // s; frames that are closer count as this far apart
+inline constexpr double min_gap = 1e-3;  // s; frames that are closer count as this far apart
 
 // `time`: when the frame was read, s on a monotonic clock.
 void update(MeasuredHand& state, const GloveWearer& wearer, const GloveFrame& frame, double time);

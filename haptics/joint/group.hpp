@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "engine/base/math.hpp"
+#include "haptics/joint/law.hpp"
 #include "haptics/joint/mechanistic.hpp"
 #include "haptics/joint/nut.hpp"
 #include "haptics/joint/published.hpp"

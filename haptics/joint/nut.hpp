@@ -111,14 +111,14 @@ struct CornerGrip {
     double toward_throat = 0.0, toward_mouth = 0.0;  // x1, x2: m from the axis to the ends of the strips
     double tilt = 0.0;                               // rad, about the flats' length
     double clearance = 0.0;                          // m, half of (opening − across flats)
-    double rounded = 0.0;                            // m of each flat that is rounded off at a corner
+    double rounded = 0.0;                            // m that the corner has lost along each of its two flats
 };
 
 // N·m at which the jaw slips.
 double corner_torque(double pressure, const CornerGrip& grip);
 
-// Play to either side, rad, of a jaw on a nut with `rounded` m of each flat's ends rounded off; 30° if the
-// jaw turns freely.
+// Play to either side, rad, of a jaw on a nut whose corners are rounded (CornerGrip::rounded); 30° if the jaw
+// turns freely.
 double rounded_half_play(double opening, double across_flats, double rounded);
 
 }  // namespace bolt::joint

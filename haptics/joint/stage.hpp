@@ -1,12 +1,10 @@
-// The laws of a joint, the stage that the hand feels, and the joint's condition. Both laws use these names.
+// The stage of a joint that the hand feels, and the joint's condition. All laws (law.hpp) use these names.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 
 namespace bolt::joint {
-
-enum class Law : std::uint8_t { published, mechanistic };
 
 // The four stages of the 2018 paper, derived from the state of the joint:
 //   navigation  the nut turns on its thread and does not press on its seat
@@ -18,8 +16,6 @@ enum class Stage : std::uint8_t { navigation, transition, linearity, yield };
 inline constexpr int stage_count = 4;
 
 enum class JointCondition : std::uint8_t { intact, stripped, broken };
-
-constexpr std::string_view name(Law law) { return law == Law::published ? "published" : "mechanistic"; }
 
 constexpr std::string_view name(Stage stage) {
     constexpr std::string_view names[] = {"navigation", "transition", "linearity", "yield"};

@@ -35,7 +35,7 @@ constexpr int max_search_steps = 16;       // steps of the line search
 constexpr double final_tolerance = 1e-9;   // m
 constexpr double coarse_tolerance = 1e-6;  // m, gradient while the penalty grows
 constexpr double motion_tolerance = 1e-7;  // m, < 1 mN with the stiffest coupling; between two rounds
-constexpr double initial_relaxation = 0.7, least_relaxation = 0.3;  // of the slip slack
+constexpr double initial_relaxation = 0.7, min_relaxation = 0.3;  // of the slip slack
 
 using Vec6 = std::array<double, 6>;
 
@@ -279,7 +279,7 @@ double update_slip_slacks(Problem& p, bool first, double& relaxation) {
         along += before * counted;
         across += square(counted);
     }
-    if (!first && across > 0.0) relaxation = std::clamp(-relaxation * along / across, least_relaxation, 1.0);
+    if (!first && across > 0.0) relaxation = std::clamp(-relaxation * along / across, min_relaxation, 1.0);
     double largest_change = 0.0;
     for (std::size_t k = 0; k < p.count; ++k) {
         const double change_of_slack = relaxation * p.rows[k].slack_deficit;

@@ -18,8 +18,8 @@ constexpr double small_motion = 50e-6;      // m; after a shorter motion the res
 constexpr double tiny_motion = 25e-6;
 // Share of the coupling's energy; a share of energy is twice the share of force.
 constexpr double imperceptible_energy = 1e-3;
-constexpr double query_margin = 50e-6;         // m, margin of the query's band beyond the skin
-constexpr double least_clearance_share = 0.2;  // of the skin; a motion that ends nearer is rejected
+constexpr double query_margin = 50e-6;       // m, margin of the query's band beyond the skin
+constexpr double min_clearance_share = 0.2;  // of the skin; a motion that ends nearer is rejected
 // m, deepest penetration at which the finder first detects a feature.
 constexpr double finder_tolerance = 250e-6;
 constexpr int max_attempts = 4;  // motions tried from a pose
@@ -168,7 +168,7 @@ class Stepper {
     // did not approach are exempt: the finder detects features with a tolerance, so they were as near at the
     // current pose, and rejecting the motion would only trap the god-object.
     [[nodiscard]] bool too_near(const ContactQuery& query, const Pose& at) const {
-        const double least = std::min(least_clearance_share * p_.skin, current_query_.nearest);
+        const double least = std::min(min_clearance_share * p_.skin, current_query_.nearest);
         if (query.nearest >= least) return false;
         if (query.limit < least) return true;
         const auto contacts = std::span(query.contacts).first(query.count);

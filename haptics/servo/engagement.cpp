@@ -9,13 +9,13 @@ namespace bolt::servo {
 
 namespace {
 
-constexpr double centring = 1.5e-3;         // m, radial offset up to which a jaw slides onto the nut
-constexpr double squareness = 0.9976;       // cos 4°
-constexpr double finger_reach = 0.012;      // m from fingertips to nut centre
-constexpr double tilted_off = 0.866;        // cos 30°; a jaw that is tilted more releases the nut
-constexpr double along_axis = 0.8;          // handle · axis above which the azimuth is ill-conditioned
-constexpr double max_turn_per_tick = 0.35;  // rad in a tick, faster than any hand
-constexpr double hold_relaxation = 0.05;    // s
+constexpr double max_radial_offset = 1.5e-3;  // m, up to which a jaw slides onto the nut
+constexpr double min_engage_cosine = 0.9976;  // cos 4°, of the angle between the jaw's normal and the axis
+constexpr double finger_reach = 0.012;        // m from fingertips to nut centre
+constexpr double min_held_cosine = 0.866;  // cos 30°, likewise; a jaw that is tilted more releases the nut
+constexpr double max_handle_axis_cosine = 0.8;  // above it the azimuth of the handle is ill-conditioned
+constexpr double max_turn_per_tick = 0.35;      // rad in a tick, faster than any hand
+constexpr double offset_decay_time = 0.05;      // s, of Engagement::offset_at_engagement
 
 struct NutOffset {
     double axial = 0.0;   // m, along the nut's axis
@@ -28,8 +28,8 @@ NutOffset offset_of(const Vec3& from_centre, const NutGeometry& nut) {
 }
 
 bool tilted_away(const NutGeometry& nut, const ToolPose& tool, Grip grip) {
-    if (std::abs(glm::dot(tool.handle, nut.axis)) > along_axis) return true;
-    return grip == Grip::wrench && std::abs(glm::dot(tool.normal, nut.axis)) < tilted_off;
+    if (std::abs(glm::dot(tool.handle, nut.axis)) > max_handle_axis_cosine) return true;
+    return grip == Grip::wrench && std::abs(glm::dot(tool.normal, nut.axis)) < min_held_cosine;
 }
 
 bool pulled_away(const NutGeometry& nut, const NutOffset& o, Grip grip) {
@@ -41,8 +41,8 @@ bool fits(const Setup& setup, const NutGeometry& nut, const NutOffset& o, const 
           double misalignment) {
     if (tilted_away(nut, tool, grip)) return false;
     if (grip == Grip::fingers) return std::hypot(o.axial, o.radial) < finger_reach;
-    return std::abs(o.axial) < 0.35 * nut.height && o.radial < centring &&
-           std::abs(glm::dot(tool.normal, nut.axis)) > squareness &&
+    return std::abs(o.axial) < 0.35 * nut.height && o.radial < max_radial_offset &&
+           std::abs(glm::dot(tool.normal, nut.axis)) > min_engage_cosine &&
            std::abs(misalignment) <= setup.wrench.half_play;
 }
 
@@ -97,7 +97,7 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
             std::abs(turned) < max_turn_per_tick) {
             e.hand_angle += turned;
             e.azimuth = azimuth;
-            e.offset_at_engagement *= 1.0 - setup.dt / hold_relaxation;
+            e.offset_at_engagement *= 1.0 - setup.dt / offset_decay_time;
             return;
         }
         e = {};
@@ -124,15 +124,15 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
 namespace {
 
 // rad; angle that corresponds to a few micrometres (the god-object's tolerance) at half a flat's length.
-constexpr double tolerance = 1e-3;
-constexpr double near = 0.1;          // m from jaw to nut beyond which a nut is skipped
-constexpr double least_limit = 1e-9;  // N·m; NutDrive::torque_limit 0 means unlimited
+constexpr double angle_tolerance = 1e-3;
+constexpr double max_engage_distance = 0.1;  // m from jaw to nut beyond which a nut is skipped
+constexpr double min_torque_limit = 1e-9;    // N·m; NutDrive::torque_limit 0 means unlimited
 
 // Modelling assumptions: a jaw slips off a corner once it has turned by its whole backlash beyond the
 // corner's torque, but not faster than an elastic wrench swings back.
 constexpr double slip_off_half_plays = 2.0;  // half plays
-constexpr double least_slip_time = 0.02;     // s
-constexpr double least_height = 0.2e-3;      // m, lower bound of the rounded height
+constexpr double min_slip_time = 0.02;       // s
+constexpr double min_height = 0.2e-3;        // m, lower bound of the rounded height
 
 double corner_torque(const Setup& setup, const NutGeometry& nut, double rounded, const Engagement& e) {
     const double clearance = 0.5 * (setup.wrench.jaw.opening - nut.across_flats);
@@ -159,7 +159,7 @@ Pose on_nut(const NutGeometry& nut, double nut_angle, const ToolPose& tool) {
 }
 
 collision::HexagonPrism prism_of(const NutGeometry& nut) {
-    return {nut.across_flats, nut.height, nut.bearing};
+    return {nut.across_flats, nut.height, nut.bearing_diameter};
 }
 
 void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState> joints,
@@ -189,11 +189,11 @@ void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         const NutGeometry& nut = setup.nuts[i];
         const double nut_angle = joints[i].nut.angle;
-        if (glm::length(tool.position - nut_centre(nut, nut_angle)) > near) continue;
+        if (glm::length(tool.position - nut_centre(nut, nut_angle)) > max_engage_distance) continue;
         const collision::JawFit fit = fit_on(i);
         // The bevel is the hysteresis: a hand that trembles at the edge does not engage and release in turn.
         if (!fit.surrounds(jaw.opening) || fit.overlap < jaw.bevel) continue;
-        if (std::abs(fit.misalignment) > play_of(setup, nut, rounded[i]) + tolerance) continue;
+        if (std::abs(fit.misalignment) > play_of(setup, nut, rounded[i]) + angle_tolerance) continue;
         e.joint = static_cast<int>(i);
         e.grip = Grip::wrench;
         e.azimuth = azimuth_of(setup, nut, tool);
@@ -209,14 +209,15 @@ joint::NutDrive jaw_drive(const Setup& setup, const NutGeometry& nut, double rou
     drive.angle = e.hand_angle;
     drive.half_play = play_of(setup, nut, rounded);
     drive.stiffness = setup.wrench.stiffness;
-    drive.torque_limit = std::max(least_limit, e.corner_torque_share * corner_torque(setup, nut, rounded, e));
+    drive.torque_limit =
+        std::max(min_torque_limit, e.corner_torque_share * corner_torque(setup, nut, rounded, e));
     return drive;
 }
 
 bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::JointState& joint,
                    double& rounded, Engagement& e) {
     const double whole = corner_torque(setup, nut, rounded, e), play = play_of(setup, nut, rounded);
-    const double limit = std::max(least_limit, e.corner_torque_share * whole);
+    const double limit = std::max(min_torque_limit, e.corner_torque_share * whole);
     if (std::abs(joint.torque) < 0.999 * limit) return false;
     const double wound = e.hand_angle - e.swung - joint.nut.angle;
     const double beyond = std::abs(wound) - play - whole / setup.wrench.stiffness;
@@ -224,13 +225,13 @@ bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::Join
     e.turned_beyond_corner_torque = std::max(e.turned_beyond_corner_torque, beyond);
     // The work removes corner material: at two corners, a triangle with two sides of `rounded` that enclose
     // 120°.
-    const double area = std::sqrt(3.0) / 4.0, height = std::max(e.fit.overlap, least_height);
+    const double area = std::sqrt(3.0) / 4.0, height = std::max(e.fit.overlap, min_height);
     rounded = std::sqrt(square(rounded) + limit * turned / (2.0 * area * height * nut.corner_pressure));
     rounded = std::min(rounded, prism_of(nut).half_side());
-    const double bearing =
-        1.0 - e.turned_beyond_corner_torque / (slip_off_half_plays * std::max(play, tolerance));
+    const double remaining =
+        1.0 - e.turned_beyond_corner_torque / (slip_off_half_plays * std::max(play, angle_tolerance));
     e.corner_torque_share =
-        std::clamp(bearing, e.corner_torque_share - setup.dt / least_slip_time, e.corner_torque_share);
+        std::clamp(remaining, e.corner_torque_share - setup.dt / min_slip_time, e.corner_torque_share);
     if (e.corner_torque_share > 0.0) return false;
     e = {};
     return true;

@@ -40,7 +40,7 @@ struct Engagement {
 
     // Wrench with contact simulation.
     collision::JawFit fit;
-    double corner_torque_share = 1.0;  // 0 … 1, of the corner torque that remains while the jaw slips
+    double corner_torque_share = 1.0;  // remaining share of the corner torque while the jaw slips, 0 … 1
     double turned_beyond_corner_torque = 0.0;  // rad
 };
 
@@ -59,9 +59,9 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
 // Grip of a wrench on a nut with contact simulation. Geometry alone determines whether the jaw holds the nut
 // (haptics/collision/jaw.hpp); the corners limit the torque that it can transmit (haptics/joint/nut.hpp).
 //
-// For contact queries the hexagon turns with the jaw once the play is used up, and the torque of the contacts
-// about the bolt is left out of the rendered torque. So the joint law with its implicit step acts about the
-// bolt's axis, and contacts act in the other five directions. If contacts drove the nut instead, its torque
+// The joint law alone, with its implicit step, acts about the bolt's axis; contacts act in the other five
+// directions. To separate them, contact queries turn the hexagon with the jaw once the play is used up, and
+// the moment of the contacts about the bolt is not rendered. If contacts drove the nut instead, its torque
 // would depend on the position error of the god-object: 0.01 mm at a corner changes a torque of 100 N·m by 3
 // N·m. The force is continuous at engagement: inside the play both the law's torque and the removed moment
 // are zero.
@@ -72,8 +72,8 @@ Pose on_nut(const NutGeometry& nut, double nut_angle, const ToolPose& tool);
 collision::HexagonPrism prism_of(const NutGeometry& nut);
 
 // One tick. Engages a nut if the jaw surrounds its hexagon by more than the jaw's bevel and is aligned within
-// the play; releases it if the jaw no longer surrounds it. `rounded`, by joint: m of each flat that is
-// rounded off.
+// the play; releases it if the jaw no longer surrounds it. `rounded`, by joint: m
+// (joint::CornerGrip::rounded).
 void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState> joints,
                            std::span<const double> rounded, const ToolPose& tool, Engagement& engagement);
 

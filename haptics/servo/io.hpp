@@ -31,8 +31,9 @@ inline CommandedTool to_commanded_tool(const Pose& tool) {
     return commanded;
 }
 
-// Values of TickInput::checkpoint_action: `save_checkpoint` stores the state of all nuts, and the last
-// `max_checkpoints` are kept; n = 1 … max_checkpoints restores the n-th last checkpoint, which undoes steps.
+// Values of TickInput::checkpoint_action. `save_checkpoint` stores the state of all nuts; the newest
+// `max_checkpoints` are kept. 1 restores the newest checkpoint, 2 the one before it, and so on up to
+// `max_checkpoints`. A restore undoes steps.
 inline constexpr std::uint8_t max_checkpoints = 8, save_checkpoint = 255;
 
 struct TickInput {
@@ -45,8 +46,8 @@ struct TickInput {
     bool stop = false;   // emergency stop pressed; latches until `reset`
     bool reset = false;  // releases the stop if neither dead-man switch nor stop is pressed
     std::uint8_t missed = 0;  // deadlines without a tick since the last tick, at most 15
-    // One of the values above `TickInput`; 0: none. A restore is ignored while a nut is held or the tool is
-    // within 12 cm of a nut.
+    // `save_checkpoint`, 1 … `max_checkpoints` to restore, or 0: none. A restore is ignored while a nut is
+    // held or the tool is within 12 cm of a nut.
     std::uint8_t checkpoint_action = 0;
     // N·m on the scale of a click-type torque wrench; 0: it does not click. Ignored from the click until the
     // wrench leaves the nut.
@@ -58,7 +59,7 @@ struct Output {
     Vec3 force{0.0};
     Vec3 torque{0.0};
 
-    force::Fault fault = force::Fault::none;  // reason for which the output is held at zero
+    force::Fault fault = force::Fault::none;  // reason for which the output is zero
 
     Pose constrained_tool;       // pose that contacts permit, in the assembly's frame
     std::uint16_t contacts = 0;  // constraints within the contact band
@@ -75,8 +76,8 @@ struct Output {
 
     std::int16_t slipped = -1;  // joint over whose corners the jaw slipped in this tick; −1: none
     bool clicked = false;       // the torque wrench clicked in this tick
-    std::uint8_t undone = 0;    // n if the n-th last checkpoint was restored in this tick; 0: none
-    double rounded = 0.0;       // m that each corner of the engaged or slipped nut has lost along its flats
+    std::uint8_t undone = 0;    // checkpoint that was restored in this tick, 1: the newest; 0: none
+    double rounded = 0.0;       // m, of the engaged or slipped nut (joint::CornerGrip::rounded)
 };
 
 }  // namespace bolt::servo

@@ -29,8 +29,7 @@ namespace {
 
 std::string row(const char* name, const Histogram& h) {
     return fmt::format("  {:<9}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}\n", name, 1e6 * quantile(h, 0.5),
-                       1e6 * quantile(h, 0.99), 1e6 * quantile(h, 0.999),
-                       1e-3 * static_cast<double>(h.greatest));
+                       1e6 * quantile(h, 0.99), 1e6 * quantile(h, 0.999), 1e-3 * static_cast<double>(h.max));
 }
 
 }  // namespace
@@ -63,7 +62,7 @@ HostAssessment assess_host(const Timing& timing, double rate, const HostRequirem
     check(missed <= limits.missed,
           fmt::format("{:.2f} % of the deadlines were missed; expected at most {:.2f} %", 100.0 * missed,
                       100.0 * limits.missed));
-    const double stall = 1e-9 * static_cast<double>(timing.period.greatest);
+    const double stall = 1e-9 * static_cast<double>(timing.period.max);
     check(stall <= limits.stall,
           fmt::format("the longest time without a tick was {:.1f} ms; expected at most {:.0f} ms",
                       1e3 * stall, 1e3 * limits.stall));

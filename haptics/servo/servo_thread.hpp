@@ -21,13 +21,14 @@ namespace bolt::servo {
 // HdrHistogram: 1 ns below 32 ns, then 16 bins per octave, so the relative resolution is 1/16.
 struct Histogram {
     static constexpr int fine = 4;  // bits of a value below its leading bit that select the bin
-    static constexpr std::uint64_t most = (1ULL << 40) - 1;  // ns, 18 minutes; longer durations count as this
+    static constexpr std::uint64_t max_duration =
+        (1ULL << 40) - 1;  // ns, 18 minutes; longer durations count as this
     static constexpr std::size_t bins = (40 - fine + 1) << fine;
 
     std::array<std::uint64_t, bins> counts{};
     std::uint64_t count = 0;
-    std::uint64_t least = most, greatest = 0;  // ns, exact
-    double sum = 0.0;                          // ns
+    std::uint64_t min = max_duration, max = 0;  // ns, exact
+    double sum = 0.0;                           // ns
 };
 
 constexpr std::size_t bin_of(std::uint64_t ns) {
@@ -45,19 +46,20 @@ constexpr std::uint64_t end_of(std::size_t bin) {
 
 // Negative durations, from a clock that went backwards, count as 0.
 inline void add(Histogram& h, std::int64_t ns) {
-    const std::uint64_t value = std::min(static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0)), h.most);
+    const std::uint64_t value =
+        std::min(static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0)), h.max_duration);
     ++h.counts[bin_of(value)];
     ++h.count;
-    h.least = std::min(h.least, value);
-    h.greatest = std::max(h.greatest, value);
+    h.min = std::min(h.min, value);
+    h.max = std::max(h.max, value);
     h.sum += static_cast<double>(value);
 }
 
 inline void add(Histogram& h, const Histogram& other) {
     for (std::size_t i = 0; i < h.bins; ++i) h.counts[i] += other.counts[i];
     h.count += other.count;
-    h.least = std::min(h.least, other.least);
-    h.greatest = std::max(h.greatest, other.greatest);
+    h.min = std::min(h.min, other.min);
+    h.max = std::max(h.max, other.max);
     h.sum += other.sum;
 }
 
@@ -70,9 +72,9 @@ inline double quantile(const Histogram& h, double share) {
     for (std::size_t i = 0; i < h.bins; ++i) {
         below += h.counts[i];
         if (below > 0 && static_cast<double>(below) >= rank)
-            return 1e-9 * static_cast<double>(std::min(end_of(i) - 1, h.greatest));
+            return 1e-9 * static_cast<double>(std::min(end_of(i) - 1, h.max));
     }
-    return 1e-9 * static_cast<double>(h.greatest);
+    return 1e-9 * static_cast<double>(h.max);
 }
 
 // s; 0 if the histogram is empty.
@@ -83,7 +85,7 @@ inline double mean(const Histogram& h) {
 // The share (0 … 1) of the values above `seconds`. Values in the same bin count as above.
 inline double share_above(const Histogram& h, double seconds) {
     if (h.count == 0) return 0.0;
-    const double ns = std::clamp(seconds * 1e9, 0.0, static_cast<double>(h.most));
+    const double ns = std::clamp(seconds * 1e9, 0.0, static_cast<double>(h.max_duration));
     std::uint64_t above = 0;
     for (std::size_t i = bin_of(static_cast<std::uint64_t>(ns)); i < h.bins; ++i) above += h.counts[i];
     return static_cast<double>(above) / static_cast<double>(h.count);

@@ -20,7 +20,7 @@ NutGeometry nut_geometry(const joint::JointDesign& design) {
     nut.e2 = glm::cross(nut.axis, nut.e1);
     nut.height = design.thread.size.nut_height;
     nut.across_flats = design.thread.size.across_flats;
-    nut.bearing = design.thread.size.nut_bearing;
+    nut.bearing_diameter = design.thread.size.nut_bearing;
     nut.corner_pressure =
         joint::corner_pressure(joint::nut_hardness(design.bolt_class, design.thread.size.d));
     nut.start_gap = design.start_gap;

@@ -21,12 +21,12 @@ struct NutGeometry {
     Vec3 axis{0.0, 1.0, 0.0};
     Vec3 e1{1.0, 0.0, 0.0};
     Vec3 e2{0.0, 0.0, -1.0};
-    double height = 0.0;           // m
-    double across_flats = 0.0;     // s in ISO 4032, m
-    double bearing = 0.0;          // m, diameter of the bearing face inside the chamfer
-    double corner_pressure = 0.0;  // Pa at which the corners yield (haptics/joint/nut.hpp)
-    double start_gap = 0.0;        // m from bearing face to seat at nut angle 0
-    double lead = 0.0;             // m of advance per rad
+    double height = 0.0;            // m
+    double across_flats = 0.0;      // s in ISO 4032, m
+    double bearing_diameter = 0.0;  // m, of the bearing face inside the chamfer
+    double corner_pressure = 0.0;   // Pa at which the corners yield (haptics/joint/nut.hpp)
+    double start_gap = 0.0;         // m from bearing face to seat at nut angle 0
+    double lead = 0.0;              // m of advance per rad
 };
 
 // Pose of the nut's frame in the assembly: origin on the bearing face, +Z along the bolt away from the

@@ -110,17 +110,22 @@ force::ForceRequest release_request(const Setup& setup, ReleaseFade& release_fad
     return request;
 }
 
+// A pose in the last tick and in this one.
+struct Motion {
+    Pose before, now;
+};
+
 // The work (J) of the guiding force on the motion of the commanded tool relative to the constrained one. The
 // guiding force acts on the hand, but derives from a potential of the constrained pose; where contacts hold
 // the tool back the two differ, and the difference counts as injected energy.
-double relative_work(const force::OutputCommand& guiding, const Pose& commanded_before,
-                     const Pose& commanded_now, const Pose& constrained_before, const Pose& constrained_now) {
-    const Vec3 relative = (commanded_now.position - commanded_before.position) -
-                          (constrained_now.position - constrained_before.position);
+double relative_work(const force::OutputCommand& guiding, const Motion& commanded,
+                     const Motion& constrained) {
+    const Vec3 relative = (commanded.now.position - commanded.before.position) -
+                          (constrained.now.position - constrained.before.position);
     return glm::dot(guiding.force, relative) +
            glm::dot(guiding.torque,
-                    turn_between(commanded_before.orientation, commanded_now.orientation) -
-                        turn_between(constrained_before.orientation, constrained_now.orientation));
+                    turn_between(commanded.before.orientation, commanded.now.orientation) -
+                        turn_between(constrained.before.orientation, constrained.now.orientation));
 }
 
 // The aligning torque for a device that renders none, as a force at the end of the wrench: a wrench near a
@@ -155,6 +160,106 @@ std::uint8_t update_checkpoints(const Setup& setup, State& state, const ToolPose
     return action;
 }
 
+// The tool at the pose that contacts permit, and the force of the contacts.
+struct ConstrainedTool {
+    ToolPose pose;
+    force::ForceRequest contacts;
+};
+
+// Stage 1. Without contact simulation, or without a wrench in the hand, the constrained tool is the commanded
+// one.
+ConstrainedTool constrain_tool(const Setup& setup, State& state, const ToolPose& commanded_tool, Grip grip) {
+    ConstrainedTool constrained{commanded_tool, {}};
+    if (!state.tool_contact || !commanded_tool.valid) return constrained;
+    const proxy::GodObjectState before = state.tool_contact->god_object;
+    const bool was_in_hand = state.tool_contact->in_hand;
+    const Pose commanded_now{commanded_tool.position, commanded_tool.orientation};
+    constrained.contacts = step_tool_contact(setup, *state.tool_contact, state.joints, commanded_now,
+                                             grip == Grip::wrench, state.engagement.joint);
+    if (grip != Grip::wrench) return constrained;
+    const Pose& constrained_now = state.tool_contact->god_object.constrained_tool;
+    constrained.pose = at_pose(constrained_now);
+    if (was_in_hand)
+        constrained.contacts.injected_energy +=
+            relative_work(state.guiding_command, {before.commanded_tool, commanded_now},
+                          {before.constrained_tool, constrained_now});
+    return constrained;
+}
+
+// Stage 2.
+void update_engagement(const Setup& setup, State& state, const ToolPose& tool, Grip grip) {
+    if (state.tool_contact && grip == Grip::wrench)
+        update_jaw_engagement(setup, state.joints, state.rounded, tool, state.engagement);
+    else
+        update_pose_engagement(setup, state.joints, tool, grip, state.engagement);
+}
+
+// Stage 3. Returns true if the torque wrench clicks.
+bool step_joints(const Setup& setup, State& state, float set_torque) {
+    update_set_torque(setup, state.engagement, set_torque);
+    const joint::ClickStep click =
+        step_group(setup.group, state.joints, state.engagement.joint, drive_of(setup, state), setup.dt);
+    state.engagement.swung = click.swung;
+    return click.clicked;
+}
+
+// Stage 4, without a nut in the hand: the guiding force. It fades out if `guide` is −1.
+force::ForceRequest guiding_request(const Setup& setup, State& state, const ToolPose& tool, Grip grip,
+                                    int guide, force::IsSegmentFree free) {
+    force::ForceRequest guiding = force::guide(setup.guiding, state.guide, guided_tool(setup, tool),
+                                               guide_target(setup, state.joints, guide), free, setup.dt);
+    if (setup.limits.torque <= 0.0 && grip == Grip::wrench)
+        guiding.command = as_force_at_lever_end(setup, guiding.command, tool);
+    state.guiding_command = guiding.command;
+    return guiding;
+}
+
+// Stage 4, with a nut in the hand: its force. Writes what the joint does to `output`. `held_before`: the same
+// nut was held in the last tick.
+force::ForceRequest nut_request(const Setup& setup, State& state, const ToolPose& tool, bool held_before,
+                                Output& output) {
+    const int engaged = state.engagement.joint;
+    const auto i = static_cast<std::size_t>(engaged);
+    const joint::JointState& joint = state.joints[i];
+    if (state.engagement.grip == Grip::fingers)
+        clamp_finger_deflection(setup, state.engagement, joint.nut.angle);
+    const force::ForceRequest request = hold_request(setup, state, tool, held_before);
+    const bool slips = held_by_contact(state) &&
+                       round_corners(setup, setup.nuts[i], joint, state.rounded[i], state.engagement);
+    if (slips)
+        output.slipped = static_cast<std::int16_t>(engaged);
+    else
+        output.joint = static_cast<std::int16_t>(engaged);
+    output.rounded = state.rounded[i];
+    output.stage = joint.stage;
+    output.wrench_torque = joint.torque;
+    output.nut_angle = joint.nut.angle;
+    output.clamp = joint.clamp;
+    return request;
+}
+
+void add(force::ForceRequest& sum, const force::ForceRequest& more) {
+    sum.command.force += more.command.force;
+    sum.command.torque += more.command.torque;
+    sum.stored_energy += more.stored_energy;
+    sum.injected_energy += more.injected_energy;
+}
+
+// Stage 5. The input of the output stage. A device without torque output applies its force at the end of the
+// handle.
+force::DeviceInput device_input(const Setup& setup, const ToolPose& commanded_tool, const TickInput& input) {
+    const double lever_arm = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
+    force::DeviceInput device;
+    device.pose = {commanded_tool.position + lever_arm * commanded_tool.handle, commanded_tool.orientation};
+    device.valid = commanded_tool.valid;
+    device.dead_man = input.dead_man;
+    device.fresh = input.fresh;
+    device.missed = input.missed;
+    device.stop = input.stop;
+    device.reset = input.reset;
+    return device;
+}
+
 }  // namespace
 
 State initial_state(const Setup& setup) {
@@ -173,96 +278,42 @@ Output tick(const Setup& setup, State& state, const TickInput& input) {
 
 Output tick(const Setup& setup, State& state, const TickInput& input, force::IsSegmentFree free) {
     const FlushDenormals flush;
+    Output output;
     const ToolPose commanded_tool = pose_of(input.commanded_tool);
-    const std::uint8_t undone =
-        input.checkpoint_action != 0
-            ? update_checkpoints(setup, state, commanded_tool, input.checkpoint_action)
-            : std::uint8_t{0};
+    if (input.checkpoint_action != 0)
+        output.undone = update_checkpoints(setup, state, commanded_tool, input.checkpoint_action);
     const Grip grip = input.dead_man ? input.grip : Grip::none;
-    force::ForceRequest contact_request;
-    ToolPose constrained_tool = commanded_tool;
-    if (state.tool_contact && commanded_tool.valid) {
-        const proxy::GodObjectState before = state.tool_contact->god_object;
-        const bool in_hand = state.tool_contact->in_hand;
-        const Pose commanded_now{commanded_tool.position, commanded_tool.orientation};
-        contact_request = step_tool_contact(setup, *state.tool_contact, state.joints, commanded_now,
-                                            grip == Grip::wrench, state.engagement.joint);
-        const Pose& constrained_now = state.tool_contact->god_object.constrained_tool;
-        if (grip == Grip::wrench) constrained_tool = at_pose(constrained_now);
-        if (in_hand && grip == Grip::wrench)
-            contact_request.injected_energy +=
-                relative_work(state.guiding_command, before.commanded_tool, commanded_now,
-                              before.constrained_tool, constrained_now);
-    }
+
+    const auto [tool, contacts] = constrain_tool(setup, state, commanded_tool, grip);
+
     const int engaged_before = state.engagement.joint;
     const bool held_by_spring_before = engaged_before >= 0 && !held_by_contact(state);
-    if (state.tool_contact && grip == Grip::wrench)
-        update_jaw_engagement(setup, state.joints, state.rounded, constrained_tool, state.engagement);
-    else
-        update_pose_engagement(setup, state.joints, constrained_tool, grip, state.engagement);
-
+    update_engagement(setup, state, tool, grip);
     const int engaged = state.engagement.joint;
-    update_set_torque(setup, state.engagement, input.set_torque);
-    const joint::ClickStep click =
-        step_group(setup.group, state.joints, engaged, drive_of(setup, state), setup.dt);
-    state.engagement.swung = click.swung;
 
-    Output output;
-    output.clicked = click.clicked;
-    output.undone = undone;
-    force::ForceRequest request;
-    // The guiding force fades out if a nut is engaged or the sample is not a pose.
-    const bool guides = engaged < 0 && constrained_tool.valid && input.dead_man;
-    force::ForceRequest guiding =
-        force::guide(setup.guiding, state.guide, guided_tool(setup, constrained_tool),
-                     guide_target(setup, state.joints, guides ? input.guide : -1), free, setup.dt);
-    if (setup.limits.torque <= 0.0 && grip == Grip::wrench)
-        guiding.command = as_force_at_lever_end(setup, guiding.command, constrained_tool);
-    state.guiding_command = guiding.command;
+    output.clicked = step_joints(setup, state, input.set_torque);
+
+    const bool guides = engaged < 0 && tool.valid && input.dead_man;
+    const force::ForceRequest guiding =
+        guiding_request(setup, state, tool, grip, guides ? input.guide : -1, free);
     if (held_by_spring_before && engaged != engaged_before) state.release_fade = {state.hold_target, 1.0};
-    if (!constrained_tool.valid || !input.dead_man) state.release_fade.share = 0.0;
-    const force::ForceRequest released = release_request(setup, state.release_fade, constrained_tool);
-    if (engaged >= 0) {
-        const auto i = static_cast<std::size_t>(engaged);
-        const joint::JointState& joint = state.joints[i];
-        if (state.engagement.grip == Grip::fingers)
-            clamp_finger_deflection(setup, state.engagement, joint.nut.angle);
-        request = hold_request(setup, state, constrained_tool, engaged_before == engaged);
-        const bool slips = held_by_contact(state) &&
-                           round_corners(setup, setup.nuts[i], joint, state.rounded[i], state.engagement);
-        (slips ? output.slipped : output.joint) = static_cast<std::int16_t>(engaged);
-        output.rounded = state.rounded[i];
-        output.stage = joint.stage;
-        output.wrench_torque = joint.torque;
-        output.nut_angle = joint.nut.angle;
-        output.clamp = joint.clamp;
-    }
-    if (constrained_tool.valid)
-        for (const force::ForceRequest& more : {guiding, contact_request, released}) {
-            request.command.force += more.command.force;
-            request.command.torque += more.command.torque;
-            request.stored_energy += more.stored_energy;
-            request.injected_energy += more.injected_energy;
-        }
-    force::DeviceInput port;
-    // A device without torque output applies its force at the end of the handle.
-    const double lever_arm = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
-    port.pose = {commanded_tool.position + lever_arm * commanded_tool.handle, commanded_tool.orientation};
-    port.valid = commanded_tool.valid;
-    port.dead_man = input.dead_man;
-    port.fresh = input.fresh;
-    port.missed = input.missed;
-    port.stop = input.stop;
-    port.reset = input.reset;
-    const force::OutputCommand limited =
-        force::render(setup.limits, state.output_stage, port, request, setup.dt);
-    output.constrained_tool = {constrained_tool.position, constrained_tool.orientation};
-    output.contacts = state.tool_contact ? static_cast<std::uint16_t>(state.tool_contact->last_step.contacts)
-                                         : std::uint16_t{0};
-    output.touched = state.tool_contact ? state.tool_contact->touched : collision::ObstacleId();
+    if (!tool.valid || !input.dead_man) state.release_fade.share = 0.0;
+    const force::ForceRequest released = release_request(setup, state.release_fade, tool);
+    force::ForceRequest request;
+    if (engaged >= 0) request = nut_request(setup, state, tool, engaged_before == engaged, output);
+    if (tool.valid)
+        for (const force::ForceRequest& more : {guiding, contacts, released}) add(request, more);
+
+    const force::OutputCommand limited = force::render(
+        setup.limits, state.output_stage, device_input(setup, commanded_tool, input), request, setup.dt);
     output.force = limited.force;
     output.torque = limited.torque;
     output.fault = state.output_stage.watchdog.fault;
+    output.constrained_tool = {tool.position, tool.orientation};
+    if (state.tool_contact) {
+        output.contacts = static_cast<std::uint16_t>(state.tool_contact->last_step.contacts);
+        output.touched = state.tool_contact->touched;
+    }
     ++state.tick;
     return output;
 }

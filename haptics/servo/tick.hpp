@@ -24,7 +24,7 @@ namespace bolt::servo {
 // After a release the spring between tool and nut fades out within 50 ms instead of in one step.
 struct ReleaseFade {
     Vec3 hold_target{0.0};
-    double share = 0.0;  // 0 … 1 of Setup::hold_stiffness that is left
+    double share = 0.0;  // remaining share of Setup::hold_stiffness, 0 … 1
 };
 
 // A stored state of all joints and nuts, for undo.
@@ -36,7 +36,7 @@ struct Checkpoint {
 struct State {
     std::uint64_t tick = 0;
     std::vector<joint::JointState> joints;
-    std::vector<double> rounded;  // by joint: m of each flat that slipping jaws have rounded off
+    std::vector<double> rounded;  // by joint: m, by slipping jaws (joint::CornerGrip::rounded)
     Engagement engagement;
     Vec3 hold_target{0.0};  // m, point to which the hold spring pulls an engaged tool
     ReleaseFade release_fade;

@@ -29,8 +29,9 @@ struct ToolContactDescription {
 
 // The contacts of the last query with its pose and band: the jaw's with nuts first, then those of meshes.
 struct ContactCache {
-    bool nuts_unchanged = false;    // no nut moved since, so the jaw's contacts are valid
-    bool meshes_unchanged = false;  // no body moved or was switched since, so the meshes' contacts are valid
+    bool nuts_unchanged = false;  // since then no nut has moved, so the jaw's contacts are valid
+    bool meshes_unchanged =
+        false;  // since then no body has moved or was enabled or disabled: the same for meshes
     Pose pose;
     double band = 0.0;  // m
     collision::ContactQueryResult nuts, meshes;

@@ -128,7 +128,7 @@ void follow_load(VibrationState& state, const VibrationOptions& options, const V
     state.load_pulse = {};
     const bool loaded = input.stage != joint::Stage::navigation && share > 0.0;
     const bool active = state.growth >= options.min_growth ||
-                        (state.speed >= options.min_speed && state.growth > -options.release);
+                        (state.speed >= options.min_speed && state.growth > -options.release_rate);
     if (!loaded || !active) return;
     state.load_pulse = options.load_pulse;
     state.load_pulse.amplitude *= load_scale(options, share);
@@ -152,7 +152,7 @@ VibrationCue strongest(VibrationState& state, const VibrationOptions& options) {
 std::optional<VibrationCommand> sent(VibrationState& state, const VibrationOptions& options,
                                      const VibrationPulse& pulse, VibrationCue cue) {
     const double amplitude = std::clamp(options.gain * pulse.amplitude, 0.0, 1.0);
-    if (!(amplitude >= options.least_amplitude)) return std::nullopt;
+    if (!(amplitude >= options.min_amplitude)) return std::nullopt;
     state.sent_at = state.time;
     state.busy_until = cue == VibrationCue::load_pulse ? state.time : state.time + pulse.duration;
     state.rendered = cue;

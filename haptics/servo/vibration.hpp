@@ -60,13 +60,13 @@ struct VibrationOptions {
     // The load grows if torque / target grows faster than this (1/s), and the nut turns if it is faster than
     // this (rad/s); both are smoothed over smoothing_time (s).
     double min_growth = 0.05, min_speed = 0.02, smoothing_time = 0.05;
-    double release =
-        1.0;  // 1/s by which torque / target falls if the hand lets go; then there is no load pulse
+    // 1/s. If torque / target falls faster than this, the hand is letting go: no load pulse.
+    double release_rate = 1.0;
     double min_share = 0.1;  // torque / target below which there is no breakaway
 
-    double min_interval = 0.01;     // s between two commands
-    double max_wait = 0.1;          // s for which an event waits for stronger ones; a detent waits 0.02 s
-    double least_amplitude = 0.01;  // weaker commands are not sent
+    double min_interval = 0.01;   // s between two commands
+    double max_wait = 0.1;        // s for which an event waits for stronger ones; a detent waits 0.02 s
+    double min_amplitude = 0.01;  // weaker commands are not sent
 };
 
 struct VibrationCommand {
@@ -81,7 +81,7 @@ struct VibrationInput {
     std::int16_t joint = -1;  // engaged joint; −1: none
     joint::Stage stage = joint::Stage::navigation;
     double torque = 0.0;        // N·m, of the wrench, either sign
-    double target = 0.0;        // N·m, target torque of the step; 0: none, so there is no load to show
+    double target = 0.0;        // N·m, target torque of the step; 0: none, so there is no load to render
     double angle = 0.0;         // rad, of the nut
     bool slipped = false;       // Output::slipped is a joint
     bool clicked = false;       // Output::clicked
@@ -92,7 +92,7 @@ struct VibrationInput {
 VibrationInput vibration_input(const Output& output, double target, double strike_speed);
 
 struct VibrationState {
-    // An event that no command has shown yet.
+    // An event that no command has rendered yet.
     struct PendingCue {
         double amplitude = 0.0;  // 0: none
         double time = 0.0;       // s
@@ -110,7 +110,7 @@ struct VibrationState {
     double rest_angle = 0.0, rest_since = 0.0;
     bool stuck = false;  // stands still under load
 
-    std::int16_t seated_joint = -1;  // whose seat was shown; −1: it may be shown again
+    std::int16_t seated_joint = -1;  // whose seat cue was rendered; −1: it may be rendered again
     double seat_angle = 0.0;
     double last_yield = -1e9;  // s, last tick in the yield stage
 

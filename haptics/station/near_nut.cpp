@@ -78,8 +78,8 @@ Pose turned_square_to_bolt(const Pose& last, const Pivot& pivot, double lever_ar
 
 }  // namespace
 
-void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationState& s, const Pose& last,
-                      double dt) {
+void pivot_about_bolt(const DeviceLayout& layout, const servo::Setup& setup, StationState& s,
+                      const Pose& last, double dt) {
     const bool wrench = s.input.grip == servo::Grip::wrench && s.workspace.lever_arm > 0.0;
     s.pivot_joint = wrench ? nut_to_pivot_about(setup, s) : -1;
     if (s.pivot_joint < 0) return;
@@ -107,8 +107,8 @@ constexpr double approach_angular_speed = 3.0;  // rad/s per N·m; slower than a
 
 }  // namespace
 
-void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& s, const servo::State& servo,
-                 const StationInputs& inputs, servo::TickInput& input) {
+void move_to_nut(const DeviceLayout& layout, const servo::Setup& setup, StationState& s,
+                 const servo::State& servo, const StationInputs& inputs, servo::TickInput& input) {
     if (!layout.mover || layout.mover->sensing != device::Sensing::velocity || renders_force(*layout.mover))
         return;
     Pose& tool = s.workspace.commanded_tool;

@@ -18,7 +18,7 @@ constexpr std::size_t commands_per_tick = 16;  // further ones wait for the next
 }  // namespace
 
 struct Station::Shared {
-    Layout layout;
+    DeviceLayout layout;
     servo::Setup setup;
     servo::State state;
     StationState station;
@@ -85,7 +85,7 @@ Status open(const device::DeviceFactory& factory, const StationOptions& options,
 // A wrench that is grasped comes into the palm in this time. Chosen: as fast as a hand regrasps.
 constexpr double absolute_return_time = 0.1;  // s
 
-force::WorkspaceMap make_workspace(const Layout& layout, const StationOptions& options) {
+force::WorkspaceMap make_workspace(const DeviceLayout& layout, const StationOptions& options) {
     force::WorkspaceMap map;
     map.rotation = glm::normalize(options.workspace.rotation);
     if (!layout.mover || layout.mover->sensing != device::Sensing::pose) return map;
@@ -99,9 +99,9 @@ force::WorkspaceMap make_workspace(const Layout& layout, const StationOptions& o
 
 }  // namespace
 
-Result<Layout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
-                           std::optional<device::Description> wheel) {
-    Layout layout;
+Result<DeviceLayout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
+                                 std::optional<device::Description> wheel) {
+    DeviceLayout layout;
     layout.mover = std::move(mover);
     if (layout.mover) layout.mover->limits = force::lowered(layout.mover->limits, options.mover_limits);
     layout.wheel = std::move(wheel);
@@ -170,10 +170,10 @@ std::vector<std::string> Station::fault_messages() {
     std::vector<std::string> messages;
     for (auto* thread : {&shared_->mover, &shared_->wheel}) {
         if (!thread->has_value()) continue;
-        const device::DeviceReport& report = (*thread)->report();
-        if (!report.fault_message.empty()) messages.push_back(report.fault_message);
-        if (report.state == device::DeviceState::usable && (*thread)->blocked_for() > driver_timeout)
-            messages.push_back(report.description->name +
+        const device::DeviceStatus& status = (*thread)->status();
+        if (!status.fault_message.empty()) messages.push_back(status.fault_message);
+        if (status.state == device::DeviceState::usable && (*thread)->blocked_for() > driver_timeout)
+            messages.push_back(status.description->name +
                                ": has not answered for 0.5 s; expected a device that answers: "
                                "unplug it and plug it in again");
     }
@@ -190,11 +190,11 @@ std::vector<std::string> Station::fault_messages() {
     return messages;
 }
 
-const device::DeviceReport* Station::mover_report() {
-    return shared_->mover ? &shared_->mover->report() : nullptr;
+const device::DeviceStatus* Station::mover_status() {
+    return shared_->mover ? &shared_->mover->status() : nullptr;
 }
-const device::DeviceReport* Station::wheel_report() {
-    return shared_->wheel ? &shared_->wheel->report() : nullptr;
+const device::DeviceStatus* Station::wheel_status() {
+    return shared_->wheel ? &shared_->wheel->status() : nullptr;
 }
 const hand::GloveReport* Station::glove_report() {
     return shared_->hand ? &shared_->hand->report() : shared_->glove ? &shared_->glove->report() : nullptr;
@@ -204,7 +204,7 @@ const StationLinkStats& Station::link_stats() {
     return shared_->link_stats.latest();
 }
 const DisplayedHand* Station::hand() { return shared_->hand ? &shared_->hand->displayed() : nullptr; }
-const Layout& Station::layout() const { return shared_->layout; }
+const DeviceLayout& Station::layout() const { return shared_->layout; }
 const servo::Setup& Station::setup() const { return shared_->setup; }
 hand::GloveDriver* Station::glove() { return shared_->glove ? &*shared_->glove : nullptr; }
 servo::ServoThread& Station::servo() { return *shared_->thread; }

@@ -35,7 +35,7 @@ struct StationLinkStats {
     LinkStats mover, wheel;
 };
 
-// How the mover's workspace maps to the assembly's, as far as the builder of the station determines it.
+// How the mover's workspace maps to the assembly's, as far as the installer determines it.
 struct WorkspaceOptions {
     // Unit, from the device's frame to the user's: not the identity if the device is mounted at another angle
     // than its maker intends.
@@ -69,8 +69,8 @@ struct StationOptions {
 
 // The layout of these devices: workspace and lever arm from the options, or fitted to the devices. The
 // mover's limits are lowered here, before anything uses them. Fails as check().
-Result<Layout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
-                           std::optional<device::Description> wheel);
+Result<DeviceLayout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
+                                 std::optional<device::Description> wheel);
 
 class Station {
   public:
@@ -99,12 +99,12 @@ class Station {
 
     // Reports of the devices and the glove, null if absent, and the link statistics of the latest tick. For
     // the thread that calls fault_messages().
-    const device::DeviceReport* mover_report();
-    const device::DeviceReport* wheel_report();
+    const device::DeviceStatus* mover_status();
+    const device::DeviceStatus* wheel_status();
     const hand::GloveReport* glove_report();
     const StationLinkStats& link_stats();
 
-    [[nodiscard]] const Layout& layout() const;
+    [[nodiscard]] const DeviceLayout& layout() const;
     [[nodiscard]] const servo::Setup& setup() const;
     [[nodiscard]] hand::GloveDriver* glove();  // null: no glove, or a gloved hand uses it
     [[nodiscard]] servo::ServoThread& servo();

@@ -19,7 +19,7 @@ bool renders_torque(const Description& d) {
     return d.limits.torque > 0.0 && (d.renders[3] || d.renders[4] || d.renders[5]);
 }
 
-Status check(const Layout& layout) {
+Status check(const DeviceLayout& layout) {
     if (!layout.mover && !layout.wheel)
         return fail(ErrorCode::no_device, "station: no device is selected", "a device that moves the tool");
     if (layout.mover && layout.mover->sensing == Sensing::angle)
@@ -40,19 +40,19 @@ constexpr double max_slew_share = 0.1;  // of the greatest force and torque, per
 constexpr double millisecond = 1e-3;    // s
 
 force::OutputLimits with_limited_slew_rates(force::OutputLimits limits) {
-    limits.force_rate = std::min(limits.force_rate, max_slew_share * limits.force / millisecond);
-    limits.torque_rate = std::min(limits.torque_rate, max_slew_share * limits.torque / millisecond);
+    limits.force_slew_rate = std::min(limits.force_slew_rate, max_slew_share * limits.force / millisecond);
+    limits.torque_slew_rate = std::min(limits.torque_slew_rate, max_slew_share * limits.torque / millisecond);
     return limits;
 }
 
 }  // namespace
 
-double lever_arm_of(const Layout& layout, double handle_length) {
+double lever_arm_of(const DeviceLayout& layout, double handle_length) {
     const bool pose = layout.mover && layout.mover->sensing == Sensing::pose;
     return pose && limits_of(layout).torque <= 0.0 ? handle_length : 0.0;
 }
 
-force::OutputLimits limits_of(const Layout& layout) {
+force::OutputLimits limits_of(const DeviceLayout& layout) {
     force::OutputLimits limits;
     limits.force = limits.torque = 0.0;
     if (layout.mover) {
@@ -65,7 +65,7 @@ force::OutputLimits limits_of(const Layout& layout) {
     if (!layout.wheel) return limits;
     const force::OutputLimits& wheel = layout.wheel->limits;
     limits.torque = renders_torque(*layout.wheel) ? wheel.torque : 0.0;
-    limits.torque_rate = wheel.torque_rate;
+    limits.torque_slew_rate = wheel.torque_slew_rate;
     limits.torsion = wheel.torsion;
     limits.angular_damping = wheel.angular_damping;
     limits.angular_speed = wheel.angular_speed;
@@ -121,7 +121,7 @@ double angular_velocity_factor(const servo::Setup& setup, const StationState& s)
 
 // Integrates the velocity that the device senses into the tool's pose, at most the permitted lead ahead of
 // the constrained pose.
-void integrate_velocity(const Layout& layout, const servo::Setup& setup, StationState& s,
+void integrate_velocity(const DeviceLayout& layout, const servo::Setup& setup, StationState& s,
                         const device::Sample& sample, const Quat& view, double dt) {
     const Quat to_assembly = view * layout.workspace.rotation;
     Pose& tool = s.workspace.commanded_tool;
@@ -146,7 +146,8 @@ Quat heading_of(const Quat& view) {
 }
 
 // Changes what the tool's motion follows, without moving the tool.
-void set_heading_and_lever_arm(const Layout& layout, StationState& s, const Quat& heading, double lever_arm) {
+void set_heading_and_lever_arm(const DeviceLayout& layout, StationState& s, const Quat& heading,
+                               double lever_arm) {
     if (heading == s.workspace.heading && lever_arm == s.workspace.lever_arm) return;
     s.workspace.heading = heading;
     s.workspace.lever_arm = lever_arm;
@@ -163,7 +164,7 @@ bool has_jumped(const Description& mover, const Pose& before, const Pose& now) {
                limits.angular_jump + limits.angular_speed * between;
 }
 
-void move_by_mover(const Layout& layout, const servo::Setup& setup, StationState& s,
+void move_by_mover(const DeviceLayout& layout, const servo::Setup& setup, StationState& s,
                    const DeviceSnapshot& snapshot, const Quat& view, bool clutch, double dt) {
     if (layout.mover->sensing == Sensing::velocity) {
         if (s.mover.usable && s.mover.silence < velocity_timeout && !clutch)
@@ -189,7 +190,7 @@ void move_by_mover(const Layout& layout, const servo::Setup& setup, StationState
 }
 
 // Moves the tool; it follows the hand from there.
-void place_tool(const Layout& layout, StationState& s, const Pose& tool) {
+void place_tool(const DeviceLayout& layout, StationState& s, const Pose& tool) {
     force::realign(layout.workspace, s.workspace, s.mover_pose, tool);
 }
 
@@ -199,7 +200,7 @@ double rotation_sense(const Description& wheel) {
     return glm::dot(wheel.axis, Vec3(0.0, 1.0, 1.0)) < 0.0 ? -1.0 : 1.0;
 }
 
-void turn_by_wheel(const Layout& layout, const servo::Setup& setup, StationState& s,
+void turn_by_wheel(const DeviceLayout& layout, const servo::Setup& setup, StationState& s,
                    const DeviceSnapshot& snapshot, bool clutch) {
     if (!s.wheel.fresh) return;
     const double by =
@@ -218,7 +219,7 @@ void turn_by_wheel(const Layout& layout, const servo::Setup& setup, StationState
 
 // A wrench that is taken starts at its rest pose. A wrench released on a nut stays there; released elsewhere
 // it returns to StationControls::wrench_rest_pose.
-void update_resting_wrench(const Layout& layout, StationState& s, servo::Grip grip,
+void update_resting_wrench(const DeviceLayout& layout, StationState& s, servo::Grip grip,
                            const StationControls& controls) {
     const std::optional<Pose>& rest = controls.wrench_rest_pose;
     if (!rest) return;
@@ -241,7 +242,7 @@ void update_gripper(Gripper& gripper, double opening) {
 }
 
 // Updates the links. Returns the controls combined with the devices' buttons.
-StationControls merge_buttons(const Layout& layout, StationState& s, const StationInputs& inputs,
+StationControls merge_buttons(const DeviceLayout& layout, StationState& s, const StationInputs& inputs,
                               double elapsed) {
     StationControls controls = inputs.controls;
     controls.dead_man &= inputs.controls_age <= controls.dead_man_timeout;
@@ -303,14 +304,14 @@ force::OutputCommand part(const force::OutputCommand& whole, double share) {
 
 }  // namespace
 
-StationState initial_state(const Layout& layout) {
+StationState initial_state(const DeviceLayout& layout) {
     StationState state;
     state.workspace = force::align_workspace(layout.workspace, {}, layout.home);
     state.output.constrained_tool = layout.home;
     return state;
 }
 
-servo::TickInput read_inputs(const Layout& layout, const servo::Setup& setup, StationState& s,
+servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& setup, StationState& s,
                              const StationInputs& inputs) {
     const double elapsed = setup.dt * (1.0 + static_cast<double>(inputs.missed));
     const StationControls controls = merge_buttons(layout, s, inputs, elapsed);
@@ -350,7 +351,7 @@ servo::TickInput read_inputs(const Layout& layout, const servo::Setup& setup, St
     return input;
 }
 
-DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, StationState& s,
+DeviceCommands map_output(const DeviceLayout& layout, const servo::Setup& setup, StationState& s,
                           const servo::Output& output) {
     if (output.undone > 0) s.checkpoint_to_restore = 0;
     s.output = output;
@@ -374,14 +375,14 @@ DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, Stati
     return commands;
 }
 
-DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationState& state, servo::State& servo,
-                    const StationInputs& inputs) {
+DeviceCommands tick(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
+                    servo::State& servo, const StationInputs& inputs) {
     servo::TickInput input = read_inputs(layout, setup, state, inputs);
     move_to_nut(layout, setup, state, servo, inputs, input);
     return map_output(layout, setup, state, servo::tick(setup, servo, input));
 }
 
-Pose tool_of_gloved_hand(const Layout& layout, const servo::Setup& setup, const StationState& s,
+Pose tool_of_gloved_hand(const DeviceLayout& layout, const servo::Setup& setup, const StationState& s,
                          const StationControls& controls) {
     const bool bare = s.resting_wrench && layout.wrist && controls.bare_wrist;
     if (bare) {
@@ -393,7 +394,7 @@ Pose tool_of_gloved_hand(const Layout& layout, const servo::Setup& setup, const 
                 : s.workspace.commanded_tool;
 }
 
-DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, StationState& s,
+DeviceCommands pause_tick(const DeviceLayout& layout, const servo::Setup& setup, StationState& s,
                           const StationInputs& inputs) {
     const double elapsed = setup.dt * (1.0 + static_cast<double>(inputs.missed));
     receive(s, inputs.commands);
@@ -408,7 +409,7 @@ DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, Stati
     return {};
 }
 
-StationStep step(const Layout& layout, const servo::Setup& setup, StationState& s, servo::State& servo,
+StationStep step(const DeviceLayout& layout, const servo::Setup& setup, StationState& s, servo::State& servo,
                  const StationInputs& inputs, std::uint64_t number) {
     StationStep done;
     done.paused = inputs.controls.pause;

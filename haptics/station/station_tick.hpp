@@ -27,7 +27,7 @@ struct Buttons {
 
 // Which device moves the tool, which one turns the wrench on its bolt, and the transforms between their
 // frames and the assembly's.
-struct Layout {
+struct DeviceLayout {
     std::optional<device::Description> mover;  // moves the tool: Sensing::pose or velocity
     Buttons mover_buttons;
     // Turns the wrench on its bolt and renders the torque: Sensing::angle. With a wheel the mover renders
@@ -42,7 +42,7 @@ struct Layout {
 };
 
 // Fails with ErrorCode::no_device if there is no device or a device cannot take its role.
-Status check(const Layout& layout);
+Status check(const DeviceLayout& layout);
 
 // s; upper bound of the sum of two delays: from a sample's arrival until the servo reads it, and from a
 // command until the device thread reads it. Subtracted from the time in which forces must be released.
@@ -51,10 +51,10 @@ inline constexpr double transport_delay = 2e-3;
 // The length of the wrench, `handle_length` m, if the mover senses the pose of the hand and no device renders
 // torque: its force then acts at the end of the wrench. Otherwise 0: the jaw follows the
 // mover, which turns the wrench about the bolt.
-double lever_arm_of(const Layout& layout, double handle_length);
+double lever_arm_of(const DeviceLayout& layout, double handle_length);
 
 // The combined limits of the devices in the assembly's units, for servo::SetupDescription::limits.
-force::OutputLimits limits_of(const Layout& layout);
+force::OutputLimits limits_of(const DeviceLayout& layout);
 
 // Return true if the device renders force or torque, respectively, along or about any axis.
 bool renders_force(const device::Description& description);
@@ -169,39 +169,39 @@ struct DeviceCommands {
     force::OutputCommand mover, wheel;  // each in its device's frame
 };
 
-StationState initial_state(const Layout& layout);
+StationState initial_state(const DeviceLayout& layout);
 
 // One tick. Forces come from the servo's output stage; this code maps them and may only reduce them. A device
 // that is lost or silent for too long moves nothing and renders no force. When it returns, the hand may be
 // anywhere, so the mapping is realigned, as after a clutch.
-DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationState& state, servo::State& servo,
-                    const StationInputs& inputs);
+DeviceCommands tick(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
+                    servo::State& servo, const StationInputs& inputs);
 
 // The parts of tick(), in order; read_inputs() calls pivot_about_bolt().
-servo::TickInput read_inputs(const Layout& layout, const servo::Setup& setup, StationState& state,
+servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                              const StationInputs& inputs);
 // On a bolt and near it the wrench follows the end of its handle, and its jaw points to the bolt. The wrist
 // may turn freely: a device without torque cannot hold it, and a hand cannot place a jaw with it to a degree.
 // `last`: the tool's pose before this tick.
-void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationState& state, const Pose& last,
-                      double dt);
+void pivot_about_bolt(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
+                      const Pose& last, double dt);
 // Moves a tool whose device senses velocity and renders no force: along with a held nut, and towards
 // StationControls::approach_joint. Changes `input`.
-void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& state,
+void move_to_nut(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                  const servo::State& servo, const StationInputs& inputs, servo::TickInput& input);
-DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, StationState& state,
+DeviceCommands map_output(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                           const servo::Output& output);
 
 // The pose at which a gloved hand holds the tool, or would hold it (ToolPoses::commanded_tool). The mover
 // commands it; the glove measures only the fingers. A bare hand within handle_capture_distance of the wrench
 // snaps to its handle: without touch nobody can place fingers around it to the millimetre.
-Pose tool_of_gloved_hand(const Layout& layout, const servo::Setup& setup, const StationState& state,
+Pose tool_of_gloved_hand(const DeviceLayout& layout, const servo::Setup& setup, const StationState& state,
                          const StationControls& controls);
 inline constexpr double handle_capture_distance = 0.10;  // m from the handle's centre line to the fingertips
 
 // Replaces tick() while StationControls::pause is set: reads the devices and returns zero commands.
 // Afterwards the force ramps up. Commands received in a pause are executed in the first tick after it.
-DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, StationState& state,
+DeviceCommands pause_tick(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                           const StationInputs& inputs);
 
 // One tick, for recording.
@@ -222,8 +222,8 @@ struct StationStep {
     bool paused = false;  // no servo tick, so nothing to record
 };
 // tick(), or pause_tick() while StationControls::pause is set. `number` goes to the tick.
-StationStep step(const Layout& layout, const servo::Setup& setup, StationState& state, servo::State& servo,
-                 const StationInputs& inputs, std::uint64_t number);
+StationStep step(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
+                 servo::State& servo, const StationInputs& inputs, std::uint64_t number);
 
 // The following apply to a tool whose device senses velocity (Sensing::velocity).
 //

@@ -148,7 +148,7 @@ class Player {
 
     // Corrects a part of the distance between the tool and its goal, in the frame of the device.
     void move(const Pose& goal, double seconds) {
-        const station::Layout& layout = client().link->layout();
+        const station::DeviceLayout& layout = client().link->layout();
         const Vec3 reach = used_reach * layout.mover->half_workspace;
         if (clutching_ > 0.0) {
             clutching_ -= seconds;

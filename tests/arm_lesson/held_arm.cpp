@@ -56,7 +56,7 @@ class MessagedHaply final : public device::DeviceDriver {
         description_.buttons = 3;
     }
 
-    [[nodiscard]] const device::Description& describe() const override { return description_; }
+    [[nodiscard]] const device::Description& description() const override { return description_; }
 
     Result<std::optional<device::Sample>> read(double timeout) override {
         timer_.wait(std::min(timeout, 1e-3));
@@ -226,7 +226,7 @@ class ObservedDriver final : public device::DeviceDriver {
   public:
     ObservedDriver(std::unique_ptr<device::DeviceDriver> driver, std::shared_ptr<Observed> last)
         : driver_(std::move(driver)), last_(std::move(last)) {}
-    [[nodiscard]] const device::Description& describe() const override { return driver_->describe(); }
+    [[nodiscard]] const device::Description& description() const override { return driver_->description(); }
     Result<std::optional<device::Sample>> read(double timeout) override {
         auto sample = driver_->read(timeout);
         if (sample && *sample) last_->pose = (*sample)->pose;

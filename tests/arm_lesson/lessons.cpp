@@ -30,7 +30,7 @@ Played play(HeldArm& arm, const char* name) {
     constexpr double patience = 1800.0;  // s of the lesson
     while (!lesson.finished() && lesson.session().time() < patience) lesson.tick();
     Played played{lesson.finish(), lesson.felt(), *lesson.layout().mover, lesson.session().time(),
-                  lesson.report().losses};
+                  lesson.status().losses};
     const FeltForces& f = played.felt;
     MESSAGE(fmt::format(
         "{}, {}: {:.0f} s, score {:.0f}, {:.1f} N at most, {:.1f} N and {:.3f} N·m on bolts, {:.2f} N in a "

@@ -27,9 +27,9 @@ PlayedLesson::PlayedLesson(HeldArm& arm, const content::Assembly& assembly, sess
     : arm_(arm), supervisor_(std::make_unique<device::DeviceSupervisor>(arm.open, arm.timer)) {
     arm_.press(dead_man);
     now_ = arm_.timer.now();
-    while (!supervisor_->report().description) {
+    while (!supervisor_->status().description) {
         serve();
-        REQUIRE_MESSAGE(arm_.timer.now() < now_ + 5.0, supervisor_->report().fault_message);
+        REQUIRE_MESSAGE(arm_.timer.now() < now_ + 5.0, supervisor_->status().fault_message);
     }
     auto own = session::prepare_session(assembly, options);
     auto recorded = session::prepare_session(assembly, options);
@@ -40,7 +40,7 @@ PlayedLesson::PlayedLesson(HeldArm& arm, const content::Assembly& assembly, sess
     station::StationOptions planned;
     planned.handle_length = station_.setup.wrench.handle_length;
     planned.home = trainee_->hand();
-    auto layout = station::make_layout(planned, *supervisor_->report().description, {});
+    auto layout = station::make_layout(planned, *supervisor_->status().description, {});
     REQUIRE(layout);
     layout_ = std::move(*layout);
     state_ = station::initial_state(layout_);

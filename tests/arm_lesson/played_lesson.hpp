@@ -33,8 +33,8 @@ class PlayedLesson {
     [[nodiscard]] bool finished() const { return session_->finished(); }
     [[nodiscard]] const session::LessonSession& session() const { return *session_; }
     [[nodiscard]] const FeltForces& felt() const { return felt_; }
-    [[nodiscard]] const device::DeviceReport& report() const { return supervisor_->report(); }
-    [[nodiscard]] const station::Layout& layout() const { return layout_; }
+    [[nodiscard]] const device::DeviceStatus& status() const { return supervisor_->status(); }
+    [[nodiscard]] const station::DeviceLayout& layout() const { return layout_; }
     [[nodiscard]] const station::StationTick& latest() const { return latest_; }
     session::LessonOutcome finish();
 
@@ -55,7 +55,7 @@ class PlayedLesson {
     std::unique_ptr<device::DeviceSupervisor> supervisor_;
     device::DeviceMailboxes mailboxes_;
     device::DeviceSnapshot snapshot_;
-    station::Layout layout_;
+    station::DeviceLayout layout_;
     session::SessionSetup station_;  // the station's own servo
     station::StationState state_;
     station::StationControls controls_;

@@ -154,6 +154,6 @@ TEST_CASE("Collision world: an invalid obstacle or tool is an error") {
     const ContactMesh sheet = open.mesh();
     CHECK_FALSE(make_tool({&sheet, 1}));
     ToolOptions options;
-    options.samples.longest_piece = 0.0;
+    options.samples.max_piece = 0.0;
     CHECK_FALSE(make_tool({&block, 1}, options));
 }

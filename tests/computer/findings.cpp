@@ -112,7 +112,7 @@ TEST_CASE("Findings: each fault is found, alone") {
         CHECK(severity_of(facts, "finding.privilege") == Severity::limited);
     }
     SUBCASE("the disk is almost full") {
-        facts.free_space = 0.99 * least_free_space;
+        facts.free_space = 0.99 * min_free_space;
         CHECK(severity_of(facts, "finding.disk_low") == Severity::bad);
     }
     SUBCASE("sessions cannot be written") {
@@ -153,7 +153,7 @@ TEST_CASE(
 
     request.sessions = "/proc/sessions";  // even root may not write there
     const ComputerFacts elsewhere = gather_facts(request);
-    CHECK((elsewhere.folder_error.empty() && elsewhere.free_space >= least_free_space) == false);
+    CHECK((elsewhere.folder_error.empty() && elsewhere.free_space >= min_free_space) == false);
 }
 
 TEST_CASE("Timing: the servo ran at the given rate, and an unknown assembly is an error") {

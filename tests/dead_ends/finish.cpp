@@ -15,7 +15,7 @@ constexpr double patience = 60.0,
 
 constexpr double progress = to_radians(20.0), tighter_by = 0.05;  // relative to the due torque
 
-constexpr int most_restarts = 4, experts_restarts = 2;
+constexpr int max_restarts = 4, experts_restarts = 2;
 
 void report_dead_end(LessonRun& run) {
     const lesson::LessonStep* due = run.session.lesson().due();
@@ -87,7 +87,7 @@ int finish_at_mouse(LessonRun& run) {
     while (!run.over() && !run.failed()) {
         std::optional<std::size_t> undo;
         if (patient.over(run.session)) {
-            if (++restarts > most_restarts || run.session.lesson().mode == lesson::Mode::assessment ||
+            if (++restarts > max_restarts || run.session.lesson().mode == lesson::Mode::assessment ||
                 run.session.finished()) {
                 report_dead_end(run);
                 break;

@@ -11,7 +11,7 @@ namespace dead_ends {
 
 namespace {
 
-constexpr std::size_t most_joints = 3;  // on a large assembly, whose bolts are all alike
+constexpr std::size_t max_joints = 3;  // on a large assembly, whose bolts are all alike
 
 // A tick with the hand deep in an obstacle takes a hundred times as long as a free one.
 constexpr double among_obstacles = 0.2;
@@ -63,9 +63,9 @@ content::Assembly assembly_of(const LifePlan& p) {
     REQUIRE(loaded.ok());
     REQUIRE(content::choose_tool(loaded.assembly, p.tool));
     std::vector<content::Pass>& passes = loaded.assembly.passes;
-    if (passes.front().order.size() <= most_joints + 1) return std::move(loaded.assembly);
+    if (passes.front().order.size() <= max_joints + 1) return std::move(loaded.assembly);
     const std::vector<std::size_t> few(passes.front().order.begin(),
-                                       passes.front().order.begin() + most_joints);
+                                       passes.front().order.begin() + max_joints);
     for (content::Pass& pass : passes)
         std::erase_if(pass.order, [&](std::size_t joint) {
             return std::find(few.begin(), few.end(), joint) == few.end();

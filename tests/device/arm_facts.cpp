@@ -18,7 +18,7 @@ namespace {
 void compare(const char* key, const Result<std::unique_ptr<DeviceDriver>>& opened) {
     CAPTURE(key);
     REQUIRE_MESSAGE(opened, (opened ? "" : opened.error().message()));
-    const Description& driver = (*opened)->describe();
+    const Description& driver = (*opened)->description();
     const arm_validation::ArmFacts* facts = arm_validation::find_arm(key);
     REQUIRE(facts != nullptr);
     const Description announced = facts->announced();
@@ -27,7 +27,7 @@ void compare(const char* key, const Result<std::unique_ptr<DeviceDriver>>& opene
     for (const auto limit :
          {&force::OutputLimits::force, &force::OutputLimits::torque, &force::OutputLimits::stiffness,
           &force::OutputLimits::torsion, &force::OutputLimits::damping, &force::OutputLimits::angular_damping,
-          &force::OutputLimits::force_rate, &force::OutputLimits::torque_rate})
+          &force::OutputLimits::force_slew_rate, &force::OutputLimits::torque_slew_rate})
         CHECK(announced.limits.*limit == driver.limits.*limit);
     CHECK(announced.limits.delay == driver.limits.delay);
 }

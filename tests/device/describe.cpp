@@ -53,15 +53,15 @@ TEST_CASE("Describe: the summary gives what a device renders with figures, and o
           "renders no force\n");
 }
 
-TEST_CASE("Describe: the condition of an arm has a line for what it reports") {
+TEST_CASE("Describe: the health of an arm has a line for what it reports") {
     using Lines = std::vector<std::string>;
-    CHECK(summary_lines(Condition{}).empty());
-    CHECK(summary_lines(Condition{true, 0.3, false}) ==
+    CHECK(summary_lines(DeviceHealth{}).empty());
+    CHECK(summary_lines(DeviceHealth{true, 0.3, false}) ==
           Lines{"calibrated", "motors at 30 % of their greatest heat"});
-    CHECK(summary_lines(Condition{false, 0.85, false}) ==
+    CHECK(summary_lines(DeviceHealth{false, 0.85, false}) ==
           Lines{"not calibrated: its position is unknown",
                 "motors at 85 % of their greatest heat: rest the arm"});
-    CHECK(summary_lines(Condition{{}, 0.75, true}) ==
+    CHECK(summary_lines(DeviceHealth{{}, 0.75, true}) ==
           Lines{"motors at 75 % of their greatest heat: no force until they are cool"});
 }
 

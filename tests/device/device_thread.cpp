@@ -44,7 +44,7 @@ class BenchDriver final : public DeviceDriver {
     BenchDriver& operator=(const BenchDriver&) = delete;
     ~BenchDriver() override { --bench_->open; }
 
-    [[nodiscard]] const Description& describe() const override { return description_; }
+    [[nodiscard]] const Description& description() const override { return description_; }
     Result<std::optional<Sample>> read(double timeout) override {
         if (!bench_->plugged) return lost();
         timer_.wait(std::min(timeout, 1e-3));
@@ -155,15 +155,15 @@ TEST_CASE(
     bench->plugged = false;
     REQUIRE(eventually([&] { return !device_thread->snapshot().usable; }));
     REQUIRE(eventually(
-        [&] { return device_thread->report().fault_message.find("a connected arm") != std::string::npos; }));
-    CHECK(device_thread->report().losses == 1);
-    CHECK(device_thread->report().state == DeviceState::absent);
+        [&] { return device_thread->status().fault_message.find("a connected arm") != std::string::npos; }));
+    CHECK(device_thread->status().losses == 1);
+    CHECK(device_thread->status().state == DeviceState::absent);
     const std::uint64_t at = device_thread->snapshot().number;
     bench->plugged = true;
     REQUIRE(eventually(
         [&] { return device_thread->snapshot().usable && device_thread->snapshot().number > at; }));
     CHECK(device_thread->snapshot().connection_number == 2);
-    REQUIRE(eventually([&] { return device_thread->report().fault_message.empty(); }));
+    REQUIRE(eventually([&] { return device_thread->status().fault_message.empty(); }));
 }
 
 TEST_CASE("DeviceThread: wait_until_open reports why a missing device does not open") {
@@ -171,7 +171,7 @@ TEST_CASE("DeviceThread: wait_until_open reports why a missing device does not o
     bench->plugged = false;
     Result<DeviceThread> device_thread = DeviceThread::start(opens(bench));
     REQUIRE(device_thread);
-    REQUIRE(eventually([&] { return device_thread->report().failed_openings > 0; }));
+    REQUIRE(eventually([&] { return device_thread->status().failed_openings > 0; }));
     const auto none = device_thread->wait_until_open(0.0);
     REQUIRE_FALSE(none);
     CHECK(none.error().code == ErrorCode::no_device);

@@ -42,9 +42,9 @@ void check_driver_contract(const device::DeviceFactory& open, const MoveDevice& 
         Result<std::unique_ptr<device::DeviceDriver>> opened = open();
         REQUIRE(opened);
         device::DeviceDriver& device = **opened;
-        const device::Description description = device.describe();
+        const device::Description description = device.description();
         check_description(description);
-        CHECK(device.describe().id == description.id);
+        CHECK(device.description().id == description.id);
         int samples = 0;
         for (int i = 0; i < 1000 && samples < 3; ++i) {
             move_device();

@@ -140,7 +140,7 @@ TEST_CASE("Force Dimension: the arm itself limits the force, and closing it rele
     REQUIRE(opened);
     CHECK(bench.arm.braked() == 0);
     REQUIRE((*opened)->write({Vec3(100, 0, 0), {}}));
-    CHECK(bench.force_now() == doctest::Approx((*opened)->describe().limits.force));
+    CHECK(bench.force_now() == doctest::Approx((*opened)->description().limits.force));
     opened->reset();
     CHECK(bench.force_now() == 0.0);
     CHECK(bench.arm.braked() == 1);
@@ -200,7 +200,7 @@ TEST_CASE(
         bench.arm.model(row.type, nullptr, -1);
         const auto opened = bench.open();
         REQUIRE(opened);
-        const Description& d = (*opened)->describe();
+        const Description& d = (*opened)->description();
         check_description(d);
         CHECK(d.name == std::string("Force Dimension ") + row.name);
         CHECK(d.limits.force == row.force);
@@ -218,10 +218,10 @@ TEST_CASE(
     {
         const auto opened = bench.open();
         REQUIRE(opened);
-        CHECK((*opened)->describe().model == "omega.6[31m");
-        CHECK((*opened)->describe().serial == "4711");
-        CHECK((*opened)->condition().calibrated == true);
-        CHECK_FALSE((*opened)->condition().heat);
+        CHECK((*opened)->description().model == "omega.6[31m");
+        CHECK((*opened)->description().serial == "4711");
+        CHECK((*opened)->health().calibrated == true);
+        CHECK_FALSE((*opened)->health().heat);
     }
     bench.api.get_type = nullptr;
     bench.api.get_name = nullptr;
@@ -230,9 +230,9 @@ TEST_CASE(
     bench.api.set_mounted_mass = nullptr;
     const auto old = bench.open(false, 0.1);
     REQUIRE(old);
-    CHECK((*old)->describe().name == "Force Dimension arm with a wrist (omega.6 or omega.7)");
-    CHECK((*old)->describe().model.empty());
-    CHECK((*old)->describe().remarks.back().find("does not compensate the weight") != std::string::npos);
+    CHECK((*old)->description().name == "Force Dimension arm with a wrist (omega.6 or omega.7)");
+    CHECK((*old)->description().model.empty());
+    CHECK((*old)->description().remarks.back().find("does not compensate the weight") != std::string::npos);
 }
 
 TEST_CASE(
@@ -288,7 +288,7 @@ TEST_CASE("Force Dimension: a gripper is read as a share of its range, of a left
         bench.arm.model(type, "omega.7", 1);
         auto opened = bench.open();
         REQUIRE(opened);
-        CHECK((*opened)->describe().senses_gripper);
+        CHECK((*opened)->description().senses_gripper);
         CHECK(bench.read(**opened, 0.01).gripper == doctest::Approx(0.25).epsilon(1e-4));
         bench.arm.gripper(7.0);
         CHECK(bench.read(**opened, 0.01).gripper == 1.0);
@@ -297,7 +297,7 @@ TEST_CASE("Force Dimension: a gripper is read as a share of its range, of a left
     bench.arm.model(omega6, "omega.6", 1);
     auto opened = bench.open();
     REQUIRE(opened);
-    CHECK_FALSE((*opened)->describe().senses_gripper);
+    CHECK_FALSE((*opened)->description().senses_gripper);
     CHECK(bench.read(**opened, 0.01).gripper == 1.0);
 }
 

@@ -118,26 +118,26 @@ TEST_CASE("Haply: velocity, orientation and buttons") {
     CHECK(glm::distance(turned.pose.orientation * Vec3(0, 1, 0), Vec3(1, 0, 0)) < 1e-9);
     bench.arm->intend({0, 0, 0.08});
     render_until(*device, Vec3(0.0), [](const Sample& s) { return s.velocity.y > 0.05; });
-    CHECK(device->describe().buttons == 3);
+    CHECK(device->description().buttons == 3);
 
     Bench wired({.grip = HaplyGrip::wired});
     const auto with_wired = opened(wired);
     wired.arm->press(1);
     render_until(*with_wired, Vec3(0.0), [](const Sample& s) { return s.buttons == 1; });
-    CHECK(with_wired->describe().buttons == 1);
+    CHECK(with_wired->description().buttons == 1);
 
     Bench none({.grip = HaplyGrip::none});
     const auto without = opened(none);
-    CHECK(without->describe().buttons == 0);
-    CHECK(without->describe().remarks.front().find("has no VerseGrip") == 0);
+    CHECK(without->description().buttons == 0);
+    CHECK(without->description().remarks.front().find("has no VerseGrip") == 0);
 }
 
 TEST_CASE("Haply: renders 10 N at most, no torque, and no force that is not finite") {
     Bench bench;
     const auto device = opened(bench);
-    CHECK(device->describe().limits.force == 10.0);
-    CHECK(device->describe().limits.torque == 0.0);
-    CHECK(device->describe().limits.stiffness == 1000.0);
+    CHECK(device->description().limits.force == 10.0);
+    CHECK(device->description().limits.torque == 0.0);
+    CHECK(device->description().limits.stiffness == 1000.0);
     render_until(*device, Vec3(0, 100, 0),
                  [&](const Sample&) { return glm::distance(bench.arm->force(), Vec3(0, 0, 10)) < 1e-5; });
     render_until(*device, Vec3(0, NAN, 0), [&](const Sample&) { return bench.arm->force() == Vec3(0.0); });
@@ -332,10 +332,10 @@ TEST_CASE("Haply: BOLTWRIGHT_HAPLY names the service") {
 
 TEST_CASE("Haply: the vendor's row lists and opens the arm of the service that the environment names") {
     const Bench bench;
-    const auto vendors = arm_vendors();
-    const auto row = std::find_if(vendors.begin(), vendors.end(),
-                                  [](const ArmVendor& vendor) { return vendor.name == "haply"; });
-    REQUIRE(row != vendors.end());
+    const auto backends = arm_backends();
+    const auto row = std::find_if(backends.begin(), backends.end(),
+                                  [](const ArmBackend& backend) { return backend.name == "haply"; });
+    REQUIRE(row != backends.end());
     setenv("BOLTWRIGHT_HAPLY", bench.service.states.text().c_str(), 1);
     std::vector<ListedDevice> arms;
     CHECK(eventually([&] {  // a listing waits only briefly
@@ -351,7 +351,7 @@ TEST_CASE("Haply: the vendor's row lists and opens the arm of the service that t
     const auto unusable = row->list();
     unsetenv("BOLTWRIGHT_HAPLY");
     REQUIRE(device);
-    CHECK((*device)->describe().id == "haply:0");
+    CHECK((*device)->description().id == "haply:0");
     REQUIRE(unusable.size() == 1);
     CHECK(unusable.front().error);
 }

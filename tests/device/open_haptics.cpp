@@ -64,8 +64,8 @@ TEST_CASE("OpenHaptics: an arm is listed without a call that reserves it") {
     std::filesystem::create_symlink(BOLT_EMULATED_OPEN_HAPTICS, link);
     setenv("OH_SDK_BASE", sdk.path().c_str(), 1);
     std::vector<ListedDevice> arms;
-    for (const ArmVendor& vendor : arm_vendors())
-        if (vendor.name == "openhaptics") arms = vendor.list();
+    for (const ArmBackend& backend : arm_backends())
+        if (backend.name == "openhaptics") arms = backend.list();
     unsetenv("OH_SDK_BASE");
     REQUIRE(arms.size() == 1);
     CHECK(arms[0].id == "openhaptics:0");
@@ -119,8 +119,8 @@ TEST_CASE("OpenHaptics: an arm with six motors gets forces only") {
     Bench bench;
     bench.arm.report(premium);
     auto device = bench.opened();
-    CHECK(device->describe().limits.torque == 0.0);
-    CHECK(device->describe().remarks.front().find("its torque is not used") == 0);
+    CHECK(device->description().limits.torque == 0.0);
+    CHECK(device->description().remarks.front().find("its torque is not used") == 0);
     REQUIRE(bench.drive(*device, {Vec3(1, 0, 0), Vec3(0.02, 0.02, 0.02)}, 0.01));
     CHECK(bench.torque_now() == Vec3(0.0));
     CHECK(bench.force_now() == doctest::Approx(1.0));
@@ -131,7 +131,7 @@ TEST_CASE("OpenHaptics: limits are those that the arm reports, and at most those
     Bench bench;
     const auto description = [&](const EmulatedHdReport& report) {
         bench.arm.report(report);
-        return bench.opened()->describe();
+        return bench.opened()->description();
     };
     const Description known = description(touch);
     CHECK(known.name == "OpenHaptics arm (Touch)");

@@ -73,27 +73,27 @@ TEST_CASE(
     CHECK(greatest_step < 0.02);
 }
 
-TEST_CASE("OpenHaptics: the force of hot motors fades before the library warns, and the condition tells") {
+TEST_CASE("OpenHaptics: the force of hot motors fades before the library warns, and the health reports it") {
     Bench bench;
     auto device = bench.opened();
-    CHECK(device->describe().model == "Touch");
-    CHECK(device->describe().serial == "2001-0042");
+    CHECK(device->description().model == "Touch");
+    CHECK(device->description().serial == "2001-0042");
     REQUIRE(bench.drive(*device, two_newton, 1.0));
-    CHECK(device->condition().calibrated == true);
-    CHECK(device->condition().heat == 0.0);
+    CHECK(device->health().calibrated == true);
+    CHECK(device->health().heat == 0.0);
     bench.arm.heat(0.85);
     REQUIRE(bench.drive(*device, two_newton, 0.5));
     CHECK(bench.force_now() == doctest::Approx(2.0));
-    CHECK(is_warm(device->condition()));
+    CHECK(is_warm(device->health()));
     bench.arm.heat(0.97);
     REQUIRE(bench.drive(*device, two_newton, 0.05));
     CHECK(bench.force_now() == 0.0);
-    CHECK(device->condition().cooling);
-    CHECK(device->condition().heat == 0.97);
+    CHECK(device->health().cooling);
+    CHECK(device->health().heat == 0.97);
     bench.arm.heat(0.6);
     REQUIRE(bench.drive(*device, two_newton, 0.7));
     CHECK(bench.force_now() == doctest::Approx(2.0));
-    CHECK_FALSE(device->condition().cooling);
+    CHECK_FALSE(device->health().cooling);
 }
 
 TEST_CASE("OpenHaptics: an arm that is too fast or forced too hard rests for half a second and stays open") {
@@ -134,7 +134,7 @@ TEST_CASE("OpenHaptics: a transform that is not a number ends the force and yiel
     bench.arm.corrupt(0);
     REQUIRE(bench.drive(*device, two_newton, 1.0));
     CHECK(bench.force_now() == doctest::Approx(2.0));
-    CHECK(is_valid(device->describe(), bench.read(*device, 0.01)));
+    CHECK(is_valid(device->description(), bench.read(*device, 0.01)));
 }
 
 TEST_CASE("OpenHaptics: faults of the arm end the force, and the arm is lost") {

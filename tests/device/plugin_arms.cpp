@@ -80,14 +80,14 @@ TEST_CASE("Plug-in: the opening of a gripper counts only on an arm that senses i
     const Bench bench;
     auto opened = bench.open_with("");  // the arm reports an opening of 0.25
     REQUIRE(opened);
-    CHECK_FALSE((*opened)->describe().senses_gripper);
+    CHECK_FALSE((*opened)->description().senses_gripper);
     auto sample = read_many(**opened);
     REQUIRE(sample);
     CHECK(sample->gripper == 1.0);
     opened->reset();
     opened = bench.open_with("senses gripper");
     REQUIRE(opened);
-    CHECK((*opened)->describe().senses_gripper);
+    CHECK((*opened)->description().senses_gripper);
     sample = read_many(**opened);
     REQUIRE(sample);
     CHECK(sample->gripper == 0.25);
@@ -298,9 +298,9 @@ TEST_CASE("Plug-in: arms are listed with their ids or with what is wrong, and op
     const EnvironmentVariable variable("BOLTWRIGHT_ARM_PLUGINS", bench.folder.path().c_str());
     const auto list = [&] {
         std::vector<ListedDevice> found;
-        for (const ArmVendor& vendor : arm_vendors())
-            if (vendor.name == "plugin")
-                for (ListedDevice& arm : vendor.list())
+        for (const ArmBackend& backend : arm_backends())
+            if (backend.name == "plugin")
+                for (ListedDevice& arm : backend.list())
                     if (fs::path(arm.path).parent_path() == bench.folder.path()) found.push_back(arm);
         return found;
     };
@@ -333,10 +333,10 @@ TEST_CASE("Plug-in: on its thread, a crash is a loss with its reason, and the ar
     CHECK(eventually([&] { return thread->snapshot().usable; }));
     bench.show("crash in exchange");
     CHECK(eventually(
-        [&] { return thread->report().fault_message.find("crashed in exchange") != std::string::npos; }));
-    CHECK(thread->report().losses >= 1);
+        [&] { return thread->status().fault_message.find("crashed in exchange") != std::string::npos; }));
+    CHECK(thread->status().losses >= 1);
     bench.show("");
-    CHECK(eventually([&] { return thread->snapshot().usable && thread->report().fault_message.empty(); }));
+    CHECK(eventually([&] { return thread->snapshot().usable && thread->status().fault_message.empty(); }));
 }
 
 }  // namespace device_plugin_arms_test

@@ -37,7 +37,7 @@ bool rests_at(DeviceDriver& device, const Vec3& force, const Vec3& place) {
 TEST_CASE("Plug-in: the description is what the plug-in reports") {
     const auto opened = open_plugin_arm({plugins / "sample_arm.so", 0, false}, steady_timer());
     REQUIRE(opened);
-    const Description& d = (*opened)->describe();
+    const Description& d = (*opened)->description();
     CHECK(d.name == "mass on a spring");
     CHECK(d.id == "plugin:sample_arm:0");
     CHECK(d.renders == std::array<bool, 6>{true, true, true, false, false, false});
@@ -152,7 +152,7 @@ TEST_CASE("Plug-in: limits beyond those of any arm are reduced, with a remark ea
     const Bench bench;
     const auto opened = bench.open_with("strong");
     REQUIRE_MESSAGE(opened, message(opened));
-    const Description& d = (*opened)->describe();
+    const Description& d = (*opened)->description();
     check_description(d);
     CHECK(d.limits.force == 70.0);
     CHECK(d.limits.torque == 3.1);
@@ -169,9 +169,9 @@ TEST_CASE("Plug-in: an arm without axes of force renders none, whatever limits i
     const Bench bench;
     const auto opened = bench.open_with("input only");
     REQUIRE_MESSAGE(opened, message(opened));
-    check_description((*opened)->describe());
-    CHECK((*opened)->describe().limits.force == 0.0);
-    CHECK((*opened)->describe().limits.stiffness > 0.0);
+    check_description((*opened)->description());
+    CHECK((*opened)->description().limits.force == 0.0);
+    CHECK((*opened)->description().limits.stiffness > 0.0);
     CHECK(rests_at(**opened, {5, 0, 0}, Vec3(0.0)));
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("Plug-in: a name without an end is cut, and texts are made readable") 
     const Bench bench;
     const auto opened = bench.open_with("long name");
     REQUIRE(opened);
-    CHECK((*opened)->describe().name == std::string(64, 'x'));
+    CHECK((*opened)->description().name == std::string(64, 'x'));
     CHECK(clean_text("Größe \u4e2d \U0001f527") == "Größe \u4e2d \U0001f527");
     CHECK(clean_text("a\nb\x1b[1m\x7f") == "a?b?[1m?");
     // A byte that continues nothing, an overlong slash, half of a pair, the end in a character.

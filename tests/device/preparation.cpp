@@ -47,7 +47,7 @@ constexpr const char* arm_id = "force-dimension:0";
 // Polls for `seconds` of virtual time, or until it is usable.
 void poll(DeviceSupervisor& supervisor, VirtualTime& time, double seconds) {
     const double until = time.now + seconds;
-    while (time.now < until && supervisor.report().state != DeviceState::usable)
+    while (time.now < until && supervisor.status().state != DeviceState::usable)
         supervisor.poll([] { return ForceCommand{}; });
 }
 
@@ -74,23 +74,23 @@ TEST_CASE("Preparation: an arm moves when it is permitted, and asks again after 
     VirtualTime time;
     DeviceSupervisor supervisor(factory_for(arm_id, options), virtual_timer(time));
     poll(supervisor, time, 3.0);
-    CHECK(supervisor.report().state == DeviceState::absent);
-    CHECK(supervisor.report().preparation == Preparation{DeviceNeed::permission, {}});
-    CHECK(supervisor.report().failed_openings > 2);
+    CHECK(supervisor.status().state == DeviceState::absent);
+    CHECK(supervisor.status().preparation == Preparation{DeviceNeed::permission, {}});
+    CHECK(supervisor.status().failed_openings > 2);
     CHECK(library.arm.moved_by_itself() == 0);
 
     options.permission->grant();
     poll(supervisor, time, 3.0);
-    CHECK(supervisor.report().state != DeviceState::absent);
-    CHECK(supervisor.report().preparation == Preparation{});
+    CHECK(supervisor.status().state != DeviceState::absent);
+    CHECK(supervisor.status().preparation == Preparation{});
     CHECK(library.arm.moved_by_itself() == 1);
     CHECK_FALSE(options.permission->active());
 
     library.power_cycle();
     for (int i = 0; i < 100; ++i) supervisor.poll([] { return ForceCommand{}; });
-    CHECK(supervisor.report().losses == 1);
+    CHECK(supervisor.status().losses == 1);
     poll(supervisor, time, 3.0);
-    CHECK(supervisor.report().preparation.need == DeviceNeed::permission);
+    CHECK(supervisor.status().preparation.need == DeviceNeed::permission);
     CHECK(library.arm.moved_by_itself() == 1);
 }
 

@@ -10,7 +10,7 @@ using namespace bolt::device;
 
 namespace {
 
-SimulatedDeviceOptions still(std::optional<HandImpedance> hand = std::nullopt) {
+ScriptedDeviceOptions still(std::optional<HandImpedance> hand = std::nullopt) {
     return {test::arm(), [](double) { return Sample{}; }, hand, {}};
 }
 
@@ -33,20 +33,20 @@ std::vector<Sample> read_until(DeviceDriver& device, const VirtualTime& time, do
 
 }  // namespace
 
-TEST_CASE("SimulatedDevice: the hand follows its script at the device's rate") {
+TEST_CASE("ScriptedDevice: the hand follows its script at the device's rate") {
     VirtualTime time;
     Description description = test::arm();
     description.rate = 250.0;
-    SimulatedDevice thing({description,
-                           [](double t) {
-                               Sample s;
-                               s.pose.position.x = 0.1 * t;
-                               s.buttons = t > 0.5 ? 1 : 0;
-                               return s;
-                           },
-                           std::nullopt,
-                           {}},
-                          virtual_timer(time));
+    ScriptedDevice thing({description,
+                          [](double t) {
+                              Sample s;
+                              s.pose.position.x = 0.1 * t;
+                              s.buttons = t > 0.5 ? 1 : 0;
+                              return s;
+                          },
+                          std::nullopt,
+                          {}},
+                         virtual_timer(time));
     const auto device = opened(thing.factory());
     const auto samples = read_until(*device, time, 1.0);
     CHECK(samples.size() == doctest::Approx(250).epsilon(0.02));
@@ -55,10 +55,10 @@ TEST_CASE("SimulatedDevice: the hand follows its script at the device's rate") {
 }
 
 TEST_CASE(
-    "SimulatedDevice: a held device rests where force and hand spring balance, in translation and rotation") {
+    "ScriptedDevice: a held device rests where force and hand spring balance, in translation and rotation") {
     VirtualTime time;
     const HandImpedance hand;
-    SimulatedDevice thing(still(hand), virtual_timer(time));
+    ScriptedDevice thing(still(hand), virtual_timer(time));
     const auto device = opened(thing.factory());
     read_until(*device, time, 0.1);
     REQUIRE(device->write({Vec3(3, 0, -1.5), Vec3(0, 0.2, 0)}));
@@ -72,14 +72,14 @@ TEST_CASE(
     CHECK(thing.rendered().force.x == doctest::Approx(test::arm().limits.force));
 }
 
-TEST_CASE("SimulatedDevice: a wheel turns against the hand about its own axis") {
+TEST_CASE("ScriptedDevice: a wheel turns against the hand about its own axis") {
     VirtualTime time;
     Description wheel = test::arm();
     wheel.sensing = Sensing::angle;
     wheel.axis = Vec3(0, 1, 0);
     wheel.limits.torque = 10.0;
     const HandImpedance hand;
-    SimulatedDevice thing({wheel, [](double) { return Sample{}; }, hand, {}}, virtual_timer(time));
+    ScriptedDevice thing({wheel, [](double) { return Sample{}; }, hand, {}}, virtual_timer(time));
     const auto device = opened(thing.factory());
     read_until(*device, time, 0.1);
     REQUIRE(device->write({Vec3(0.0), Vec3(5, 4, 0)}));
@@ -87,9 +87,9 @@ TEST_CASE("SimulatedDevice: a wheel turns against the hand about its own axis") 
     CHECK(thing.hand().angle == doctest::Approx(4.0 / hand.torsion).epsilon(1e-3));
 }
 
-TEST_CASE("SimulatedDevice: each injected fault behaves as named, for its interval") {
+TEST_CASE("ScriptedDevice: each injected fault behaves as named, for its interval") {
     VirtualTime time;
-    SimulatedDevice thing(still(), virtual_timer(time));
+    ScriptedDevice thing(still(), virtual_timer(time));
     auto device = opened(thing.factory());
     thing.inject({InjectedFault::silent, 1.0, 2.0});
     CHECK(read_until(*device, time, 1.0).size() > 990);
@@ -171,7 +171,7 @@ TEST_CASE("VirtualPuck: deflection becomes velocity, quadratically; without inpu
     const VirtualPuckOptions feel;
     VirtualPuck puck(feel, virtual_timer(time));
     const auto device = opened(puck.factory());
-    CHECK(device->describe().sensing == Sensing::velocity);
+    CHECK(device->description().sensing == Sensing::velocity);
     CHECK(read_until(*device, time, 0.1).back().velocity == Vec3(0.0));
     puck.set_input({Vec3(1, -0.5, 7), Vec3(0, 0.5, 0), 2});
     const Sample pushed = read_until(*device, time, 0.2).back();
@@ -189,7 +189,7 @@ TEST_CASE("VirtualPuck: deflection becomes velocity, quadratically; without inpu
 TEST_CASE("Devices: simulated, recorded and virtual devices keep the driver contract") {
     VirtualTime time;
     const auto by_itself = [] {};
-    SimulatedDevice thing(still(HandImpedance{}), virtual_timer(time));
+    ScriptedDevice thing(still(HandImpedance{}), virtual_timer(time));
     test::check_driver_contract(thing.factory(), by_itself);
     test::check_unplugged(thing.factory(), [&] { thing.inject({InjectedFault::unplugged, time.now, 1e9}); });
     const auto forever = [](std::size_t i) {

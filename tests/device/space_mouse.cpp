@@ -49,9 +49,9 @@ struct Bench {
 TEST_CASE("SpaceMouse: deflection becomes velocity in the device frame, for every report layout") {
     for (const bool in_one : {true, false}) {
         Bench b({.single_report = in_one});
-        CHECK(b.device->describe().sensing == Sensing::velocity);
-        CHECK(b.device->describe().limits.force == 0.0);
-        CHECK(b.device->describe().buttons == 2);
+        CHECK(b.device->description().sensing == Sensing::velocity);
+        CHECK(b.device->description().limits.force == 0.0);
+        CHECK(b.device->description().buttons == 2);
         // 3Dconnexion's z points down and its y towards the user; here y points up and z towards the user.
         const Vec3 ours[] = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
         for (std::size_t axis = 0; axis < 3; ++axis)

@@ -27,7 +27,7 @@ struct SupervisedDevice {
           supervisor(thing.factory(), virtual_timer(time)) {}
 
     VirtualTime time;
-    SimulatedDevice thing;
+    ScriptedDevice thing;
     DeviceSupervisor supervisor;
     force::OutputCommand command_to_send{Vec3(1, 2, 3), Vec3(0.1, 0, 0)};
     bool sends_commands = true, enabled = true;
@@ -59,7 +59,7 @@ class Periodic final : public DeviceDriver {
         description_ = test::arm();
         description_.rate = 1.0 / period;
     }
-    [[nodiscard]] const Description& describe() const override { return description_; }
+    [[nodiscard]] const Description& description() const override { return description_; }
     Result<std::optional<Sample>> read(double timeout) override {
         const double until = timer_.now() + timeout;
         double taken = newest();
@@ -123,15 +123,15 @@ TEST_CASE("DeviceSupervisor: attempts to open back off exponentially, and the re
         virtual_timer(time));
     const auto none = [] { return ForceCommand{}; };
     CHECK_FALSE(supervisor.poll(none));
-    CHECK(supervisor.report().fault_message == "no arm; expected a connected arm");
-    CHECK(supervisor.report().state == DeviceState::absent);
+    CHECK(supervisor.status().fault_message == "no arm; expected a connected arm");
+    CHECK(supervisor.status().state == DeviceState::absent);
     while (time.now < 10.0) CHECK_FALSE(supervisor.poll(none));
     const double pauses[] = {0.05, 0.1, 0.2, 0.4, 0.8, 1.0, 1.0, 1.0};
     REQUIRE(tries.size() > 8);
     CHECK(tries[0] == 0.0);
     for (std::size_t i = 0; i < 8; ++i)
         CHECK(tries[i + 1] - tries[i] == doctest::Approx(pauses[i]).epsilon(0.01));
-    CHECK(supervisor.report().failed_openings == tries.size());
+    CHECK(supervisor.status().failed_openings == tries.size());
 }
 
 TEST_CASE("DeviceSupervisor: a device that fails at its first read is not reopened in a busy loop") {
@@ -140,9 +140,9 @@ TEST_CASE("DeviceSupervisor: a device that fails at its first read is not reopen
     state->fails_reading = true;
     DeviceSupervisor supervisor(test::opens(state, virtual_timer(time)), virtual_timer(time));
     while (time.now < 10.0) supervisor.poll([] { return ForceCommand{}; });
-    CHECK(supervisor.report().openings == supervisor.report().losses);
-    CHECK(supervisor.report().openings < 16);
-    CHECK(supervisor.report().openings > 8);
+    CHECK(supervisor.status().openings == supervisor.status().losses);
+    CHECK(supervisor.status().openings < 16);
+    CHECK(supervisor.status().openings > 8);
 }
 
 TEST_CASE("DeviceSupervisor: a replug at any moment is reported within 10 ms and usable within 2 s") {
@@ -150,26 +150,26 @@ TEST_CASE("DeviceSupervisor: a replug at any moment is reported within 10 ms and
     for (int run = 0; run < 200; ++run) {
         SupervisedDevice supervised;
         supervised.until(random.uniform(0.01, 0.5));
-        REQUIRE(supervised.supervisor.report().state == DeviceState::usable);
-        REQUIRE(supervised.supervisor.report().fault_message.empty());
+        REQUIRE(supervised.supervisor.status().state == DeviceState::usable);
+        REQUIRE(supervised.supervisor.status().fault_message.empty());
         const double pulled = supervised.time.now;
         const double back = pulled + random.uniform(0.001, 5.0);
         supervised.thing.inject({InjectedFault::unplugged, pulled, back});
         supervised.until(pulled + 0.01);
         if (back > pulled + 0.01) {
-            CHECK(supervised.supervisor.report().state == DeviceState::absent);
-            CHECK(supervised.supervisor.report().fault_message.find("not plugged in") != std::string::npos);
-            CHECK(supervised.supervisor.report().losses == 1);
+            CHECK(supervised.supervisor.status().state == DeviceState::absent);
+            CHECK(supervised.supervisor.status().fault_message.find("not plugged in") != std::string::npos);
+            CHECK(supervised.supervisor.status().losses == 1);
         }
         supervised.until(back);
-        while (supervised.supervisor.report().state != DeviceState::usable &&
+        while (supervised.supervisor.status().state != DeviceState::usable &&
                supervised.time.now < back + 3.0)
             supervised.poll_once();
         CHECK(supervised.time.now <= back + 2.0);
         supervised.poll_once();
         supervised.poll_once();
         CHECK(supervised.force() == doctest::Approx(std::sqrt(14.0)));
-        CHECK(supervised.supervisor.report().fault_message.empty());
+        CHECK(supervised.supervisor.status().fault_message.empty());
     }
 }
 
@@ -186,9 +186,9 @@ TEST_CASE("DeviceSupervisor: when commands stop, the force is released within 20
         supervised.until(last + 0.020);
         CHECK(supervised.force() == 0.0);
         CHECK(supervised.torque() == 0.0);
-        CHECK(supervised.supervisor.report().command_timeouts == 1);
+        CHECK(supervised.supervisor.status().command_timeouts == 1);
         supervised.until(last + 0.5);
-        CHECK(supervised.supervisor.report().command_timeouts == 1);
+        CHECK(supervised.supervisor.status().command_timeouts == 1);
         supervised.sends_commands = true;
         supervised.until(last + 0.51);
         CHECK(supervised.force() > 3.0);
@@ -238,7 +238,7 @@ TEST_CASE("DeviceSupervisor: commands older than the opening are never rendered;
     supervisor.poll([] { return ForceCommand{{Vec3(9, 0, 0), Vec3(0.0)}, true, 78}; });
     REQUIRE(state->commands.size() == 2);
     CHECK(state->commands[1].force == Vec3(9, 0, 0));
-    CHECK(supervisor.report().command_timeouts == 0);
+    CHECK(supervisor.status().command_timeouts == 0);
 }
 
 TEST_CASE("DeviceSupervisor: a command is clamped to the described limits and axes") {
@@ -261,18 +261,18 @@ TEST_CASE("DeviceSupervisor: invalid samples are counted and dropped; many in a 
     supervised.thing.inject({InjectedFault::not_a_number, 0.1, 0.2});
     supervised.until(0.199);
     CHECK(supervised.samples == before);
-    CHECK(supervised.supervisor.report().malformed >= 98);
-    CHECK(supervised.supervisor.report().state == DeviceState::usable);
+    CHECK(supervised.supervisor.status().malformed_samples >= 98);
+    CHECK(supervised.supervisor.status().state == DeviceState::usable);
     supervised.until(0.3);
     CHECK(supervised.samples > before + 90);
     supervised.thing.inject({InjectedFault::not_a_number, 0.3, 0.7});
     supervised.until(0.6);
-    CHECK(supervised.supervisor.report().state == DeviceState::silent);
-    CHECK(supervised.supervisor.report().fault_message.find("no valid samples") != std::string::npos);
+    CHECK(supervised.supervisor.status().state == DeviceState::silent);
+    CHECK(supervised.supervisor.status().fault_message.find("no valid samples") != std::string::npos);
     supervised.until(0.8);
-    CHECK(supervised.supervisor.report().state == DeviceState::usable);
-    CHECK(supervised.supervisor.report().fault_message.empty());
-    CHECK(supervised.supervisor.report().openings == 1);
+    CHECK(supervised.supervisor.status().state == DeviceState::usable);
+    CHECK(supervised.supervisor.status().fault_message.empty());
+    CHECK(supervised.supervisor.status().openings == 1);
 }
 
 TEST_CASE(
@@ -282,14 +282,14 @@ TEST_CASE(
     supervised.until(0.1);
     supervised.thing.inject({InjectedFault::silent, 0.1, 4.0});
     supervised.until(0.5);
-    CHECK(supervised.supervisor.report().state == DeviceState::silent);
-    CHECK_FALSE(supervised.supervisor.report().fault_message.empty());
-    CHECK(supervised.supervisor.report().openings == 1);
+    CHECK(supervised.supervisor.status().state == DeviceState::silent);
+    CHECK_FALSE(supervised.supervisor.status().fault_message.empty());
+    CHECK(supervised.supervisor.status().openings == 1);
     supervised.until(3.9);
-    CHECK(supervised.supervisor.report().silence_timeouts >= 2);
-    CHECK_FALSE(supervised.supervisor.report().fault_message.empty());
+    CHECK(supervised.supervisor.status().silence_timeouts >= 2);
+    CHECK_FALSE(supervised.supervisor.status().fault_message.empty());
     supervised.until(4.0);
-    while (supervised.supervisor.report().state != DeviceState::usable && supervised.time.now < 8.0)
+    while (supervised.supervisor.status().state != DeviceState::usable && supervised.time.now < 8.0)
         supervised.poll_once();
     CHECK(supervised.time.now < 6.0);
 }
@@ -301,10 +301,10 @@ TEST_CASE("DeviceSupervisor: devices that are silent at rest may rest indefinite
         description.silent_at_rest = sensing == Sensing::angle;
         SupervisedDevice supervised(description, {{InjectedFault::silent, 0.0, 100.0}});
         supervised.until(10.0);
-        CHECK(supervised.supervisor.report().state == DeviceState::usable);
-        CHECK(supervised.supervisor.report().openings == 1);
-        CHECK(supervised.supervisor.report().fault_message.empty());
-        CHECK(supervised.supervisor.report().samples == 0);
+        CHECK(supervised.supervisor.status().state == DeviceState::usable);
+        CHECK(supervised.supervisor.status().openings == 1);
+        CHECK(supervised.supervisor.status().fault_message.empty());
+        CHECK(supervised.supervisor.status().samples == 0);
     }
 }
 
@@ -324,7 +324,7 @@ TEST_CASE(
     CHECK(state->commands.size() < 70);
     for (std::size_t i = 1; i < state->commands.size(); ++i)
         CHECK(state->commands[i].force.x == doctest::Approx(state->began[i]).epsilon(1e-2).scale(0.1));
-    CHECK(supervisor.report().command_timeouts == 0);
+    CHECK(supervisor.status().command_timeouts == 0);
 }
 
 }  // namespace device_supervisor_test

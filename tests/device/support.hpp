@@ -36,7 +36,7 @@ class Obedient final : public device::DeviceDriver {
     Obedient& operator=(const Obedient&) = delete;
     ~Obedient() override { ++state_->closed; }
 
-    [[nodiscard]] const device::Description& describe() const override { return state_->description; }
+    [[nodiscard]] const device::Description& description() const override { return state_->description; }
 
     Result<std::optional<device::Sample>> read(double timeout) override {
         if (state_->fails_reading) return lost();

@@ -93,7 +93,7 @@ TEST_CASE("UsbForceFeedback: a device without a usable constant force is rejecte
 }
 
 TEST_CASE("BoardRequest: OpenFFBoard queries and replies encode and decode") {
-    const auto bytes = board::encode_message({.command = 9});
+    const auto bytes = open_ffboard::encode_message({.command = 9});
     Bytes expected(25);
     expected[0] = 0xa1;
     expected[1] = 1;
@@ -105,24 +105,26 @@ TEST_CASE("BoardRequest: OpenFFBoard queries and replies encode and decode") {
     Bytes reply = expected;
     for (std::size_t i = 9; i < 17; ++i) reply[i] = 0xff;
     reply[9] = 0xfe;
-    const auto message = board::decode_message(reply);
+    const auto message = open_ffboard::decode_message(reply);
     REQUIRE(message);
-    CHECK(board::reply_value(board::Command::position, *message) == -2);
-    CHECK(!board::reply_value(board::Command::power, *message));
+    CHECK(open_ffboard::reply_value(open_ffboard::Command::position, *message) == -2);
+    CHECK(!open_ffboard::reply_value(open_ffboard::Command::power, *message));
     for (const std::size_t spoiled : {1U, 2U, 4U, 6U}) {
         Bytes other = reply;
         other[spoiled] ^= 0x0fU;
-        CHECK(!board::reply_value(board::Command::position, *board::decode_message(other)));
+        CHECK(!open_ffboard::reply_value(open_ffboard::Command::position,
+                                         *open_ffboard::decode_message(other)));
     }
-    const board::Message m{board::MessageType::write, 0xa02, 3, 0x12345678, -5, 0x123456789abcdef0};
-    CHECK(board::decode_message(board::encode_message(m)) == m);
+    const open_ffboard::Message m{
+        open_ffboard::MessageType::write, 0xa02, 3, 0x12345678, -5, 0x123456789abcdef0};
+    CHECK(open_ffboard::decode_message(open_ffboard::encode_message(m)) == m);
     reply.pop_back();
-    CHECK(!board::decode_message(reply));
-    CHECK(!board::decode_message(Bytes{}));
+    CHECK(!open_ffboard::decode_message(reply));
+    CHECK(!open_ffboard::decode_message(Bytes{}));
 }
 
 TEST_CASE("HidDevices: kind_of recognises pucks, boards and wheels among all HID devices") {
-    CHECK(kind_of({0x1209, 0xffb0, "", ""}, parsed(emulate::board_descriptor())) == DeviceKind::board);
+    CHECK(kind_of({0x1209, 0xffb0, "", ""}, parsed(emulate::board_descriptor())) == DeviceKind::open_ffboard);
     CHECK(kind_of({0x1234, 0x5678, "", ""}, parsed(emulate::generic_wheel_descriptor())) ==
           DeviceKind::wheel);
     CHECK(kind_of({0x256f, 0xc62e, "", ""}, parsed(puck_in_one())) == DeviceKind::puck);

@@ -62,10 +62,10 @@ TEST_CASE("Wheel: the motor renders the commanded torque in both directions, up 
         CAPTURE(board);
         Bench b(design_of(board), {.max_torque = 3.0});
         REQUIRE_MESSAGE(b.opened, (b.opened ? "" : b.opened.error().message()));
-        CHECK(b.device->describe().limits.torque == doctest::Approx(3.0));
-        CHECK(b.device->describe().limits.force == 0.0);
-        CHECK(b.device->describe().renders[5]);
-        CHECK(!b.device->describe().renders[3]);
+        CHECK(b.device->description().limits.torque == doctest::Approx(3.0));
+        CHECK(b.device->description().limits.force == 0.0);
+        CHECK(b.device->description().renders[5]);
+        CHECK(!b.device->description().renders[3]);
         for (const double torque : {0.5, -1.25, 3.0, 0.0, -3.0}) {
             b.run(0.01, [&] { return torque; });
             CHECK(b.wheel.torque() == doctest::Approx(torque).epsilon(0.001).scale(10.0));
@@ -136,7 +136,7 @@ TEST_CASE("Wheel: a spring of the described stiffness is stable on a wheel with 
         Bench b(design, {.max_torque = 5.0});
         REQUIRE(b.opened);
         b.plug.write_duration = 0.001;  // s, transfer time on the bus
-        const double stiffness = b.device->describe().limits.torsion;
+        const double stiffness = b.device->description().limits.torsion;
         b.run(1.0, [] { return 1.0; });  // moves the wheel away from the spring's rest angle
         const auto spring = [&] { return -stiffness * b.last.angle; };
         double last = 1e9;

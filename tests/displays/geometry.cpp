@@ -115,29 +115,30 @@ TEST_CASE("Wall: a point in the wall has no parallax, and one behind it moves wi
 
 TEST_CASE("Wall: walls cross exactly if a common line is inside both") {
     const WallFrame front = frame_of(front_wall());
-    CHECK(cross(front, frame_of(moved(turned_wall("t", 90.0), {1.5, 0.0, -1.5})), 0.01));  // same heights
-    CHECK(cross(front, frame_of(moved(turned_wall("t", 45.0), {1.0, -1.0, 0.0})), 0.01));
+    CHECK(
+        walls_cross(front, frame_of(moved(turned_wall("t", 90.0), {1.5, 0.0, -1.5})), 0.01));  // same heights
+    CHECK(walls_cross(front, frame_of(moved(turned_wall("t", 45.0), {1.0, -1.0, 0.0})), 0.01));
     // Left and front of a cave meet at an edge; one that extends 5 mm too far still does, 20 mm cross.
     const WallFrame left = frame_of(turned_wall("left", 90.0));
-    CHECK_FALSE(cross(front, left, 0.01));
-    CHECK_FALSE(cross(front, frame_of(moved(turned_wall("left", 90.0), {0.005, 0.0, -0.005})), 0.01));
-    CHECK(cross(front, frame_of(moved(turned_wall("left", 90.0), {0.02, 0.0, -0.02})), 0.01));
-    CHECK_FALSE(cross(front, frame_of(moved(front_wall(), {0.1, 0.1, 0.0})), 0.01));   // one plane
-    CHECK_FALSE(cross(front, frame_of(moved(front_wall(), {0.1, 0.1, -0.5})), 0.01));  // parallel
+    CHECK_FALSE(walls_cross(front, left, 0.01));
+    CHECK_FALSE(walls_cross(front, frame_of(moved(turned_wall("left", 90.0), {0.005, 0.0, -0.005})), 0.01));
+    CHECK(walls_cross(front, frame_of(moved(turned_wall("left", 90.0), {0.02, 0.0, -0.02})), 0.01));
+    CHECK_FALSE(walls_cross(front, frame_of(moved(front_wall(), {0.1, 0.1, 0.0})), 0.01));   // one plane
+    CHECK_FALSE(walls_cross(front, frame_of(moved(front_wall(), {0.1, 0.1, -0.5})), 0.01));  // parallel
     // The planes meet inside one wall and beside the other.
-    CHECK_FALSE(cross(front, frame_of(moved(turned_wall("t", 90.0), {1.5, 3.0, -1.5})), 0.01));
-    CHECK_FALSE(cross(front, frame_of(moved(turned_wall("t", 90.0), {1.5, 0.0, 2.0})), 0.01));
+    CHECK_FALSE(walls_cross(front, frame_of(moved(turned_wall("t", 90.0), {1.5, 3.0, -1.5})), 0.01));
+    CHECK_FALSE(walls_cross(front, frame_of(moved(turned_wall("t", 90.0), {1.5, 0.0, 2.0})), 0.01));
     Random random(3);
     int crossings = 0;
     for (int i = 0; i < 300; ++i) {  // symmetric; and walls through one point that is inside both do cross
         const WallFrame a = frame_of(random_wall(random)), b = frame_of(random_wall(random));
-        CHECK(cross(a, b, 0.01) == cross(b, a, 0.01));
-        crossings += cross(a, b, 0.01) ? 1 : 0;
+        CHECK(walls_cross(a, b, 0.01) == walls_cross(b, a, 0.01));
+        crossings += walls_cross(a, b, 0.01) ? 1 : 0;
         Wall through = random_wall(random);
         const WallFrame own = frame_of(through);
         const Vec3 to =
             in_room(a, 0.5 * a.width, 0.5 * a.height) - in_room(own, 0.5 * own.width, 0.5 * own.height);
-        CHECK(cross(a, frame_of(moved(through, to)), 0.01));
+        CHECK(walls_cross(a, frame_of(moved(through, to)), 0.01));
     }
     CHECK(crossings > 10);
     CHECK(crossings < 290);
@@ -145,17 +146,17 @@ TEST_CASE("Wall: walls cross exactly if a common line is inside both") {
 
 TEST_CASE("Wall: a wall that ends inside another one is found, with its distance from the edge") {
     const WallFrame front = frame_of(front_wall()), left = frame_of(turned_wall("left", 90.0));
-    CHECK_FALSE(ends_inside(left, front, 0.01));  // they meet at their edges
-    CHECK_FALSE(ends_inside(front, left, 0.01));
+    CHECK_FALSE(edge_inset(left, front, 0.01));  // they meet at their edges
+    CHECK_FALSE(edge_inset(front, left, 0.01));
     const WallFrame inner = frame_of(moved(turned_wall("left", 90.0), {0.2, 0.0, 0.0}));
-    CHECK(ends_inside(inner, front, 0.01).value_or(0.0) == doctest::Approx(0.2));
-    CHECK_FALSE(ends_inside(front, inner, 0.01));
-    CHECK_FALSE(cross(inner, front, 0.01));
+    CHECK(edge_inset(inner, front, 0.01).value_or(0.0) == doctest::Approx(0.2));
+    CHECK_FALSE(edge_inset(front, inner, 0.01));
+    CHECK_FALSE(walls_cross(inner, front, 0.01));
     // Beside the other wall, above it, and not on its plane.
-    CHECK_FALSE(ends_inside(frame_of(moved(turned_wall("left", 90.0), {-0.2, 0.0, 0.0})), front, 0.01));
-    CHECK_FALSE(ends_inside(frame_of(moved(turned_wall("left", 90.0), {0.2, 2.4, 0.0})), front, 0.01));
-    CHECK_FALSE(ends_inside(frame_of(moved(turned_wall("left", 90.0), {0.2, 0.0, 0.1})), front, 0.01));
-    CHECK_FALSE(ends_inside(frame_of(moved(front_wall(), {0.2, 0.0, 0.0})), front, 0.01));  // one plane
+    CHECK_FALSE(edge_inset(frame_of(moved(turned_wall("left", 90.0), {-0.2, 0.0, 0.0})), front, 0.01));
+    CHECK_FALSE(edge_inset(frame_of(moved(turned_wall("left", 90.0), {0.2, 2.4, 0.0})), front, 0.01));
+    CHECK_FALSE(edge_inset(frame_of(moved(turned_wall("left", 90.0), {0.2, 0.0, 0.1})), front, 0.01));
+    CHECK_FALSE(edge_inset(frame_of(moved(front_wall(), {0.2, 0.0, 0.0})), front, 0.01));  // one plane
 }
 
 TEST_CASE("Wall: overlaps in one plane and gaps of seams are measured") {

@@ -69,7 +69,7 @@ TEST_CASE("Head source: the tracked body of DTrack is the head, in the axes of t
     now += 0.2;
     CHECK(test::eventually([&] {
         (void)source.at(now);
-        return source.counts().dtrack.frames == 61;
+        return source.counts().dtrack.good_packets == 61;
     }));
     CHECK(source.at(now).status == HeadStatus::held);
     CHECK(source.at(now).pose.position.x == doctest::Approx(0.1));
@@ -106,7 +106,7 @@ TEST_CASE("Head source: poses that the caller adds are those of the tracked body
     head.scale = 2.0;
     head.tracker_in_room.position = {0.0, 1.0, 0.0};
     HeadSource source = opened(head);
-    source.add({5.0, {{0.1, 0.2, 0.3}, {1, 0, 0, 0}}});
+    source.add_sample({5.0, {{0.1, 0.2, 0.3}, {1, 0, 0, 0}}});
     const auto shown = source.at(5.0);
     CHECK(shown.status == HeadStatus::tracked);
     CHECK(glm::length(shown.pose.position - Vec3(0.2, 1.4, 0.6)) < 1e-12);

@@ -17,7 +17,7 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 DeviceCheck checked_arm() {
     DeviceCheck check;
     check.description = device::simulated_arm_description();
-    check.condition = {true, 0.9, false};
+    check.health = {true, 0.9, false};
     check.seconds = 2.0;
     check.samples = 1998;
     for (int i = 0; i < 100; ++i) servo::add(check.age, 500'000);

@@ -21,7 +21,7 @@ ListedDevice device_of(const std::string& id, DeviceKind kind, const char* what 
 
 const std::vector<ListedDevice> connected{
     device_of("256f:c62e", DeviceKind::puck, "may not be opened"), device_of("046d:c626", DeviceKind::puck),
-    device_of("1234:5678", DeviceKind::wheel), device_of("1209:ffb0", DeviceKind::board),
+    device_of("1234:5678", DeviceKind::wheel), device_of("1209:ffb0", DeviceKind::open_ffboard),
     device_of("0000:0001", DeviceKind::other)};
 
 Result<DeviceSelection> selected(const std::vector<std::string>& ids) {

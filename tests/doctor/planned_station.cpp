@@ -111,18 +111,18 @@ TEST_CASE("Planned station: it can be started; without a selected device the sub
     station->set_controls(controls);
     REQUIRE(test::eventually([&] { return station->latest_tick().output.joint == 0; }));
     REQUIRE(test::eventually([&] { return station->link_stats().mover.samples > 10; }));
-    CHECK(station->mover_report()->description->name == "mouse and keyboard");
-    CHECK(station->wheel_report() == nullptr);
+    CHECK(station->mover_status()->description->name == "mouse and keyboard");
+    CHECK(station->wheel_status() == nullptr);
     CHECK(station->glove_report() == nullptr);
 }
 
 TEST_CASE("Planned station: what a station file says holds for its devices only") {
     content::StationFile file;
-    content::StationArm& arm = file.arm.emplace();
+    content::StationMover& arm = file.arm.emplace();
     arm.device = "haply:0";
     arm.mounting = {0.5 * pi, 0.1, 0.2};
     arm.scale = 3.0;
-    arm.power = 0.25;
+    arm.power_ratio = 0.25;
     arm.buttons = Buttons{4, 8, 16, 32};
     arm.limits.force = 5.0;
     content::StationWheel& wheel = file.wheel.emplace();

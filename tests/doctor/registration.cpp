@@ -70,7 +70,7 @@ std::vector<PointPair> box(const Pose& pose) {
 constexpr const char* date = "2026-03-02T09:15:00Z";
 
 Result<MeasuredRegistration> registered(std::span<const PointPair> pairs) {
-    return register_frames(content::StationFrame::arm, content::StationFrame::room, pairs, date);
+    return register_frames(content::CoordinateFrame::arm, content::CoordinateFrame::room, pairs, date);
 }
 
 }  // namespace
@@ -197,14 +197,14 @@ TEST_CASE("Frame registration: few points and points in a plane give warnings") 
 TEST_CASE("Frame registration: a stored one is found in both directions") {
     const Pose pose{{1.0, 2.0, 3.0}, rotation({0.3, -0.2, 1.0})};
     const std::vector<content::Registration> all{registered(box(pose))->registration};
-    const auto forth = registration_from(all, content::StationFrame::arm, content::StationFrame::room);
-    const auto back = registration_from(all, content::StationFrame::room, content::StationFrame::arm);
+    const auto forth = registration_from(all, content::CoordinateFrame::arm, content::CoordinateFrame::room);
+    const auto back = registration_from(all, content::CoordinateFrame::room, content::CoordinateFrame::arm);
     REQUIRE((forth && back));
     CHECK(*forth == all[0]);
-    CHECK(back->from == content::StationFrame::room);
+    CHECK(back->from == content::CoordinateFrame::room);
     CHECK(glm::length(back->pose * (forth->pose * Vec3(1, 2, 3)) - Vec3(1, 2, 3)) < 1e-12);
     CHECK(content::check_error(*back).value() < 1e-12);
-    CHECK(!registration_from(all, content::StationFrame::tracker, content::StationFrame::room));
+    CHECK(!registration_from(all, content::CoordinateFrame::tracker, content::CoordinateFrame::room));
 }
 
 }  // namespace registration_test

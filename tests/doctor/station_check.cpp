@@ -41,7 +41,7 @@ bool contains(const std::string& text, const std::string& part) {
 TEST_CASE("Station check: a new file has what the device reports, and suits it") {
     Bench bench;
     CHECK(bench.text().empty());
-    const content::StationArm& arm = *bench.station.arm;
+    const content::StationMover& arm = *bench.station.arm;
     CHECK(arm.device == "force-dimension:0");
     CHECK(arm.buttons == station::Buttons{1, 0, 0, 0});
     CHECK(arm.limits.force == omega().limits.force);
@@ -109,7 +109,7 @@ TEST_CASE("Station check: a map that the device cannot follow is a warning") {
     bench.facts.arm = device::Description{};
     (*bench.facts.arm)->sensing = device::Sensing::velocity;
     (*bench.facts.arm)->limits.force = (*bench.facts.arm)->limits.torque = 0.0;
-    bench.station.arm = content::StationArm{"puck", {}, 2.0, {}, {}, {}, 0.0, {}};
+    bench.station.arm = content::StationMover{"puck", {}, 2.0, {}, {}, {}, 0.0, {}};
     CHECK(bench.text() == "  warning: arm: scale and power have no effect: the device senses a velocity\n");
 }
 

@@ -85,7 +85,7 @@ TEST_CASE("Trial: a station is fit unless a problem occurred, and the reasons na
 }
 
 TEST_CASE("Trial: the introduction names the button that enables forces") {
-    Layout layout;
+    DeviceLayout layout;
     layout.mover = test::puck();
     DeviceSelection both{device::ListedDevice{}, device::ListedDevice{}};
     CHECK(describe_station(layout, both).find("no device renders any") != std::string::npos);

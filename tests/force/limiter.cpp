@@ -125,7 +125,7 @@ TEST_CASE("Limiter: for any request the output is within the limits and the slew
         REQUIRE(glm::length(out.force) <= limits.force * (1 + 1e-12));
         REQUIRE(glm::length(out.torque) <= limits.torque * (1 + 1e-12));
         // While rendering, the slew rate bounds the change; a release may be faster, never slower.
-        const double most = std::max(limits.force_rate, limits.force / limits.release) * dt;
+        const double most = std::max(limits.force_slew_rate, limits.force / limits.release) * dt;
         REQUIRE(glm::length(out.force - last) <= most * (1 + 1e-9));
         last = out.force;
     }

@@ -94,7 +94,7 @@ TEST_CASE("Output stage: for any input the output is finite, within the limits a
     const auto wild = [&] { return random.normal() * std::pow(10.0, random.uniform(-3.0, 200.0)); };
     // Silence leaves the shortest time for the release.
     const double fastest =
-        std::max(limits.force_rate, limits.force / (limits.release - limits.max_silence - dt)) * dt;
+        std::max(limits.force_slew_rate, limits.force / (limits.release - limits.max_silence - dt)) * dt;
     std::uint64_t rendered = 0;
     int running = 0;
     for (int i = 0; i < 200'000; ++i) {
@@ -156,7 +156,7 @@ TEST_CASE("Output stage: during missed deadlines the last command counts for as 
     limits.delay = 0;
     limits.ramp_up = dt;
     limits.damping = limits.angular_damping = 0.0;
-    limits.force_rate = 1e6;
+    limits.force_slew_rate = 1e6;
     OutputStage stage;
     DeviceInput input = held();
     const auto push = [&](double newton) {

@@ -16,8 +16,8 @@ TEST_CASE("Scaled limits: limits of force and torque are scaled, all others unch
         const OutputLimits less = scaled(whole, share);
         CHECK(less.force == doctest::Approx(share * 20.0));
         CHECK(less.torque == doctest::Approx(share * 2.0));
-        CHECK(less.force_rate == doctest::Approx(share * 2000.0));
-        CHECK(less.torque_rate == doctest::Approx(share * 200.0));
+        CHECK(less.force_slew_rate == doctest::Approx(share * 2000.0));
+        CHECK(less.torque_slew_rate == doctest::Approx(share * 200.0));
         CHECK(less.stiffness == whole.stiffness);
         CHECK(less.torsion == whole.torsion);
         CHECK(less.damping == whole.damping);
@@ -36,7 +36,7 @@ TEST_CASE("Scaled limits: they never exceed the device's own limits") {
         CHECK(scaled(whole, asked).force == whole.force);
     for (const double asked : {0.0, -0.0, -1.0, -inf, std::nan("")}) {
         CHECK(scaled(whole, asked).force == 0.0);
-        CHECK(scaled(whole, asked).torque_rate == 0.0);
+        CHECK(scaled(whole, asked).torque_slew_rate == 0.0);
     }
     OutputLimits no_torque = whole;
     no_torque.torque = 0.0;
@@ -81,7 +81,7 @@ TEST_CASE("Lowered limits: each limit is the lower of the device's own and the b
             const double given = (bound.*bounds[k]).value_or(before);
             CHECK(less.*limits[k] == (given >= 0.0 && given < before ? given : before));
         }
-        CHECK(less.force_rate == own.force_rate);
+        CHECK(less.force_slew_rate == own.force_slew_rate);
         CHECK(less.speed == own.speed);
         CHECK(less.max_silence == own.max_silence);
     }

@@ -30,7 +30,7 @@ struct Scene {
     Vec3 way{0.0};              // unit vector from the wall to the initial position of the hand
     double speed = 0.2;         // m/s of the hand's intended position
     double press = 5.0;         // N, intended force on the wall
-    test::ArmParameters arm;
+    test::HandAndArmParameters arm;
 };
 
 Scene random_scene(std::uint64_t seed) {

@@ -156,8 +156,10 @@ TEST_CASE("WorkspaceMap: a command at the device's limit is at the mapped limit"
         CHECK(limits.angular_speed == device.angular_speed);
         const OutputCommand turned = to_device(w, {}, {Vec3(0.0), limits.torsion * 0.01 * way});
         CHECK(glm::length(turned.torque) == doctest::Approx(0.01 * device.torsion));
-        CHECK(limits.force_rate / limits.force == doctest::Approx(device.force_rate / device.force));
-        CHECK(limits.torque_rate / limits.torque == doctest::Approx(device.torque_rate / device.torque));
+        CHECK(limits.force_slew_rate / limits.force ==
+              doctest::Approx(device.force_slew_rate / device.force));
+        CHECK(limits.torque_slew_rate / limits.torque ==
+              doctest::Approx(device.torque_slew_rate / device.torque));
     }
 }
 

@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace bolt::tracking;
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     if (const auto frame = parse_dtrack(text)) {
-        if (frame->bodies.size() > max_dtrack_bodies || frame->refused < 0) std::abort();
+        if (frame->bodies.size() > max_dtrack_bodies || frame->invalid_bodies < 0) std::abort();
         HeadFilterState state;
         double now = 0.0;
         for (const DtrackBody& body : frame->bodies) {
@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto poses = parse_recorded_poses(text, "fuzz.csv");
     if (!poses && (poses.error().line < 1 || poses.error().what.empty())) std::abort();
     if (poses)
-        for (const HeadSample& pose : *poses)
+        for (const BodySample& pose : *poses)
             if (!finite(pose.pose.position) || !std::isfinite(pose.time)) std::abort();
     return 0;
 }

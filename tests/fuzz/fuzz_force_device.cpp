@@ -76,7 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (device.error().message().empty()) std::abort();
         return 0;
     }
-    const double most = std::max((*device)->describe().limits.torque, 1.0);
+    const double most = std::max((*device)->description().limits.torque, 1.0);
     while (true) {
         const auto sample = (*device)->read(0.002);
         if (!sample) break;

@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     if (read->arm) {
-        const bolt::content::StationArm& arm = *read->arm;
+        const bolt::content::StationMover& arm = *read->arm;
         const bolt::Quat turn = bolt::content::orientation_of(arm.mounting);
         const bool fits = !arm.device.empty() && glm::length(turn) > 0.999 && glm::length(turn) < 1.001 &&
                           arm.scale.value_or(1.0) >= 0.1 && arm.scale.value_or(1.0) <= 20.0 &&

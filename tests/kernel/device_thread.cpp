@@ -39,7 +39,7 @@ double time_until(const std::function<bool()>& condition) {
 TEST_CASE("Kernel, DeviceThread: a replugged puck is reported within 1 s and usable within 2 s") {
     DeviceThread thread = started("256f:c62e");
     CHECK(time_until([&] {
-              return thread.report().fault_message.find("no device 256f:c62e") != std::string::npos;
+              return thread.status().fault_message.find("no device 256f:c62e") != std::string::npos;
           }) < 1.0);
     for (int round = 0; round < 3; ++round) {
         auto puck = std::make_unique<emulate::EmulatedPuck>();
@@ -50,11 +50,11 @@ TEST_CASE("Kernel, DeviceThread: a replugged puck is reported within 1 s and usa
         };
         const double usable = time_until(is_read);
         CHECK(usable < 2.0);
-        CHECK(thread.report().fault_message.empty());
+        CHECK(thread.status().fault_message.empty());
         plug.reset();
         const double lost = time_until([&] { return !thread.snapshot().usable; });
         CHECK(lost < 0.02);
-        const double reported = time_until([&] { return !thread.report().fault_message.empty(); });
+        const double reported = time_until([&] { return !thread.status().fault_message.empty(); });
         CHECK(reported < 1.0);
         MESSAGE("usable after " << usable << " s, lost after " << lost * 1e3 << " ms, reported after "
                                 << reported * 1e3 << " ms");

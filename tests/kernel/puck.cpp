@@ -38,7 +38,7 @@ TEST_CASE("Kernel: a SpaceMouse is found, identified and read") {
     REQUIRE_MESSAGE(!l.error, (l.error ? l.error->message() : ""));
     auto device = factory_for(l.id)();
     REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
-    CHECK((*device)->describe().sensing == Sensing::velocity);
+    CHECK((*device)->description().sensing == Sensing::velocity);
     with<emulate::EmulatedPuck>(
         plug, [](emulate::EmulatedPuck& p) { p.deflection = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0}; });
     const Sample pushed = last_sample(**device, 0.1);

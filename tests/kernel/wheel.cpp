@@ -32,7 +32,7 @@ struct WheelFixture {
             const auto sample = device->read(0.002);
             REQUIRE_MESSAGE(sample, (sample ? "" : sample.error().message()));
             if (*sample) last = **sample;
-            const Status written = device->write({.torque = device->describe().axis * torque()});
+            const Status written = device->write({.torque = device->description().axis * torque()});
             REQUIRE_MESSAGE(written, (written ? "" : written.error().message()));
         }
     }
@@ -55,8 +55,8 @@ TEST_CASE("Kernel: a wheel is found and renders the written torque") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
         WheelFixture b({.board = board});
-        CHECK(b.found.kind == (board ? DeviceKind::board : DeviceKind::wheel));
-        CHECK(b.device->describe().limits.torque == doctest::Approx(2.0));
+        CHECK(b.found.kind == (board ? DeviceKind::open_ffboard : DeviceKind::wheel));
+        CHECK(b.device->description().limits.torque == doctest::Approx(2.0));
         with<emulate::EmulatedWheel>(b.plug, [](emulate::EmulatedWheel& w) { w.hand_stiffness = 10.0; });
         for (const double torque : {1.0, -1.5}) {
             b.run(0.7, [&] { return torque; });

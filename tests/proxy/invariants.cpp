@@ -66,7 +66,7 @@ struct Tally {
     double deepest = 0.0;
     double fastest = 0.0;  // m per tick
     int in_contact = 0;
-    int most_queries = 0, most_solves = 0;
+    int most_queries = 0, max_solves = 0;
     int budget_exhausted = 0, rate_limited = 0;
     std::vector<GodObjectState> states;
 };
@@ -87,7 +87,7 @@ Tally wander(const Scene& scene, const GodObjectParameters& p, std::uint64_t see
         tally.deepest = std::max(tally.deepest, -clear);
         tally.in_contact += clear < 2.0 * p.skin ? 1 : 0;
         tally.most_queries = std::max(tally.most_queries, step.queries);
-        tally.most_solves = std::max(tally.most_solves, step.solves);
+        tally.max_solves = std::max(tally.max_solves, step.solves);
         tally.budget_exhausted += step.budget_exhausted ? 1 : 0;
         tally.rate_limited += step.rate_limited ? 1 : 0;
         tally.fastest = std::max(
@@ -112,12 +112,12 @@ TEST_CASE("God-object: in random scenes it never penetrates and keeps the query 
         sum.fastest = std::max(sum.fastest, tally.fastest);
         sum.in_contact += tally.in_contact;
         sum.most_queries = std::max(sum.most_queries, tally.most_queries);
-        sum.most_solves = std::max(sum.most_solves, tally.most_solves);
+        sum.max_solves = std::max(sum.max_solves, tally.max_solves);
         sum.budget_exhausted += tally.budget_exhausted;
         sum.rate_limited += tally.rate_limited;
     }
     MESSAGE("in contact " << sum.in_contact << " of 18000 ticks; queries up to " << sum.most_queries
-                          << ", solves up to " << sum.most_solves << "; budget exhausted "
+                          << ", solves up to " << sum.max_solves << "; budget exhausted "
                           << sum.budget_exhausted << ", rate limited " << sum.rate_limited
                           << "; farthest in a tick " << 1e3 * sum.fastest << " mm; deepest "
                           << 1e6 * sum.deepest << " um");

@@ -125,9 +125,9 @@ TEST_CASE("Gears: helix and modules give the centre distances at the reference p
 
 TEST_CASE("Gears: the pinions' profile shift prevents undercut and exceeds the minimum by less than 0.01") {
     for (const GearPair& pair : pairs) {
-        CHECK(pair.pinion->shift >= least_shift(*pair.pinion));
-        CHECK(pair.pinion->shift < least_shift(*pair.pinion) + 0.01);
-        CHECK(pair.wheel->shift >= least_shift(*pair.wheel));
+        CHECK(pair.pinion->shift >= min_shift(*pair.pinion));
+        CHECK(pair.pinion->shift < min_shift(*pair.pinion) + 0.01);
+        CHECK(pair.wheel->shift >= min_shift(*pair.wheel));
     }
 }
 

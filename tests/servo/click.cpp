@@ -132,7 +132,7 @@ TEST_CASE("Click: the device's torque drops briefly, within the slew rates") {
             const Vec3 felt = bench.last.torque;
             bench.hold(bench.handle);
             // The click itself is slower than the slew rate permits.
-            REQUIRE(glm::length(bench.last.torque - felt) <= 0.9 * bench.setup.limits.torque_rate * dt);
+            REQUIRE(glm::length(bench.last.torque - felt) <= 0.9 * bench.setup.limits.torque_slew_rate * dt);
         }
         CHECK(glm::length(bench.last.torque) < 0.6 * before);
     }

@@ -19,7 +19,7 @@ TEST_CASE("Histogram: bins cover all values without a gap, none wider than a six
         REQUIRE((end - begin == 1 || 16 * (end - begin) <= begin));
         begin = end;
     }
-    CHECK(begin == Histogram::most + 1);
+    CHECK(begin == Histogram::max_duration + 1);
 }
 
 TEST_CASE("Histogram: quantiles never underestimate and overestimate by at most a sixteenth") {
@@ -39,7 +39,7 @@ TEST_CASE("Histogram: quantiles never underestimate and overestimate by at most 
             CHECK(quantile(h, share) >= truth * (1 - 1e-12));
             CHECK(quantile(h, share) <= truth * (17.0 / 16.0));
         }
-        CHECK(h.least == static_cast<std::uint64_t>(values.front()));
+        CHECK(h.min == static_cast<std::uint64_t>(values.front()));
         CHECK(quantile(h, 1.0) == doctest::Approx(1e-9 * static_cast<double>(values.back())).epsilon(1e-12));
     }
 }
@@ -52,8 +52,8 @@ TEST_CASE("Histogram: empty gives zeros; negative and endless durations are coun
     add(h, -5);
     add(h, std::int64_t{1} << 62);
     CHECK(h.count == 2);
-    CHECK(h.least == 0);
-    CHECK(h.greatest == Histogram::most);
+    CHECK(h.min == 0);
+    CHECK(h.max == Histogram::max_duration);
     CHECK(h.counts[0] == 1);
     CHECK(h.counts[Histogram::bins - 1] == 1);
 }
@@ -70,7 +70,7 @@ TEST_CASE("Histogram: mean, share above and sums of histograms are exact") {
     CHECK(share_above(all, 0.0) == 1.0);
     add(a, b);
     CHECK(a.counts == all.counts);
-    CHECK(a.least == all.least);
-    CHECK(a.greatest == all.greatest);
+    CHECK(a.min == all.min);
+    CHECK(a.max == all.max);
     CHECK(mean(a) == doctest::Approx(mean(all)));
 }

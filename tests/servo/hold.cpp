@@ -16,8 +16,8 @@ namespace {
 force::OutputLimits at_once() {
     force::OutputLimits limits;
     limits.ramp_up = 1e-3;
-    limits.force_rate = 1e6;
-    limits.torque_rate = 1e6;
+    limits.force_slew_rate = 1e6;
+    limits.torque_slew_rate = 1e6;
     limits.damping = limits.angular_damping = 0.0;
     return limits;
 }

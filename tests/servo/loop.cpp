@@ -78,11 +78,11 @@ TEST_CASE("Loop: in time, every deadline has its tick and deadlines do not shift
     CHECK(r.timing.ticks == 1000);
     CHECK(r.timing.missed == 0);
     CHECK(r.timing.wake_up.count == 1000);
-    CHECK(r.timing.wake_up.greatest == 20 * us);
-    CHECK(r.timing.compute.least == 300 * us);
+    CHECK(r.timing.wake_up.max == 20 * us);
+    CHECK(r.timing.compute.min == 300 * us);
     CHECK(r.timing.period.count == 999);  // the first tick has no period
-    CHECK(r.timing.period.least == ms);
-    CHECK(r.timing.period.greatest == ms);
+    CHECK(r.timing.period.min == ms);
+    CHECK(r.timing.period.max == ms);
 }
 
 TEST_CASE("Loop: an overrun skips and counts deadlines, and never makes two ticks in quick succession") {
@@ -100,7 +100,7 @@ TEST_CASE("Loop: an overrun skips and counts deadlines, and never makes two tick
         REQUIRE(r.started[i] - r.started[i - 1] >= ms);
         REQUIRE((r.started[i] - 77 * ms - 20 * us) % ms == 0);
     }
-    CHECK(r.timing.period.greatest == 4 * ms);
+    CHECK(r.timing.period.max == 4 * ms);
 }
 
 TEST_CASE("Loop: with ticks longer than the period it still sleeps before each tick") {

@@ -98,8 +98,9 @@ TEST_CASE("Servo: reach, engage, turn and release keep force and torque within t
     bool engaged = false, turned = false;
     for (int i = 0; i < 5000; ++i) {
         const Output output = tick(setup, state, scripted(setup, state, i));
-        REQUIRE(glm::length(output.force - last.force) <= setup.limits.force_rate * setup.dt * 1.0001);
-        REQUIRE(glm::length(output.torque - last.torque) <= setup.limits.torque_rate * setup.dt * 1.0001);
+        REQUIRE(glm::length(output.force - last.force) <= setup.limits.force_slew_rate * setup.dt * 1.0001);
+        REQUIRE(glm::length(output.torque - last.torque) <=
+                setup.limits.torque_slew_rate * setup.dt * 1.0001);
         // Engaging adds no torque: the nut's torque starts at zero.
         if (output.joint == 0 && last.joint == -1) CHECK(output.wrench_torque == 0.0);
         engaged = engaged || output.joint == 0;

@@ -114,8 +114,7 @@ servo::Timing some_timing() {
 }
 
 bool same(const servo::Histogram& a, const servo::Histogram& b) {
-    return a.counts == b.counts && a.count == b.count && a.least == b.least && a.greatest == b.greatest &&
-           a.sum == b.sum;
+    return a.counts == b.counts && a.count == b.count && a.min == b.min && a.max == b.max && a.sum == b.sum;
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST_CASE("Replay device: a recorded hand repeats its motion, grip and release i
         device::virtual_timer(time));
     device::DeviceMailboxes mailboxes;
     device::DeviceSnapshot snapshot;
-    station::Layout layout;
+    station::DeviceLayout layout;
     layout.mover = hand->description;
     layout.mover_buttons = {button_held, 0, button_stop, button_reset};
     layout.home = hand->first;

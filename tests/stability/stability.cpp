@@ -21,7 +21,7 @@ enum class SceneKind : std::uint8_t { wall, corner, edge, row, ball };
 struct Trial {
     Scene scene;
     SceneKind kind = SceneKind::wall;
-    test::ArmParameters arm;
+    test::HandAndArmParameters arm;
     Vec3 from{0.0};  // m, start position of the hand
     double speed = 0.2, press = 5.0;
 };

@@ -11,8 +11,8 @@ using test::Rig;
 namespace {
 
 // A small arm of the omega class, with its scale fitted as Station::start does.
-Layout small_arm() {
-    Layout layout = test::with_arm();
+DeviceLayout small_arm() {
+    DeviceLayout layout = test::with_arm();
     layout.mover->limits.torque = 0.0;
     layout.mover->limits.force = 12.0;
     layout.mover->half_workspace = Vec3(0.075);
@@ -31,20 +31,20 @@ Vec3 device_at(const Rig& rig, const Vec3& point) {
 
 TEST_CASE(
     "An arm without torque: its handle is the end of the wrench, with torque or a wheel it is the jaw") {
-    Layout layout = small_arm();
+    DeviceLayout layout = small_arm();
     CHECK(layout.lever_arm == 0.23);
     layout.mover->limits.torque = 0.2;
     CHECK(lever_arm_of(layout, 0.23) == 0.0);
     layout.mover->limits.torque = 0.0;
     layout.wheel = test::wheel_of(10.0);
     CHECK(lever_arm_of(layout, 0.23) == 0.0);
-    Layout puck;
+    DeviceLayout puck;
     puck.mover = test::puck();
     CHECK(lever_arm_of(puck, 0.23) == 0.0);
 }
 
 TEST_CASE("An arm without torque: in the air the wrist turns the wrench about its end") {
-    Layout layout = small_arm();
+    DeviceLayout layout = small_arm();
     Rig rig(layout);
     rig.ticks(2);
     const Pose before = rig.tool();

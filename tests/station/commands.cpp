@@ -52,7 +52,7 @@ TEST_CASE("Station: a pause renders no force and moves nothing; afterwards force
 TEST_CASE(
     "Station commands: checkpoints are saved one a tick, a restore stays pending until the servo permits "
     "it") {
-    Layout layout;
+    DeviceLayout layout;
     layout.mover = test::puck();
     layout.home.position = Vec3(0.1, 0.3, 0.0);
     Rig rig(layout);
@@ -105,7 +105,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Station commands: those of a pause are executed in the first tick after it") {
-    Layout layout;
+    DeviceLayout layout;
     layout.mover = test::puck();
     layout.home.position = Vec3(0.1, 0.3, 0.0);
     Rig rig(layout);
@@ -124,7 +124,7 @@ TEST_CASE("Station commands: those of a pause are executed in the first tick aft
 TEST_CASE(
     "Station: a wrench is taken from its rest pose, stays on a nut when released there, and else returns to "
     "it") {
-    Layout layout = with_arm();
+    DeviceLayout layout = with_arm();
     Rig rig(layout);
     const servo::NutGeometry& nut = rig.setup.nuts[0];
     const servo::ToolPose on =
@@ -166,7 +166,7 @@ TEST_CASE(
 
 TEST_CASE(
     "Station: a gloved hand that releases the wrench stays in place; then the device moves its fingertips") {
-    Layout layout = with_arm();
+    DeviceLayout layout = with_arm();
     layout.wrist = Pose{Vec3(0.12, 0.02, -0.03), rotation(Vec3(0.1, 0.2, 1.5))};
     Rig rig(layout);
     rig.inputs.controls.wrench_rest_pose = Pose{Vec3(0.0, 0.01, 0.3), rotation(Vec3(0.0, 0.4, 0.0))};

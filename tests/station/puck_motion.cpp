@@ -9,7 +9,7 @@ using test::Rig;
 using test::with_arm;
 
 TEST_CASE("Puck: the tool moves at the puck's rate while that is valid, and stops at obstacles") {
-    Layout layout;
+    DeviceLayout layout;
     layout.mover = test::puck();
     layout.workspace.rotation = rotation(Vec3(0, 0, pi / 2));
     Rig rig(layout);
@@ -54,7 +54,7 @@ TEST_CASE("Wheel: clockwise as the user sees it tightens, whatever the sign of t
     for (const Vec3 axis : {Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
         CAPTURE(axis.y);
         CAPTURE(axis.z);
-        Layout layout;
+        DeviceLayout layout;
         layout.mover = test::puck();
         layout.wheel = test::wheel_of(10.0, axis);
         Rig rig = on_nut(layout);
@@ -84,7 +84,7 @@ TEST_CASE("Wheel: clockwise as the user sees it tightens, whatever the sign of t
 }
 
 TEST_CASE("Station: a silent arm is released and the wheel keeps its torque; a silent wheel is released") {
-    Layout layout = with_arm();
+    DeviceLayout layout = with_arm();
     layout.wheel = test::wheel_of(10.0);
     for (const bool arm_falls_mute : {true, false}) {
         Rig rig = on_nut(layout);
@@ -105,7 +105,7 @@ TEST_CASE("Station: a silent arm is released and the wheel keeps its torque; a s
 }
 
 TEST_CASE("Wheel: without an engaged nut it turns nothing, and that rotation is discarded") {
-    Layout layout;
+    DeviceLayout layout;
     layout.mover = test::puck();
     layout.wheel = test::wheel_of(10.0);
     layout.home.position = Vec3(0.1, 0.3, 0.0);
@@ -129,7 +129,7 @@ TEST_CASE("Wheel: without an engaged nut it turns nothing, and that rotation is 
 }
 
 TEST_CASE("Puck: the tool approaches the nut by itself, descends with it, and leaves it when pushed away") {
-    Layout layout;
+    DeviceLayout layout;
     layout.mover = test::puck();
     const servo::Setup setup = test::two_joints(limits_of(layout));
     const servo::NutGeometry& nut = setup.nuts[0];
@@ -162,7 +162,7 @@ TEST_CASE("Puck: the tool approaches the nut by itself, descends with it, and le
 }
 
 TEST_CASE("Puck: a wrench turns more slowly the more torque it transmits") {
-    Layout layout;
+    DeviceLayout layout;
     layout.mover = test::puck();
     Rig rig = on_nut(layout);
     rig.inputs.mover.sample.angular_velocity = Vec3(0.0, -1.0, 0.0);

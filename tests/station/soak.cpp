@@ -53,7 +53,7 @@ struct MonitoredDevice {
     // hang of the servo
     double longest_lost = 0.0, longest_released = 0.0, longest_hung = 0.0;
 
-    MonitoredDevice(device::SimulatedDeviceOptions design, std::uint64_t seed)
+    MonitoredDevice(device::ScriptedDeviceOptions design, std::uint64_t seed)
         : line(std::move(design)), random(seed) {}
 
     void advance(double now) {
@@ -92,8 +92,8 @@ struct SoakStatistics {
     }
 };
 
-Layout arm_and_wheel() {
-    Layout layout;
+DeviceLayout arm_and_wheel() {
+    DeviceLayout layout;
     layout.mover = test::arm();
     layout.wheel = test::wheel_of(8.0);
     layout.home.position = Vec3(0.0, 0.15, 0.0);
@@ -303,14 +303,14 @@ class Soak {
                     statistics_.require(false, is("is lost and renders a force"), now_);
                 if (t.what == InjectedFault::stuck && since > force_timeout && !hangs && !is_zero(command))
                     statistics_.require(false, is("is stuck and gets a force command"), now_);
-                if (mutes(t.what) && since > report_timeout && w->line.report().fault_message.empty())
+                if (mutes(t.what) && since > report_timeout && w->line.status().fault_message.empty())
                     statistics_.require(false, is("is lost and not reported"), now_);
                 if (t.what == InjectedFault::stuck && since > report_timeout && w == &arm_ && !hangs &&
-                    w->line.report().fault_message.empty() && state_.output.fault == force::Fault::none &&
+                    w->line.status().fault_message.empty() && state_.output.fault == force::Fault::none &&
                     state_.output.joint < 0)
                     statistics_.require(false, is("is stuck and not reported"), now_);
             } else if (!w->recovered) {
-                if (w->line.report().state == device::DeviceState::usable && w->line.snapshot().usable) {
+                if (w->line.status().state == device::DeviceState::usable && w->line.snapshot().usable) {
                     w->recovered = true;
                     w->longest_recovery = std::max(w->longest_recovery, now_ - t.until);
                 } else if (now_ - w->healthy_since > recovery_timeout) {
@@ -345,7 +345,7 @@ class Soak {
     Vec3 tool_ = arm_and_wheel().home.position;  // m, commanded at the last tick
     double wheel_at_ = 0.0, turned_at_ = 0.0, direction_ = 1.0;
     // Declared before the devices, whose hands use them.
-    Layout layout_;
+    DeviceLayout layout_;
     servo::Setup setup_;
     servo::State servo_;
     StationState state_;

@@ -27,7 +27,7 @@ class OnCable final : public device::DeviceDriver {
   public:
     OnCable(std::shared_ptr<Cable> cable, std::unique_ptr<device::DeviceDriver> device)
         : cable_(std::move(cable)), device_(std::move(device)) {}
-    [[nodiscard]] const device::Description& describe() const override { return device_->describe(); }
+    [[nodiscard]] const device::Description& description() const override { return device_->description(); }
     Result<std::optional<device::Sample>> read(double patience) override {
         while (cable_->hangs) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         if (!cable_->plugged) return pulled();
@@ -156,7 +156,7 @@ TEST_CASE("Station: an unplugged device is reported and stops the tool; it resum
         [&] { return joined_lines(station->fault_messages()).find("plug it in") != std::string::npos; }));
     REQUIRE(eventually([&] { return station->link_stats().mover.longest_silence > 0.3; }));
     CHECK(station->link_stats().mover.samples > 0);
-    CHECK(station->mover_report()->losses == 1);
+    CHECK(station->mover_status()->losses == 1);
     const float stands = height();
     for (int i = 0; i < 20; ++i) CHECK(height() == stands);
     cable->plugged = true;
@@ -190,7 +190,7 @@ TEST_CASE("Station: the glove has its own thread, and its problems are reported"
     REQUIRE(station);
     REQUIRE(station->glove() != nullptr);
     CHECK(station->hand() == nullptr);
-    CHECK(station->wheel_report() == nullptr);
+    CHECK(station->wheel_status() == nullptr);
     REQUIRE(eventually([&] { return station->glove()->sample().number > 5; }));
     line->stall(true);
     REQUIRE(eventually(

@@ -28,8 +28,8 @@ device::Description announced() {
     return d;
 }
 
-device::ArmParameters arm_with(double mass, double damping) {
-    device::ArmParameters p;
+device::HandAndArmParameters arm_with(double mass, double damping) {
+    device::HandAndArmParameters p;
     p.mass = mass;
     p.damping = damping;
     return p;
@@ -42,7 +42,7 @@ struct Bench {
     double time = 0.0;           // s
     double largest_force = 0.0;  // N
 
-    explicit Bench(const device::ArmParameters& parameters, int late = 0,
+    explicit Bench(const device::HandAndArmParameters& parameters, int late = 0,
                    const device::Description& description = announced())
         : trial(begin_stiffness_trial(description)), under_way_(static_cast<std::size_t>(late)) {
         arm.parameters = parameters;
@@ -72,7 +72,7 @@ struct Measured {
     double seconds = 0.0;
 };
 
-Measured measure(const device::ArmParameters& parameters, int late,
+Measured measure(const device::HandAndArmParameters& parameters, int late,
                  const device::Description& description = announced()) {
     Bench bench(parameters, late, description);
     while (bench.trial.end == TrialEnd::none && bench.time < 60.0) bench.tick(true);
@@ -114,7 +114,7 @@ TEST_CASE("Stiffness trial: a sluggish arm gets a lower figure than a damped one
 }
 
 TEST_CASE("Stiffness trial: a slow swing that does not die away is seen by its energy") {
-    device::ArmParameters heavy = arm_with(3.0, 0.0);
+    device::HandAndArmParameters heavy = arm_with(3.0, 0.0);
     heavy.stiffness = 20.0;  // a hand that hardly holds it
     device::Description d = announced();
     d.limits.damping = 0.0;

@@ -13,11 +13,11 @@ namespace bolt::test {
 // A simulated device with its supervisor and mailboxes. until() does the work of its thread up to a time.
 class VirtualLine {
   public:
-    explicit VirtualLine(device::SimulatedDeviceOptions design)
+    explicit VirtualLine(device::ScriptedDeviceOptions design)
         : thing(std::move(design), device::virtual_timer(time_)),
           supervisor_(thing.factory(), device::virtual_timer(time_)) {}
 
-    device::SimulatedDevice thing;
+    device::ScriptedDevice thing;
 
     void until(double now) {
         while (time_.now < now) device::run_once(supervisor_, mailboxes_, snapshot_);
@@ -29,7 +29,7 @@ class VirtualLine {
     void command(const force::OutputCommand& command) {
         mailboxes_.commands.write({command, true, ++number_});
     }
-    [[nodiscard]] const device::DeviceReport& report() const { return supervisor_.report(); }
+    [[nodiscard]] const device::DeviceStatus& status() const { return supervisor_.status(); }
     [[nodiscard]] double now() const { return time_.now; }
 
   private:

@@ -10,8 +10,8 @@
 
 namespace bolt::test {
 
-inline station::Layout with_arm() {
-    station::Layout layout;
+inline station::DeviceLayout with_arm() {
+    station::DeviceLayout layout;
     layout.mover = arm();
     layout.home.position = Vec3(0.1, 0.3, 0.0);
     return layout;
@@ -19,7 +19,7 @@ inline station::Layout with_arm() {
 
 // A station whose devices send the samples set by a test, every millisecond.
 struct Rig {
-    explicit Rig(const station::Layout& l)
+    explicit Rig(const station::DeviceLayout& l)
         : layout(l),
           setup(two_joints(station::limits_of(l))),
           servo(servo::initial_state(setup)),
@@ -32,7 +32,7 @@ struct Rig {
         inputs.controls.grip = servo::Grip::wrench;
     }
 
-    station::Layout layout;
+    station::DeviceLayout layout;
     servo::Setup setup;
     servo::State servo;
     station::StationState state;
@@ -58,7 +58,7 @@ struct Rig {
 };
 
 // A station with the tool engaged on the first nut. Only a puck can move the tool.
-inline Rig on_nut(station::Layout layout) {
+inline Rig on_nut(station::DeviceLayout layout) {
     const servo::Setup setup = two_joints(station::limits_of(layout));
     const servo::NutGeometry& nut = setup.nuts[0];
     const servo::CommandedTool at = tool_at(nut, servo::nut_centre(nut, 0.0), setup.wrench.head_angle);

@@ -15,7 +15,7 @@ using test::Rig;
 using test::with_arm;
 
 TEST_CASE("Station: the tool begins at home wherever the hand is, and follows its scaled motion") {
-    Layout layout = with_arm();
+    DeviceLayout layout = with_arm();
     layout.workspace.scale = 3.0;
     layout.workspace.rotation = rotation(Vec3(0, pi / 2, 0));
     Rig rig(layout);
@@ -31,7 +31,7 @@ TEST_CASE("Station: the tool begins at home wherever the hand is, and follows it
 }
 
 TEST_CASE("Station: a closed gripper is the dead-man switch, and opens only when the hand opens clearly") {
-    Layout layout = with_arm();
+    DeviceLayout layout = with_arm();
     layout.mover->senses_gripper = true;
     Rig rig(layout);
     rig.inputs.controls.dead_man = false;
@@ -155,7 +155,7 @@ TEST_CASE("Station: a silent device has zero force 18 ms after its last sample, 
 }
 
 TEST_CASE("Station: after a stall of the servo forces ramp up from zero, whatever happened meanwhile") {
-    Layout layout;
+    DeviceLayout layout;
     layout.mover = test::puck();
     layout.wheel = test::wheel_of(10.0);
     Rig rig = on_nut(layout);
@@ -192,9 +192,9 @@ TEST_CASE("Station: after a stall of the servo forces ramp up from zero, whateve
     }
 }
 
-TEST_CASE("Layout: unusable combinations of devices are errors with a message") {
+TEST_CASE("DeviceLayout: unusable combinations of devices are errors with a message") {
     CHECK_FALSE(check({}));
-    Layout layout;
+    DeviceLayout layout;
     layout.mover = test::wheel_of(2.0);
     REQUIRE_FALSE(check(layout));
     CHECK(check(layout).error().message().find("a wheel turns about one axis") != std::string::npos);
@@ -208,8 +208,8 @@ TEST_CASE("Layout: unusable combinations of devices are errors with a message") 
     CHECK(check(layout));
 }
 
-TEST_CASE("Layout: the combined limits are the mover's forces and the wheel's torque") {
-    Layout layout;
+TEST_CASE("DeviceLayout: the combined limits are the mover's forces and the wheel's torque") {
+    DeviceLayout layout;
     layout.mover = test::puck();
     CHECK(limits_of(layout).force == 0.0);
     CHECK(limits_of(layout).torque == 0.0);
@@ -228,7 +228,7 @@ TEST_CASE("Layout: the combined limits are the mover's forces and the wheel's to
 
 TEST_CASE("Station: a tick neither allocates nor waits, and the same inputs give the same bits") {
     const auto run = [](test::Forbidden* forbidden) {
-        Layout layout = with_arm();
+        DeviceLayout layout = with_arm();
         layout.wheel = test::wheel_of(5.0);
         Rig rig = on_nut(layout);
         Random random(3);

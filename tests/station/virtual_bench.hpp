@@ -4,7 +4,7 @@
 #include <deque>
 
 #include "game/session/lesson_session.hpp"
-#include "game/station/station_setup.hpp"
+#include "game/station/lesson_station.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/device/device_thread.hpp"
 
@@ -15,8 +15,8 @@ class VirtualBench final : public station_setup::LessonStation {
     VirtualBench(session::SessionSetup prepared, session::LessonOptions options)
         : puck_({}, device::virtual_timer(time_)),
           supervisor_(puck_.factory(), device::virtual_timer(time_)) {
-        while (!supervisor_.report().description) serve();
-        layout_.mover = *supervisor_.report().description;
+        while (!supervisor_.status().description) serve();
+        layout_.mover = *supervisor_.status().description;
         layout_.mover_buttons = {1, 0, 0, 0};
         options.device_limits = station::limits_of(layout_);
         session::set_device_limits(options, prepared);
@@ -61,10 +61,10 @@ class VirtualBench final : public station_setup::LessonStation {
     [[nodiscard]] std::uint64_t lost_ticks() const override { return lost_; }
     const station::DisplayedHand* hand() override { return hand_ ? &*hand_ : nullptr; }
     std::vector<std::string> fault_messages() override { return fault_messages_; }
-    device::Condition condition() override { return condition_; }
+    device::DeviceHealth health() override { return health_; }
     device::ArmNeeds needs() override { return needs_; }
     void permit_move() override { ++permissions_; }
-    [[nodiscard]] const station::Layout& layout() const override { return layout_; }
+    [[nodiscard]] const station::DeviceLayout& layout() const override { return layout_; }
     [[nodiscard]] const servo::Setup& setup() const override { return setup_; }
     const servo::Timing* stop() override {
         stopped_ = true;
@@ -74,7 +74,7 @@ class VirtualBench final : public station_setup::LessonStation {
     // State of the station and its faults, set by tests.
     std::vector<std::string> fault_messages_;
     device::ArmNeeds needs_;
-    device::Condition condition_;
+    device::DeviceHealth health_;
     int permissions_ = 0;  // that the user has given
     std::uint64_t lost_ = 0;
     std::optional<station::DisplayedHand> hand_;  // of a gloved hand
@@ -110,7 +110,7 @@ class VirtualBench final : public station_setup::LessonStation {
     device::DeviceSupervisor supervisor_;
     device::DeviceMailboxes mailboxes_;
     device::DeviceSnapshot snapshot_;
-    station::Layout layout_;
+    station::DeviceLayout layout_;
     servo::Setup setup_;
     servo::State servo_;
     station::StationState state_;

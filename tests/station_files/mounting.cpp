@@ -12,28 +12,28 @@ using test::Rig;
 
 namespace {
 
-content::StationArm arm_of(const std::string& members) {
+content::StationMover arm_of(const std::string& members) {
     const auto station = content::parse_station(
         R"({"format": "boltwright station 1", "arm": {"device": "arm-1")" + members + "}}", "s.json");
     REQUIRE_MESSAGE(station, (station ? "" : station.error().message()));
     return *station->arm;
 }
 
-Layout layout_of(const content::StationArm& arm, const device::Description& device,
-                 double handle_length = 0.23) {
+DeviceLayout layout_of(const content::StationMover& arm, const device::Description& device,
+                       double handle_length = 0.23) {
     StationOptions options;
-    options.workspace = {content::orientation_of(arm.mounting), arm.scale, arm.power};
+    options.workspace = {content::orientation_of(arm.mounting), arm.scale, arm.power_ratio};
     options.mover_limits = arm.limits;
     options.mover_buttons = arm.buttons.value_or(options.mover_buttons);
     options.handle_length = handle_length;
     options.home = test::with_arm().home;
-    Result<Layout> layout = make_layout(options, device, std::nullopt);
+    Result<DeviceLayout> layout = make_layout(options, device, std::nullopt);
     REQUIRE(layout);
     return *layout;
 }
 
 // The motion of the tool, m, for a motion of the handle by `by` m along the axes of the device.
-Vec3 motion(const content::StationArm& arm, const Vec3& by) {
+Vec3 motion(const content::StationMover& arm, const Vec3& by) {
     Rig rig(layout_of(arm, test::arm()));
     rig.ticks(3);
     const Vec3 before = rig.tool().position;
@@ -46,11 +46,11 @@ Vec3 motion(const content::StationArm& arm, const Vec3& by) {
 
 Vec3 any(Random& random) { return {random.normal(), random.normal(), random.normal()}; }
 
-content::StationArm any_arm(Random& random) {
-    content::StationArm arm;
+content::StationMover any_arm(Random& random) {
+    content::StationMover arm;
     arm.mounting = {random.uniform(-pi, pi), random.uniform(-pi, pi), random.uniform(-pi, pi)};
     arm.scale = random.uniform(0.3, 5.0);
-    if (random.chance(0.5)) arm.power = random.uniform(0.05, 2.0);
+    if (random.chance(0.5)) arm.power_ratio = random.uniform(0.05, 2.0);
     return arm;
 }
 
@@ -86,10 +86,10 @@ TEST_CASE("Station file: the tool moves as the user pushes, however the device i
 TEST_CASE("Station file: the handle feels a force along the user's axes, and power as stated") {
     Random random(11);
     for (int i = 0; i < 50; ++i) {
-        const content::StationArm arm = any_arm(random);
-        const Layout layout = layout_of(arm, test::arm());
+        const content::StationMover arm = any_arm(random);
+        const DeviceLayout layout = layout_of(arm, test::arm());
         CHECK(layout.workspace.scale == *arm.scale);
-        CHECK(layout.workspace.power_ratio == arm.power.value_or(1.0 / *arm.scale));
+        CHECK(layout.workspace.power_ratio == arm.power_ratio.value_or(1.0 / *arm.scale));
         const Vec3 on_tool = any(random);
         const force::OutputCommand felt = force::to_device(layout.workspace, {}, {on_tool, Vec3(0.0)});
         const Vec3 of_user = content::orientation_of(arm.mounting) * felt.force;
@@ -102,7 +102,7 @@ TEST_CASE("Station file: without a scale it is fitted to the reach along the use
     device.half_workspace = Vec3(0.3, 0.2, 0.05);
     for (const auto& [members, reach] : {std::pair{R"()", Vec3(0.3, 0.2, 0.05)},
                                          {R"(, "mounting": {"yaw_deg": 90})", Vec3(0.05, 0.2, 0.3)}}) {
-        const Layout layout = layout_of(arm_of(members), device);
+        const DeviceLayout layout = layout_of(arm_of(members), device);
         CHECK(layout.workspace.scale == doctest::Approx(force::fitted_scale(reach, 0.23)));
         CHECK(layout.workspace.power_ratio == 1.0 / layout.workspace.scale);
     }
@@ -117,7 +117,7 @@ TEST_CASE("Station file: with any mounting and scale, clutching never makes the 
         device::Description device = test::arm();
         device.buttons = 8;
         if (random.chance(0.5)) device.limits.torque = 0.0;  // then the handle is the end of the wrench
-        content::StationArm arm = any_arm(random);
+        content::StationMover arm = any_arm(random);
         arm.buttons = Buttons{1, 32, 0, 0};
         Rig rig(layout_of(arm, device));
         rig.ticks(5);
@@ -157,11 +157,11 @@ TEST_CASE("Station file: limits are only ever lowered, and no command of a tick 
         device::Description device = test::arm();
         device.limits.force = random.uniform(1.0, 30.0);
         device.limits.torque = random.uniform(0.1, 3.0);
-        content::StationArm arm = any_arm(random);
+        content::StationMover arm = any_arm(random);
         if (random.chance(0.8)) arm.limits.force = random.uniform(0.0, 40.0);
         if (random.chance(0.8)) arm.limits.torque = random.uniform(0.05, 4.0);
         if (random.chance(0.8)) arm.limits.stiffness = random.uniform(50.0, 4000.0);
-        const Layout layout = layout_of(arm, device);
+        const DeviceLayout layout = layout_of(arm, device);
         const double force = std::min(device.limits.force, arm.limits.force.value_or(1e9));
         const double torque = std::min(device.limits.torque, arm.limits.torque.value_or(1e9));
         CHECK(layout.mover->limits.force == force);

@@ -113,22 +113,22 @@ TEST_CASE("Registration: two registrations between the same frames are an error,
 
 TEST_CASE("Registration: a new one replaces that between the same frames, and no other") {
     std::vector<Registration> all;
-    const auto add = [&](StationFrame from, StationFrame to, int points) {
+    const auto add = [&](CoordinateFrame from, CoordinateFrame to, int points) {
         Registration one;
         one.from = from;
         one.to = to;
         one.points = points;
         set_registration(all, one);
     };
-    add(StationFrame::arm, StationFrame::room, 4);
-    add(StationFrame::tracker, StationFrame::room, 5);
-    add(StationFrame::room, StationFrame::arm, 6);
+    add(CoordinateFrame::arm, CoordinateFrame::room, 4);
+    add(CoordinateFrame::tracker, CoordinateFrame::room, 5);
+    add(CoordinateFrame::room, CoordinateFrame::arm, 6);
     REQUIRE(all.size() == 2);
     CHECK(all[0].points == 6);
-    CHECK(all[0].from == StationFrame::room);
+    CHECK(all[0].from == CoordinateFrame::room);
     CHECK(all[1].points == 5);
-    CHECK(find_registration(all, StationFrame::arm, StationFrame::room) == all.data());
-    CHECK(find_registration(all, StationFrame::arm, StationFrame::tracker) == nullptr);
+    CHECK(find_registration(all, CoordinateFrame::arm, CoordinateFrame::room) == all.data());
+    CHECK(find_registration(all, CoordinateFrame::arm, CoordinateFrame::tracker) == nullptr);
 }
 
 TEST_CASE("Registration: dates are checked by the calendar") {

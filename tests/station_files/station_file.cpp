@@ -82,7 +82,7 @@ void each_property(const json& schema, const json& node, const json::json_pointe
     }
 }
 
-Registration any_registration(Random& random, StationFrame from) {
+Registration any_registration(Random& random, CoordinateFrame from) {
     Registration one;
     one.from = from;
     one.date = "2026-03-02T09:15:59Z";
@@ -114,13 +114,13 @@ StationFile any_station(Random& random) {
     if (random.chance(0.5)) station.name = "Lab „2“";
     if (random.chance(0.5)) station.glove_port = "/dev/ttyUSB0";
     if (random.chance(0.8)) {
-        StationArm& arm = station.arm.emplace();
+        StationMover& arm = station.arm.emplace();
         arm.device = "haply:0";
         for (double Mounting::*angle : {&Mounting::yaw, &Mounting::pitch, &Mounting::roll})
             arm.mounting.*angle = to_radians(random.chance(0.3) ? 90.0 : random.uniform(-360.0, 360.0));
         maybe(arm.scale, 0.1, 20.0);
         if (random.chance(0.5)) arm.effector_mass = random.uniform(0.001, 1.0);
-        maybe(arm.power, 0.01, 10.0);
+        maybe(arm.power_ratio, 0.01, 10.0);
         arm.buttons = buttons();
         maybe(arm.limits.force, 0.0, 1000.0);
         maybe(arm.limits.torque, 0.0, 30.0);
@@ -138,7 +138,8 @@ StationFile any_station(Random& random) {
         wheel.config.reversed = random.chance(0.5);
         wheel.buttons = buttons();
     }
-    for (const StationFrame from : {StationFrame::arm, StationFrame::tracker, StationFrame::workpiece})
+    for (const CoordinateFrame from :
+         {CoordinateFrame::arm, CoordinateFrame::tracker, CoordinateFrame::workpiece})
         if (random.chance(0.3)) station.registrations.push_back(any_registration(random, from));
     return station;
 }
@@ -151,12 +152,12 @@ TEST_CASE("Station file: every member is read, and absent ones keep their defaul
     CHECK(station->schema == "station.schema.json");
     CHECK(station->name == "Lab 2");
     REQUIRE(station->arm);
-    const StationArm& arm = *station->arm;
+    const StationMover& arm = *station->arm;
     CHECK(arm.device == "force-dimension:0");
     CHECK(arm.mounting == Mounting{to_radians(90.0), to_radians(-10.0), to_radians(180.0)});
     CHECK(arm.scale == 2.5);
     CHECK(arm.effector_mass == 0.2);
-    CHECK(arm.power == 0.5);
+    CHECK(arm.power_ratio == 0.5);
     CHECK(arm.buttons == station::Buttons{5, 2, 8, 0});
     CHECK(arm.limits == force::LimitBounds{8.0, 0.1, 1500.0, 5.0, 4.0, 0.01});
     CHECK(arm.tool == "torque_wrench");
@@ -171,8 +172,8 @@ TEST_CASE("Station file: every member is read, and absent ones keep their defaul
     CHECK(station->glove_port == "/dev/ttyUSB0");
     REQUIRE(station->registrations.size() == 1);
     const Registration& one = station->registrations[0];
-    CHECK(one.from == StationFrame::arm);
-    CHECK(one.to == StationFrame::room);
+    CHECK(one.from == CoordinateFrame::arm);
+    CHECK(one.to == CoordinateFrame::room);
     CHECK(one.date == "2026-03-02T09:15:00Z");
     CHECK(one.pose.position == Vec3(0.4, 0.7, -0.3));
     CHECK(one.pose.orientation == Quat(0.6, 0.0, 0.8, 0.0));
@@ -188,7 +189,7 @@ TEST_CASE("Station file: every member is read, and absent ones keep their defaul
     CHECK(*bare == StationFile{});
     const Result<StationFile> plain = parsed(R"(, "arm": {"device": "a"}, "wheel": {"device": "w"})");
     REQUIRE(plain);
-    CHECK(*plain->arm == StationArm{"a", {}, {}, {}, {}, {}, 0.0, {}});
+    CHECK(*plain->arm == StationMover{"a", {}, {}, {}, {}, {}, 0.0, {}});
     CHECK(*plain->wheel == StationWheel{"w", {}, {}});
 }
 

@@ -10,15 +10,15 @@
 namespace bolt::test {
 
 using device::ArmModel;
-using device::ArmParameters;
 using device::encoder_pose;
+using device::HandAndArmParameters;
 using device::step;
 
-inline ArmParameters random_arm(Random& random) {
+inline HandAndArmParameters random_arm(Random& random) {
     const auto logarithmic = [&](double low, double high) {
         return low * std::pow(high / low, random.uniform());
     };
-    ArmParameters p;
+    HandAndArmParameters p;
     p.mass = logarithmic(0.08, 1.5);
     p.damping = logarithmic(1.0, 25.0);
     p.stiffness = logarithmic(40.0, 1000.0);

@@ -204,7 +204,7 @@ TEST_CASE("Jaw grip: the nut resists tilting and releases the jaw square") {
         move(bench, way, over, on, 0.3);
     }
     CHECK(glm::length(way.last.torque) < 0.05);
-    CHECK(way.torque_step < 0.95 * bench.setup.limits.torque_rate * bench.setup.dt);
+    CHECK(way.torque_step < 0.95 * bench.setup.limits.torque_slew_rate * bench.setup.dt);
 }
 
 TEST_CASE(
@@ -259,7 +259,7 @@ TEST_CASE(
     // At the next flat, 60 degrees on less the play.
     REQUIRE(again_at > slipped_at);
     CHECK(0.05 * again_at == doctest::Approx(60.0).epsilon(0.1));
-    CHECK(way.torque_step < 0.95 * bench.setup.limits.torque_rate * bench.setup.dt);
+    CHECK(way.torque_step < 0.95 * bench.setup.limits.torque_slew_rate * bench.setup.dt);
     CHECK(way.step < leap * bench.setup.limits.force);
 }
 
@@ -277,7 +277,7 @@ TEST_CASE("Jaw grip: with full overlap it reaches the joint's torque and rounds 
     CHECK(most > 20.0);
     CHECK(watch.slips == 0);
     CHECK(bench.state.rounded[0] == 0.0);
-    CHECK(watch.torque_step < 0.95 * bench.setup.limits.torque_rate * bench.setup.dt);
+    CHECK(watch.torque_step < 0.95 * bench.setup.limits.torque_slew_rate * bench.setup.dt);
 }
 
 TEST_CASE(

@@ -53,7 +53,7 @@ std::optional<DtrackFrame> received(DtrackReceiver& receiver, std::uint64_t pack
     std::optional<DtrackFrame> newest;
     CHECK(test::eventually([&] {
         if (auto frame = receiver.poll()) newest = std::move(frame);
-        return receiver.counts().frames + receiver.counts().malformed >= packets;
+        return receiver.counts().good_packets + receiver.counts().malformed_packets >= packets;
     }));
     return newest;
 }
@@ -64,9 +64,9 @@ TEST_CASE("DTrack: a packet with two bodies is read in metres, its matrix by col
     const DtrackFrame frame = parsed(packet);
     CHECK(frame.number == 21753);
     CHECK(frame.time == 39596.024831);
-    CHECK(frame.calibrated == 3);
+    CHECK(frame.calibrated_bodies == 3);
     REQUIRE(frame.bodies.size() == 2);
-    CHECK(frame.refused == 0);
+    CHECK(frame.invalid_bodies == 0);
     const DtrackBody* head = find_body(frame, 0);
     REQUIRE(head != nullptr);
     CHECK(head->quality == 1.0);
@@ -117,7 +117,7 @@ TEST_CASE("DTrack: packets without bodies, without a time, and with lines of oth
 
 TEST_CASE("DTrack: a body that is not seen is no body") {
     CHECK(parsed("fr 1\n6d 1 [0 -1.000][0 0 0 0 0 0][0 0 0 0 0 0 0 0 0]").bodies.empty());
-    CHECK(parsed("fr 1\n6d 1 [0 -1.000][0 0 0 0 0 0][0 0 0 0 0 0 0 0 0]").refused == 0);
+    CHECK(parsed("fr 1\n6d 1 [0 -1.000][0 0 0 0 0 0][0 0 0 0 0 0 0 0 0]").invalid_bodies == 0);
 }
 
 TEST_CASE("DTrack: a body whose values are no pose is refused, and the others are kept") {
@@ -125,7 +125,7 @@ TEST_CASE("DTrack: a body whose values are no pose is refused, and the others ar
         const DtrackFrame frame = parsed(replaced(packet, from, to));
         CHECK(frame.bodies.size() == 1);
         CHECK(find_body(frame, 2) != nullptr);
-        CHECK(frame.refused == 1);
+        CHECK(frame.invalid_bodies == 1);
     };
     refused("326.848", "nan");
     refused("326.848", "inf");
@@ -137,7 +137,7 @@ TEST_CASE("DTrack: a body whose values are no pose is refused, and the others ar
     refused("[-0.940508 -0.339238 -0.019025", "[0 0 0");
     refused("[0 1.000]", "[0 nan]");
     // A reflection has unit columns at right angles.
-    CHECK(parsed("fr 1\n6d 1 [0 1][0 0 0 0 0 0][-1 0 0 0 1 0 0 0 1]").refused == 1);
+    CHECK(parsed("fr 1\n6d 1 [0 1][0 0 0 0 0 0][-1 0 0 0 1 0 0 0 1]").invalid_bodies == 1);
 }
 
 TEST_CASE("DTrack: damaged packets are refused as a whole") {
@@ -210,7 +210,7 @@ TEST_CASE("DTrack: the newest frame of those that arrived on the UDP port is ret
     REQUIRE(frame);
     CHECK(frame->number == 3);
     CHECK(frame->bodies.at(0).pose.position.x == doctest::Approx(0.003));
-    CHECK(receiver.counts().frames == 3);
+    CHECK(receiver.counts().good_packets == 3);
     CHECK_FALSE(receiver.poll());
 }
 
@@ -224,11 +224,11 @@ TEST_CASE("DTrack: damaged, empty and too long packets are counted and harm noth
     const auto frame = received(receiver, 4);
     REQUIRE(frame);
     CHECK(frame->number == 8);
-    CHECK(receiver.counts().frames == 1);
-    CHECK(receiver.counts().malformed == 3);
+    CHECK(receiver.counts().good_packets == 1);
+    CHECK(receiver.counts().malformed_packets == 3);
     sender.send("fr 9\n6d 1 [0 1][nan 0 0 0 0 0][1 0 0 0 1 0 0 0 1]");
     CHECK(received(receiver, 5)->bodies.empty());
-    CHECK(receiver.counts().refused == 1);
+    CHECK(receiver.counts().invalid_bodies == 1);
 }
 
 TEST_CASE("DTrack: an overtaken or repeated packet is dropped, and a restarted tracker is followed") {
@@ -239,7 +239,7 @@ TEST_CASE("DTrack: an overtaken or repeated packet is dropped, and a restarted t
     sender.send(frame_text(4999));
     sender.send(frame_text(5000));
     CHECK_FALSE(received(receiver, 3));
-    CHECK(receiver.counts().late == 2);
+    CHECK(receiver.counts().late_packets == 2);
     sender.send(frame_text(1));  // the measurement was started again
     CHECK(received(receiver, 4)->number == 1);
     sender.send(frame_text(2));
@@ -258,9 +258,9 @@ TEST_CASE("DTrack: an overtaken or repeated packet is dropped, and a restarted t
 TEST_CASE("DTrack: a poll reads a bounded number of packets") {
     DtrackReceiver receiver = opened();
     const test::UdpSender sender(receiver.port());
-    for (int i = 1; i <= max_packets_a_poll + 10; ++i) sender.send(frame_text(i));
+    for (int i = 1; i <= max_packets_per_poll + 10; ++i) sender.send(frame_text(i));
     (void)receiver.poll();
-    CHECK(receiver.counts().frames <= static_cast<std::uint64_t>(max_packets_a_poll));
+    CHECK(receiver.counts().good_packets <= static_cast<std::uint64_t>(max_packets_per_poll));
 }
 
 TEST_CASE("DTrack: a port that another program has, and a number that is none, are errors") {

@@ -105,7 +105,7 @@ TEST_CASE("Head filter: a dropout is held, then faded to the fixed head without 
     run.lose(0.4);
     CHECK(run.head.status == HeadStatus::held);
     CHECK(distance(run.head.pose, still(0.0)) < 1e-12);
-    while (run.now < last + run.with.hold + 0.5 * run.with.fade) run.frame({});
+    while (run.now < last + run.with.dropout_time + 0.5 * run.with.fade) run.frame({});
     CHECK(run.head.status == HeadStatus::faded);
     const double way = distance(still(0.0), run.with.fixed_head);
     CHECK(distance(run.head.pose, still(0.0)) == doctest::Approx(0.5 * way).epsilon(0.05));
@@ -194,7 +194,7 @@ TEST_CASE("Head filter: noise at two places is never accepted as a jump") {
                     {1, 0, 0, 0}};
     };
     const Pose last = run.head.pose;
-    run.track(run.with.hold - 2.0 * period, noise);
+    run.track(run.with.dropout_time - 2.0 * period, noise);
     CHECK(run.head.status == HeadStatus::held);
     CHECK(distance(run.head.pose, last) < 1e-12);
     run.track(run.with.fade + 0.1, noise);
@@ -263,8 +263,8 @@ TEST_CASE("Head filter: random trackers never make a step larger than a head's")
 TEST_CASE("Head pose: axes, scale, mounting and the offset to the eyes are applied in this order") {
     // A tracker whose z is up, 1 m above the floor at z = -2 m; it measures in units of 0.5 m.
     TrackerRegistration registration;
-    registration.axes = glm::normalize(Quat(glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0)));
-    REQUIRE(glm::length(registration.axes * Vec3(0, 0, 1) - Vec3(0, 1, 0)) < 1e-12);
+    registration.axes_rotation = glm::normalize(Quat(glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0)));
+    REQUIRE(glm::length(registration.axes_rotation * Vec3(0, 0, 1) - Vec3(0, 1, 0)) < 1e-12);
     registration.scale = 0.5;
     registration.tracker_in_room = {{0.0, 1.0, -2.0}, rotation(Vec3(0.0, pi / 2, 0.0))};
     registration.head_in_body = {{0.0, -0.06, 0.02}, {1, 0, 0, 0}};

@@ -41,11 +41,10 @@ TEST_CASE("Recorded poses: rows, comments, blanks and other line ends are read")
 TEST_CASE("Recorded poses: mistakes have their line and column") {
     check_error("", "w.csv:1:1: the recording has no poses; expected t_s,x_m");
     check_error(title, "w.csv:1:1: the recording has no poses");
-    check_error("x,y\n",
-                "w.csv:1:1: the title of the columns is another one; expected t_s,x_m,y_m,z_m,qw,qx,qy,qz");
-    check_error(title + "0,1,2,x,1,0,0,0\n", "w.csv:2:7: column 4 has no number");
-    check_error(title + "0,1,2,nan,1,0,0,0\n", "w.csv:2:7: column 4 has no number");
-    check_error(title + "0,1,2,1e9,1,0,0,0\n", "w.csv:2:7: column 4 has no number");
+    check_error("x,y\n", "w.csv:1:1: the column titles are wrong; expected t_s,x_m,y_m,z_m,qw,qx,qy,qz");
+    check_error(title + "0,1,2,x,1,0,0,0\n", "w.csv:2:7: column 4 is not a number");
+    check_error(title + "0,1,2,nan,1,0,0,0\n", "w.csv:2:7: column 4 is not a number");
+    check_error(title + "0,1,2,1e9,1,0,0,0\n", "w.csv:2:7: column 4 is not a number");
     check_error(title + "0,1,2\n", "w.csv:2:6: column 3 does not end here; expected a comma");
     check_error(title + "0,1,2,3,1,0,0,0,9\n",
                 "w.csv:2:16: column 8 does not end here; expected the end of the line");
@@ -66,7 +65,7 @@ TEST_CASE("Recorded poses: those between two times are found, a gap has none") {
     REQUIRE(write_file(folder / "w.csv", text));
     const auto loaded = load_recorded_poses(folder / "w.csv");
     REQUIRE(loaded);
-    const std::span<const HeadSample> poses = *loaded;
+    const std::span<const BodySample> poses = *loaded;
     CHECK(poses_between(poses, -1.0, 0.0).size() == 1);
     CHECK(poses_between(poses, 0.0, 0.15).size() == 1);
     CHECK(poses_between(poses, 0.0, 0.15).front().time == 0.1);

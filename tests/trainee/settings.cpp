@@ -30,7 +30,7 @@ TraineeSettings example(std::uint64_t seed) {
     s.captions = random.chance(0.5);
     s.palette = random.chance(0.5) ? PaletteKind::distinct : PaletteKind::usual;
     s.left_handed = random.chance(0.5);
-    s.force_scale = random.uniform(least_force_scale, 1.0);
+    s.force_scale = random.uniform(min_force_scale, 1.0);
     if (random.chance(0.5))
         s.seated_eye_height = random.uniform(min_seated_eye_height, max_seated_eye_height);
     if (random.chance(0.7)) s.law = random.chance(0.5) ? "published" : "mechanistic";

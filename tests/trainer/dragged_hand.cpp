@@ -33,7 +33,7 @@ DragInput dragging(const glm::dvec2& px, double notches) {
     input.seconds = drag_frame;
     input.mouse.left_down = true;
     input.mouse.left_drag = px;
-    input.mouse.wheel = notches;
+    input.mouse.scroll = notches;
     return input;
 }
 

@@ -19,7 +19,7 @@ constexpr double notch = 0.02;               // m of a wheel's notch in the air
 constexpr double notch_on_bolt = 0.01;       // m, also beside a bolt
 constexpr double aligned = to_radians(4.0), turned_well = to_radians(2.0), askew = to_radians(10.0);
 constexpr double level_error = 0.004;        // m beside the bolt's axis at which the jaw may go down
-constexpr double most_hover = 0.045;         // m above the nut
+constexpr double max_hover = 0.045;          // m above the nut
 constexpr double pull_speed = 0.6;           // rad/s of the handle
 constexpr double slowest_pull = 0.08;        // of pull_speed
 constexpr double stroke = to_radians(50.0);  // rad
@@ -284,7 +284,7 @@ bool FreeHandUser::approach() {
     room_ = side.free_swing;
     const double nut_angle = state().joints[joint].nut.angle;
     const double height =
-        contact ? motion::hover_height(setup(), *contact, joint, nut_angle, side, most_hover) : most_hover;
+        contact ? motion::hover_height(setup(), *contact, joint, nut_angle, side, max_hover) : max_hover;
     const Pose seated{nut(), motion::tool_orientation(geometry, side.handle, false)};
     const Pose over{nut() + height * geometry.axis, seated.orientation};
     hold(true);
@@ -373,7 +373,7 @@ void FreeHandUser::lift() {
     const Vec3 up = setup().nuts.front().axis;
     const double from = glm::dot(hand().position, up);
     for (const double until = now() + 1.5; going() && now() < until;) {
-        if (engaged() < 0 && glm::dot(hand().position, up) > from + 0.9 * most_hover) return;
+        if (engaged() < 0 && glm::dot(hand().position, up) > from + 0.9 * max_hover) return;
         frame({}, -lift_speed * seconds_ / notch_on_bolt);
     }
 }

@@ -364,33 +364,33 @@ TEST_CASE("Tour: it is offered at the first start, and each control is ticked of
     driver.frame();
     REQUIRE(driver.app().screen() == ShownScreen::lesson);
     REQUIRE(driver.app().tour());
-    const auto done = [&](TourStep step) {
+    const auto done = [&](TourTask step) {
         return driver.app().tour()->done.at(static_cast<std::size_t>(step));
     };
     CHECK(driver.lesson().session->assembly().name == tour_assembly);
-    CHECK(driver.app().tour()->due_step() == 0);
+    CHECK(driver.app().tour()->due_task() == 0);
 
     const glm::dvec2 empty(300.0, 20.0);
     driver.move(empty);
     driver.frame({platform::ButtonEvent{platform::Button::right, true, empty}});
     driver.move(empty - glm::dvec2(3.0, 0.0));
-    CHECK_FALSE(done(TourStep::look));  // too little
+    CHECK_FALSE(done(TourTask::look));  // too little
     driver.move(empty - glm::dvec2(40.0, 0.0));
-    CHECK(done(TourStep::look));
+    CHECK(done(TourTask::look));
     driver.frame({platform::ButtonEvent{platform::Button::right, false, empty}});
-    CHECK_FALSE(done(TourStep::zoom));
+    CHECK_FALSE(done(TourTask::zoom));
     driver.frame({platform::WheelEvent{{0.0, 1.0}, empty}});
-    CHECK(done(TourStep::zoom));
+    CHECK(done(TourTask::zoom));
     driver.key(Key::v);
-    CHECK(done(TourStep::find));
-    CHECK(driver.app().tour()->due_step() == static_cast<std::size_t>(TourStep::run_down));
+    CHECK(done(TourTask::find));
+    CHECK(driver.app().tour()->due_task() == static_cast<std::size_t>(TourTask::run_down));
     driver.key(Key::h);
-    CHECK(done(TourStep::help));
+    CHECK(done(TourTask::help));
     driver.key(Key::escape);
-    CHECK_FALSE(done(TourStep::pause));
+    CHECK_FALSE(done(TourTask::pause));
     driver.key(Key::escape);
-    CHECK(done(TourStep::pause));
-    CHECK_FALSE(done(TourStep::take));
+    CHECK(done(TourTask::pause));
+    CHECK_FALSE(done(TourTask::take));
     if (test::sanitized) return test::skip_rest("playing a lesson takes minutes under a sanitizer");
 
     driver.key(Key::i);  // hide the close-up, which doubles the rendering time
@@ -399,7 +399,7 @@ TEST_CASE("Tour: it is offered at the first start, and each control is ticked of
     REQUIRE(driver.app().screen() == ShownScreen::result);
     CHECK(driver.outcome()->result.finished);
     CHECK(driver.outcome()->result.duration < 60.0);
-    CHECK(driver.app().tour()->due_step() == tour_step_count);
+    CHECK(driver.app().tour()->due_task() == tour_task_count);
     driver.press_button("menu.menu");
     driver.frame();
     CHECK(driver.app().screen() == ShownScreen::menu);

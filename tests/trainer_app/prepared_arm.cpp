@@ -216,17 +216,17 @@ TEST_CASE(
     CHECK_FALSE(driver.lesson().clock.paused);
     CHECK(driver.lesson().session->time() > stopped);
     // Warm motors are a message, not a reason to stop.
-    bench.condition_.heat = 0.9;
+    bench.health_.heat = 0.9;
     const double before = driver.lesson().session->time();
     pass(0.3);
-    CHECK(arm_warning(driver.lesson().station->condition) == words::TextKey("arm.warm"));
+    CHECK(arm_warning(driver.lesson().station->health) == words::TextKey("arm.warm"));
     CHECK(driver.lesson().session->time() > before);
-    bench.condition_.cooling = true;
+    bench.health_.cooling = true;
     pass(0.3);
-    CHECK(arm_warning(driver.lesson().station->condition) == words::TextKey("arm.rests"));
-    bench.condition_ = {};
+    CHECK(arm_warning(driver.lesson().station->health) == words::TextKey("arm.rests"));
+    bench.health_ = {};
     pass(0.3);
-    CHECK_FALSE(arm_warning(driver.lesson().station->condition));
+    CHECK_FALSE(arm_warning(driver.lesson().station->health));
     // A pause of the user outlasts it.
     pass(0.2, {press_of(platform::Key::escape)});
     bench.needs_ = {{device::DeviceNeed::inkwell, {}}, false};

@@ -59,6 +59,7 @@ TEST_CASE(
         driver.press_button("menu.seated");
         driver.press_button("menu.palette.distinct", -0.8F);
         driver.press_button("menu.sound", -0.8F);
+        driver.press_button("menu.vibration", -0.8F);
         driver.press_button("menu.force_scale", -0.8F);
         driver.press_button("action.tool");
         driver.key(Key::g);
@@ -75,8 +76,9 @@ TEST_CASE(
     CHECK(s.seated_eye_height == 1.2);
     CHECK(s.palette == content::PaletteKind::distinct);
     CHECK(s.volume < 0.4);
+    CHECK(s.vibration < 0.4);
     CHECK(s.force_scale < 0.4);
-    CHECK(s.force_scale >= content::least_force_scale);
+    CHECK(s.force_scale >= content::min_force_scale);
     CHECK(later.keys().of(Action::tool) == Key::g);
     const SettingsTrainer another(options(true, "Bea"));
     CHECK_FALSE(another.settings().left_handed);

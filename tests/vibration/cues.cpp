@@ -264,7 +264,7 @@ TEST_CASE("Vibration: the gain scales all amplitudes, and zero sends nothing") {
         // Commands that are too weak to feel are left out.
         std::size_t at = 0;
         for (const double amplitude : amplitudes) {
-            if (0.5 * amplitude < player.options.least_amplitude) continue;
+            if (0.5 * amplitude < player.options.min_amplitude) continue;
             REQUIRE(at < player.sent.size());
             CHECK(player.sent[at++].command.amplitude == doctest::Approx(0.5 * amplitude));
         }

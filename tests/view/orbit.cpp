@@ -127,10 +127,10 @@ TEST_CASE(
     CHECK(projected(o, front).y > 0.01);
 }
 
-TEST_CASE("Camera: frame_all shows every corner of the box from every direction, and fills the picture") {
+TEST_CASE("Camera: fit_to_box shows every corner of the box from every direction, and fills the picture") {
     Random random(11);
     for (int i = 0; i < 100; ++i) {
-        const Orbit o = frame_all(random_orbit(random), box, 1.6F);
+        const Orbit o = fit_to_box(random_orbit(random), box, 1.6F);
         double most = 0.0;
         for (int corner = 0; corner < 8; ++corner) {
             const glm::dvec2 at = projected(o, Vec3(box.corner(corner)));

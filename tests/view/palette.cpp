@@ -40,7 +40,7 @@ glm::dvec3 perceived(const glm::vec4& color, const glm::dmat3& eyes) {
 }
 
 // The least CIE 1976 difference between two colours of different meaning.
-double least_difference(const Palette& p, const glm::dmat3& eyes) {
+double min_difference(const Palette& p, const glm::dmat3& eyes) {
     const std::array colors{p.due, p.low, p.ok, p.high};
     double least = glm::distance(perceived(p.ok_text, eyes), perceived(p.high_text, eyes));
     for (std::size_t i = 0; i < colors.size(); ++i)
@@ -55,10 +55,9 @@ TEST_CASE(
     "Palette: the distinct palette is distinguishable without red or green cones, the usual one is not") {
     const Palette distinct = palette_of(content::PaletteKind::distinct);
     const Palette usual = palette_of(content::PaletteKind::usual);
-    for (const glm::dmat3& eyes : {all_cones, no_red, no_green})
-        CHECK(least_difference(distinct, eyes) > 25.0);
-    CHECK(least_difference(usual, no_red) < 20.0);
-    CHECK(least_difference(usual, no_green) < 20.0);
+    for (const glm::dmat3& eyes : {all_cones, no_red, no_green}) CHECK(min_difference(distinct, eyes) > 25.0);
+    CHECK(min_difference(usual, no_red) < 20.0);
+    CHECK(min_difference(usual, no_green) < 20.0);
 }
 
 TEST_CASE("Palette: each verdict has its own symbol") {

@@ -22,7 +22,7 @@ TEST_CASE("Stereo: the disparity is zero at the target and follows the distance 
     CHECK(view::eye_offsets(false) == std::vector<float>{0.0F});
     const render::Eye left = view::eye_of(orbit, box, aspect, eyes[0]),
                       right = view::eye_of(orbit, box, aspect, eyes[1]);
-    CHECK(glm::distance(left.position, right.position) == doctest::Approx(view::interpupillary_distance));
+    CHECK(glm::distance(left.position, right.position) == doctest::Approx(view::mean_eye_separation));
     const glm::vec3 middle = view::eye_of(orbit, box, aspect).position;
     const auto across = [&](const render::Eye& eye, const glm::vec3& point) {
         const glm::vec4 clip = eye.clip_from_world * glm::vec4(point, 1.0F);
@@ -32,7 +32,7 @@ TEST_CASE("Stereo: the disparity is zero at the target and follows the distance 
         const glm::vec3 point = middle + depth / 0.8F * (glm::vec3(orbit.target) - middle);
         const glm::vec2 apart = across(left, point) - across(right, point);
         const float half = std::tan(0.5F * static_cast<float>(orbit.fov));
-        const float expected = view::interpupillary_distance * (1.0F / depth - 1.0F / 0.8F) / (half * aspect);
+        const float expected = view::mean_eye_separation * (1.0F / depth - 1.0F / 0.8F) / (half * aspect);
         CHECK(std::abs(apart.x - expected) < 1e-4F);
         CHECK(std::abs(apart.y) < 1e-5F);  // both eyes are equally high
     }

@@ -14,7 +14,7 @@ using namespace bolt;
 
 namespace {
 
-constexpr std::uint64_t most_frames = 400;
+constexpr std::uint64_t max_frames = 400;
 
 render::Object object_at(const render::GpuModel& model, const glm::vec3& position, const glm::vec4& color) {
     render::Object object;
@@ -54,7 +54,7 @@ double column_difference(const render::Picture& a, std::uint32_t column_a, const
 }
 
 // Spheres around the viewer, some behind the seams. Ends when the screen shows the pictures that are drawn
-// without windows, or after most_frames.
+// without windows, or after max_frames.
 class SpheresAround : public view::WindowContent {
   public:
     explicit SpheresAround(const content::DisplayFile& displays) : displays_(displays) {}
@@ -110,7 +110,7 @@ class SpheresAround : public view::WindowContent {
         return gpu_->renderer->render(frame, scene_, std::span(&eye, 1), window.size);
     }
     [[nodiscard]] bool closed() const override {
-        return frames_ >= most_frames || (!drawn_.empty() && largest_ == 0);
+        return frames_ >= max_frames || (!drawn_.empty() && largest_ == 0);
     }
 
     // Draws one wall as a head elsewhere would see it.

@@ -111,9 +111,7 @@ int run_curve(const CurveCommandOptions& options) {
     Result<std::size_t> joint = find_joint(assembly, options.joint);
     if (!joint) return print_error(joint.error());
 
-    const joint::Law law = options.law.empty()          ? assembly.law
-                           : options.law == "published" ? joint::Law::published
-                                                        : joint::Law::mechanistic;
+    const joint::Law law = joint::law_named(options.law).value_or(assembly.law);
     joint::JointDesign design = assembly.joints[*joint].design;
     design.friction.scatter = 0.0;  // the nominal joint
     const joint::GroupParameters group = law == joint::Law::mechanistic

@@ -27,7 +27,7 @@ class SlowDevice final : public device::DeviceDriver {
         description_.name = "slow";
         description_.renders.fill(true);
     }
-    [[nodiscard]] const device::Description& describe() const override { return description_; }
+    [[nodiscard]] const device::Description& description() const override { return description_; }
     Result<std::optional<device::Sample>> read(double timeout) override {
         timer_.wait(std::min(timeout, 1e-3));
         return device::Sample{};
@@ -89,7 +89,7 @@ void device_through_a_mailbox(benchmark::State& state) {
             device::DeviceSnapshot snapshot = thread.snapshot();
             benchmark::DoNotOptimize(snapshot);
         });
-        state.counters["writes"] = static_cast<double>(thread.report().writes);
+        state.counters["writes"] = static_cast<double>(thread.status().writes);
     });
 }
 

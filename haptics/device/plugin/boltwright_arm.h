@@ -18,9 +18,8 @@
    against its own threads. count() is also called in short-lived processes, even while another process has
    an arm open: it must not disturb that arm.
 
-   An arm whose library has a clock and a thread of its own: exchange() leaves the command (a force and a
-   torque) for that thread and
-   returns the newest state of it.
+   If the arm's library has a thread of its own, exchange() stores the command (a force and a torque) for that
+   thread and returns the newest state that the thread has measured.
 
    ORDER OF CALLS
    open, info, calibrate (until it is done), enable(1), exchange (many times), exchange with a zero command,
@@ -54,7 +53,7 @@
    Each structure begins with its size in bytes. Later versions of this header only append members. The
    sizes of bw_arm_info_v1 and bw_arm_state_v1 are set by Boltwright, which also sets all other members to
    zero: write no member that lies beyond this size. The size of bw_arm_v1 is set by the plug-in; Boltwright
-   uses no member beyond it. A change that cannot be made by appending has another number than BW_ARM_ABI. */
+   uses no member beyond it. A change that cannot be made by appending raises BW_ARM_ABI. */
 #ifndef BOLTWRIGHT_ARM_H
 #define BOLTWRIGHT_ARM_H
 
@@ -97,8 +96,8 @@ struct bw_arm_info_v1 {
     uint32_t flags;  /* BW_ARM_SENSES_ROTATION | ... */
     int32_t buttons; /* 0 to 32 */
     /* Time from exchange() until its command acts on the hand and the state shows it, in ms, rounded up: 0 or
-       1, at a rate of 1000 also 2. Boltwright adds the
-       delay of its own threads. If it is too small, forces may oscillate. */
+       1, at a rate of 1000 also 2. Boltwright adds the delay of its own threads. If it is too small, forces
+       may oscillate. */
     int32_t delay;
     uint32_t reserved;    /* 0 */
     char name[64];        /* of the arm, for the user; empty: the name of the plug-in */
@@ -112,7 +111,7 @@ struct bw_arm_info_v1 {
     double half_workspace[3];   /* m, half the workspace along each axis [1] */
 };
 
-/* A force and a torque on the hand at the point of the grip, along our axes. */
+/* A force and a torque on the hand at the origin of the handle, along our axes. */
 struct bw_arm_command_v1 {
     uint32_t size; /* bytes, set by Boltwright */
     uint32_t reserved;
@@ -120,13 +119,13 @@ struct bw_arm_command_v1 {
     double torque[3]; /* N.m */
 };
 
-/* Pose of the grip. A number that is not finite, a position beyond 2 m or a quaternion whose length is not 1
-   (within 0.5 %) is an error: the arm counts as lost. */
+/* Pose of the handle. A number that is not finite, a position beyond 2 m or a quaternion whose length is not
+   1 (within 0.5 %) is an error: the arm counts as lost. */
 struct bw_arm_state_v1 {
     uint32_t size;         /* bytes, set by Boltwright */
     uint32_t buttons;      /* bit i: button i is pressed */
     double position[3];    /* m */
-    double orientation[4]; /* unit quaternion w, x, y, z; 1, 0, 0, 0: the grip's axes are ours. Boltwright
+    double orientation[4]; /* unit quaternion w, x, y, z; 1, 0, 0, 0: the handle's axes are ours. Boltwright
                               sets it to this before each call */
     double gripper; /* 0 closed to 1 fully open; other values are clamped. With BW_ARM_SENSES_GRIPPER */
 };

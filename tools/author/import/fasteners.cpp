@@ -20,10 +20,10 @@ namespace bolt::step_import {
 
 namespace {
 
-constexpr std::size_t most_flats = 400;  // more than any fastener has; skips castings
-constexpr double parallel = 1e-6;        // 1 − cos of 0.08°
-constexpr double slack = 0.02 * mm;      // tolerance of the flats
-constexpr double largest_width = 1.3;    // largest radius of a fastener / width across flats
+constexpr std::size_t max_flats = 400;  // more than any fastener has; skips castings
+constexpr double parallel = 1e-6;       // 1 − cos of 0.08°
+constexpr double slack = 0.02 * mm;     // tolerance of the flats
+constexpr double largest_width = 1.3;   // largest radius of a fastener / width across flats
 
 struct PlaneFace {
     Vec3 normal;            // outward
@@ -296,7 +296,7 @@ void explain_missing_hexagon(const std::vector<PlaneFace>& flats, const PartMesh
 FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh) {
     const FaceMap faces = faces_of(shape);
     const std::vector<PlaneFace> flats = find_flats(faces);
-    if (flats.size() > most_flats || mesh.points.empty()) return {};
+    if (flats.size() > max_flats || mesh.points.empty()) return {};
     const auto hexagon = find_hexagon(flats, mesh);
     if (!hexagon) {
         FastenerShape washer = classify_washer(shape, flats, mesh);

@@ -253,7 +253,7 @@ Status PreviewSession::execute(const PreviewCommands& commands) {
     if (commands.select_view && *commands.select_view < views.size())
         camera_.glide_to(view::orbit_of(views[*commands.select_view]));
     if (commands.show_all)
-        camera_.glide_to(view::frame_all(camera_.goal, gpu_->shown_model->box, aspect_of(size_of(window_))));
+        camera_.glide_to(view::fit_to_box(camera_.goal, gpu_->shown_model->box, aspect_of(size_of(window_))));
     if (commands.toggle_level) {
         const bool near = sources_.level() == view::DetailLevel::near;
         BOLT_TRY(reload_model(near ? view::DetailLevel::far : view::DetailLevel::near));

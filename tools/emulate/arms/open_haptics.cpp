@@ -36,7 +36,7 @@ constexpr unsigned buttons = 0x2000, inkwell = 0x2002, position = 0x2050, veloci
                    force_output = 0x4000;
 constexpr unsigned no_arm = 0xffffffff, the_arm = 0;
 constexpr unsigned calibrated = 0x5000, needs_update = 0x5001, needs_inkwell = 0x5002;
-constexpr std::size_t most_errors = 32;
+constexpr std::size_t max_errors = 32;
 constexpr double tick = 1e-3;  // s
 
 struct Error {
@@ -72,7 +72,7 @@ std::recursive_mutex mutex;  // callbacks call the library
 std::atomic<bool> has_own_clock = true;
 
 void push(unsigned code) {
-    if (library.errors.size() == most_errors) library.errors.erase(library.errors.begin());
+    if (library.errors.size() == max_errors) library.errors.erase(library.errors.begin());
     library.errors.push_back({code, 0, the_arm});
 }
 

@@ -7,9 +7,9 @@ namespace bolt::emulate {
 
 namespace {
 
-constexpr double encoder_step = 55e-6;                       // m
-constexpr double uncalibrated_offset = 20e-3;                // m
-constexpr HdVector most_gimbal_torque{0.188, 0.188, 0.048};  // N·m
+constexpr double encoder_step = 55e-6;                      // m
+constexpr double uncalibrated_offset = 20e-3;               // m
+constexpr HdVector max_gimbal_torque{0.188, 0.188, 0.048};  // N·m
 
 HdMatrix product(const HdMatrix& a, const HdMatrix& b) {
     HdMatrix out{};
@@ -109,8 +109,8 @@ bool saturate(const HdArm& arm, HdVector& force, HdVector& gimbal_torque) {
     if (any)
         for (double& c : force) c *= most / magnitude;
     for (std::size_t i = 0; i < 3; ++i) {
-        any |= std::abs(gimbal_torque[i]) > most_gimbal_torque[i] * (1.0 + 1e-9);
-        gimbal_torque[i] = std::clamp(gimbal_torque[i], -most_gimbal_torque[i], most_gimbal_torque[i]);
+        any |= std::abs(gimbal_torque[i]) > max_gimbal_torque[i] * (1.0 + 1e-9);
+        gimbal_torque[i] = std::clamp(gimbal_torque[i], -max_gimbal_torque[i], max_gimbal_torque[i]);
     }
     return any;
 }

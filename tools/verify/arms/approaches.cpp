@@ -14,9 +14,9 @@ namespace {
 
 // A person reaches at about 0.35 m/s in the mean; aim and settling are chosen for a hand that is guided by
 // memory (8 mm: the error of a hand that reaches without seeing, van Beers et al. 1999, in game/motion).
-constexpr double mean_speed = 0.35, least_duration = 0.4, settling = 0.3;  // m/s, s, s
-constexpr double aim_error = 8e-3, tilt_error = 0.05;                      // m, rad; standard deviations
-constexpr double nearest_start = 0.13, farthest_start = 0.20;              // m from the nut
+constexpr double mean_speed = 0.35, min_duration = 0.4, settling = 0.3;  // m/s, s, s
+constexpr double aim_error = 8e-3, tilt_error = 0.05;                    // m, rad; standard deviations
+constexpr double nearest_start = 0.13, farthest_start = 0.20;            // m from the nut
 constexpr double lowest_start = to_radians(15.0), highest_start = to_radians(75.0);  // above the nut's plane
 constexpr double at_nut = 0.010;       // m from the middle of the jaw to the middle of the nut
 constexpr double beside_nut = 0.030;   // m; contacts nearer than this belong to the placing of the jaw
@@ -24,7 +24,7 @@ constexpr double felt_bump = 0.2;      // N
 constexpr double between_bumps = 0.1;  // s
 constexpr double raise = 0.04;  // m above the place of a failed attempt, from where the hand tries again
 constexpr int attempts = 4;
-constexpr int most_starts = 200;
+constexpr int max_starts = 200;
 
 bool is_free(servo::ToolContact& contact, const Pose& pose) {
     constexpr double band = 5e-3;
@@ -54,7 +54,7 @@ ReachTask draw_reach_task(TightenedAssembly& tightened, Random& random) {
     task.nut = servo::nut_centre(nut, angle);
     task.axis = nut.axis;
     task.orientation = motion::tool_orientation(nut, grip.handle, grip.flipped);
-    for (int i = 0; i < most_starts; ++i) {
+    for (int i = 0; i < max_starts; ++i) {
         const double around = random.uniform(0.0, 2.0 * pi),
                      above = random.uniform(lowest_start, highest_start);
         const Vec3 to = std::cos(above) * (std::cos(around) * nut.e1 + std::sin(around) * nut.e2) +
@@ -78,7 +78,7 @@ class Reach {
     void move(const Pose& to) {
         const Pose from = rig_.output().constrained_tool;
         const double way = glm::distance(from.position, to.position);
-        const double duration = std::max(way / mean_speed, least_duration), begin = rig_.time;
+        const double duration = std::max(way / mean_speed, min_duration), begin = rig_.time;
         while (!approach_.reached && rig_.time - begin < duration + settling) {
             const double s = minimum_jerk((rig_.time - begin) / duration);
             rig_.arm.intention = rig_.device_pose(motion::arc_pose(from, to, s, Vec3(0.0)));

@@ -161,8 +161,8 @@ const std::array<HandGrip, grip_count>& hand_grips() {
     return grips;
 }
 
-device::ArmParameters parameters_of(const ArmFacts& arm, const HandGrip& grip) {
-    device::ArmParameters p;
+device::HandAndArmParameters parameters_of(const ArmFacts& arm, const HandGrip& grip) {
+    device::HandAndArmParameters p;
     p.mass = arm.mass.value + grip.mass;
     p.damping = grip.damping;
     p.stiffness = grip.stiffness;

@@ -58,6 +58,6 @@ inline constexpr std::size_t grip_count = 4;
 const std::array<HandGrip, grip_count>& hand_grips();
 inline constexpr std::size_t loose_grip = 1, usual_grip = 2;
 
-device::ArmParameters parameters_of(const ArmFacts& arm, const HandGrip& grip);
+device::HandAndArmParameters parameters_of(const ArmFacts& arm, const HandGrip& grip);
 
 }  // namespace bolt::arm_validation

@@ -35,13 +35,13 @@ void stiffen(proxy::Coupling& coupling, double factor) {
         coupling.damping, 0.5 * std::max(0.0, margin * physical - 0.5 * coupling.stiffness * tick_length));
 }
 
-station::Layout layout_of(const ArmFacts& facts, const Pose& tool, double handle_length) {
+station::DeviceLayout layout_of(const ArmFacts& facts, const Pose& tool, double handle_length) {
     station::StationOptions options;
     options.handle_length = handle_length;
     options.home = tool;
     device::Description description = facts.announced();
     description.limits.ramp_up = tick_length;  // the force has ramped up before the measurement
-    Result<station::Layout> layout = station::make_layout(options, std::move(description), {});
+    Result<station::DeviceLayout> layout = station::make_layout(options, std::move(description), {});
     return std::move(*layout);  // a mover that senses poses always has a layout
 }
 

@@ -59,7 +59,7 @@ struct ArmRig {
     TightenedAssembly& tightened;
     const ArmFacts& facts;
     bool pushes_only;
-    station::Layout layout;
+    station::DeviceLayout layout;
     servo::Setup setup;
     servo::State servo;
     station::StationState station;

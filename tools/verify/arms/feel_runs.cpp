@@ -18,7 +18,7 @@ constexpr double approach_speed = 0.15;   // m/s of the wrench
 constexpr double shake_begin = 0.9, shake_end = 1.4, shake_rate = 2.0 * pi * 6.0;    // s, s, rad/s
 constexpr double early_begin = 1.5, early_end = 1.8, late_begin = 2.4, whole = 2.7;  // s
 constexpr std::size_t pulled_joint = 0;
-constexpr int most_tries = 500;
+constexpr int max_tries = 500;
 
 // The greatest swing of points within windows of 40 ms, less the straight motion between the window's ends: a
 // hand that drifts does not tremble.
@@ -174,7 +174,7 @@ std::vector<Press> find_presses(TightenedAssembly& tightened, std::uint64_t seed
     Random random(seed, 41);
     const collision::BoundingBox& casing = tightened.state.tool_contact->world.shapes.front().solid.box;
     for (const std::string_view name : {"face", "corner", "edge", "side", "near a bolt"})
-        for (int tried = 0; tried < most_tries; ++tried) {
+        for (int tried = 0; tried < max_tries; ++tried) {
             const Aim aim = aim_at(casing, name, random);
             const auto way = free_way(*tightened.state.tool_contact, aim.pose, aim.direction);
             if (!way ||
@@ -228,7 +228,7 @@ Pose wrench_on_nut(TightenedAssembly& tightened, double above) {
 // rad by which the hand's intention leads the wrench so that its spring pulls with this share of what the
 // device can render.
 double lead_for(const ArmRig& rig, double share) {
-    const device::ArmParameters& hand = rig.arm.parameters;
+    const device::HandAndArmParameters& hand = rig.arm.parameters;
     const force::OutputLimits& limits = rig.layout.mover->limits;
     if (limits.torque > 0.0)
         return std::min((rig.pushes_only ? 0.1 : share) * limits.torque / hand.angular_stiffness, 1.2);

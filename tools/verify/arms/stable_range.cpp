@@ -52,7 +52,7 @@ StableRange stable_range(TightenedAssembly& tightened, const RangeQuery& query,
         }
         good = factor;
     }
-    for (double factor = 0.5; good == 0.0 && factor >= least_factor; factor *= 0.5)
+    for (double factor = 0.5; good == 0.0 && factor >= min_factor; factor *= 0.5)
         stable(factor) ? good = factor : bad = factor;
     range.open = bad == 0.0;
     while (good > 0.0 && bad > good * search_ratio) {

@@ -15,11 +15,11 @@ enum class TestedSpring : std::uint8_t {
 };
 
 // Factors on the stiffness in use between which the search looks, and their ratio at which it stops.
-inline constexpr double least_factor = 1.0 / 16.0, greatest_factor = 16.0, search_ratio = 1.06;
+inline constexpr double min_factor = 1.0 / 16.0, greatest_factor = 16.0, search_ratio = 1.06;
 
 struct StableRange {
     double used = 0.0;    // N/m or N·m/rad as the device feels it
-    double stable = 0.0;  // the largest stable one that was found; 0: not even `least_factor` of the used one
+    double stable = 0.0;  // the largest stable one that was found; 0: not even `min_factor` of the used one
     bool open = false;    // stable even at `greatest_factor`
 };
 

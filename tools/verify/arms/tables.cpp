@@ -17,7 +17,7 @@ bool as_torque(const ArmFacts& arm) { return arm.announced().limits.torque > 0.0
 
 std::string stable_text(const StableRange& range) {
     if (range.open) return fmt::format("> {:.2g}", range.used * greatest_factor);
-    if (range.stable == 0.0) return fmt::format("< {:.2g}", range.used * least_factor);
+    if (range.stable == 0.0) return fmt::format("< {:.2g}", range.used * min_factor);
     return fmt::format("{:.{}f}", range.stable, range.stable < 100.0 ? 1 : 0);
 }
 

@@ -95,7 +95,7 @@ GearCircles circles(const GearSpec& gear) {
     return c;
 }
 
-double least_shift(const GearSpec& gear) {
+double min_shift(const GearSpec& gear) {
     const double s = std::sin(circles(gear).transverse_pressure_angle);
     return addendum - gear.teeth * s * s / (2.0 * std::cos(gear.helix));
 }

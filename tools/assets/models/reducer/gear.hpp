@@ -35,7 +35,7 @@ struct GearCircles {
 GearCircles circles(const GearSpec& gear);
 
 // Returns the smallest profile shift coefficient without undercut.
-double least_shift(const GearSpec& gear);
+double min_shift(const GearSpec& gear);
 
 // The involute function, tan(a) − a.
 double involute(double angle);

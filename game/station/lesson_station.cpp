@@ -1,7 +1,6 @@
-// The two stations of a lesson: one on threads, one whose ticks run with the frames.
-#include <deque>
+#include "game/station/lesson_station.hpp"
 
-#include "game/station/station_setup.hpp"
+#include <deque>
 
 namespace bolt::station_setup {
 
@@ -27,18 +26,18 @@ class ThreadedStation final : public LessonStation {
     const station::DisplayedHand* hand() override { return station_.hand(); }
     std::vector<std::string> fault_messages() override { return station_.fault_messages(); }
     device::ArmNeeds needs() override {
-        const device::DeviceReport* report = station_.mover_report();
-        if (report == nullptr) return {};
-        return {report->preparation, permission_ && permission_->active()};
+        const device::DeviceStatus* status = station_.mover_status();
+        if (status == nullptr) return {};
+        return {status->preparation, permission_ && permission_->active()};
     }
-    device::Condition condition() override {
-        const device::DeviceReport* report = station_.mover_report();
-        return report != nullptr ? report->condition : device::Condition{};
+    device::DeviceHealth health() override {
+        const device::DeviceStatus* status = station_.mover_status();
+        return status != nullptr ? status->health : device::DeviceHealth{};
     }
     void permit_move() override {
         if (permission_) permission_->grant();
     }
-    [[nodiscard]] const station::Layout& layout() const override { return station_.layout(); }
+    [[nodiscard]] const station::DeviceLayout& layout() const override { return station_.layout(); }
     [[nodiscard]] const servo::Setup& setup() const override { return station_.setup(); }
     const servo::Timing* stop() override {
         station_.stop();
@@ -59,7 +58,7 @@ class FrameSteppedStation final : public LessonStation {
     Status open(const station::StationOptions& options) {
         BOLT_TRY_ASSIGN(auto driver, arm_.factory()());
         driver_ = std::move(driver);
-        BOLT_TRY_ASSIGN(auto layout, station::make_layout(options, driver_->describe(), {}));
+        BOLT_TRY_ASSIGN(auto layout, station::make_layout(options, driver_->description(), {}));
         layout_ = std::move(layout);
         setup_ = options.make_setup(station::limits_of(layout_), 1.0 / options.servo.rate);
         BOLT_TRY_ASSIGN(auto state, options.make_state(setup_));
@@ -90,7 +89,7 @@ class FrameSteppedStation final : public LessonStation {
     [[nodiscard]] std::uint64_t lost_ticks() const override { return 0; }
     const station::DisplayedHand* hand() override { return nullptr; }
     std::vector<std::string> fault_messages() override { return {}; }
-    [[nodiscard]] const station::Layout& layout() const override { return layout_; }
+    [[nodiscard]] const station::DeviceLayout& layout() const override { return layout_; }
     [[nodiscard]] const servo::Setup& setup() const override { return setup_; }
     const servo::Timing* stop() override { return nullptr; }
 
@@ -118,7 +117,7 @@ class FrameSteppedStation final : public LessonStation {
     device::SimulatedArm arm_;
     std::unique_ptr<device::DeviceDriver> driver_;
     device::DeviceSnapshot snapshot_;
-    station::Layout layout_;
+    station::DeviceLayout layout_;
     servo::Setup setup_;
     servo::State servo_;
     station::StationState state_;
