@@ -1,4 +1,4 @@
-// boltwright displays test: shows the fitter's test pattern on projection walls.
+// boltwright displays test: shows the installer's test pattern on projection walls.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

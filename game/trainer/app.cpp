@@ -12,7 +12,7 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double longest_frame = 0.25;   // s; a slower frame delays the lesson instead of making it jump
+constexpr double max_frame_time = 0.25;  // s; a slower frame delays the lesson instead of making it jump
 constexpr float text_size = 15.0F;       // points
 constexpr double timing_duration = 1.5;  // s, of the servo in the check of the computer
 
@@ -220,7 +220,7 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
     // The menu has a text field, and the settings bind keys. In a room the pointer is the panel's.
     const bool has_keys = screen_ != ShownScreen::menu && !settings_;
     const InputFocus focus{has_keys && !in_room() && !gpu_->ui->wants_pointer(), has_keys};
-    const double shown = std::min(window.seconds, longest_frame);
+    const double shown = std::min(window.seconds, max_frame_time);
     Frame frame{active,
                 words_,
                 shown,

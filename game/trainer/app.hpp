@@ -62,7 +62,7 @@ class App : public view::WindowContent {
     Status share(cluster::MessageWriter& message) override;
     // Fails if the GPU fails, or the session cannot be recorded.
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
-    // Replaces both while the window is minimised: pauses a station.
+    // Called instead of update() and draw() while the window is minimised: pauses a station.
     Status frame_while_hidden() override;
 
     // Ends the lesson, if one runs, as it stands. Its session and the files beside it are written.

@@ -13,7 +13,7 @@ constexpr double default_seated_eyes = 1.2;  // m above the floor, about the mea
 
 }  // namespace
 
-// The pose of the assembly's frame in the room; that of the room without a lesson.
+// The pose of the assembly's frame in the room; the identity without a lesson.
 Pose App::scene_in_room() const {
     if (!active_ || !room_->workpiece) return {};
     return adjusted(*room_->workpiece, active_->workplace.workpiece, room_->turns, room_->height);
@@ -35,7 +35,7 @@ Status App::share(cluster::MessageWriter& message) {
 }
 
 // Pauses a lesson that its user suddenly does not see: no device may push, and a tracked hand is gone. It
-// continues when the user sees it again; at the window it can be continued or ended before.
+// continues when the user sees it again; the user can also resume or end it in the window before.
 void App::pause_unseen(bool seen) {
     if (!room_) return;
     const bool was_seen = std::exchange(room_->seen, seen);

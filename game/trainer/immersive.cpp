@@ -14,7 +14,7 @@ constexpr double head_to_machine = 0.40;  // m, horizontally, to the front of th
 constexpr double panel_below_eyes = 0.02, panel_least_height = 0.9;  // m
 // Sticks: the deflection that turns the workpiece by a step, that below which it is at rest, and m/s.
 constexpr float stick_turns = 0.7F, stick_rests = 0.3F;
-constexpr double stick_raise = 0.2, most_raise = 0.4;
+constexpr double stick_raise = 0.2, max_raise = 0.4;
 constexpr float pressed_above = 0.6F, released_below = 0.4F;  // of the trigger
 
 // The rotation about the vertical that turns −z to where the head looks.
@@ -39,7 +39,7 @@ void apply_stick(Room& room, const glm::vec2& stick, bool& used, double seconds)
     if (std::abs(stick.y) > stick_turns)
         room.height =
             std::clamp(room.height + std::copysign(stick_raise * seconds, static_cast<double>(stick.y)),
-                       -most_raise, most_raise);
+                       -max_raise, max_raise);
 }
 
 }  // namespace

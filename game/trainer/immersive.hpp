@@ -16,8 +16,8 @@
 
 namespace bolt::trainer {
 
-// The panel shows the same interface as a window, with menus, help and figures. At 0.75 m a text of 15 points
-// has 20 dmm (mm at 1 m), the smallest that reads without effort (Google Daydream's guideline).
+// The panel shows the same interface as a window, with menus, help and measured values. At 0.75 m a text of
+// 15 points has 20 dmm (mm at 1 m), the smallest that reads without effort (Google Daydream's guideline).
 inline constexpr glm::dvec2 panel_points{1160.0, 760.0};
 inline constexpr double panel_distance = 0.75, point_size = 1.0e-3;  // m
 inline constexpr float panel_scale = 1.5F;                           // px per point
@@ -30,7 +30,7 @@ struct PanelPointer {
     bool pressed = false;
 };
 
-// Kept while the display is away for a moment, so that everything stands where it stood.
+// Survives a short loss of the display, so that workpiece and panel keep their poses.
 struct Room {
     std::optional<Pose> workpiece;  // of the assembly's frame; none: not placed yet
     std::optional<Pose> panel;      // of its centre; x right, y up, z towards the user

@@ -24,8 +24,8 @@ constexpr std::uint8_t all_parts = 31;
 // Bits of the flags of an object.
 enum ObjectFlag : std::uint8_t { flag_flat = 1, flag_moves = 2, flag_cut = 4 };
 constexpr std::uint32_t no_more = 0xFFFFFFFF;  // instead of the index of an object or label
-// Far above what content has; a damaged message must not take all memory.
-constexpr std::uint32_t most_objects = 100'000, most_labels = 10'000;
+// Bytes of a new object and of a new label, at least: a damaged message must not take all memory.
+constexpr std::size_t smallest_object = 99, smallest_label = 117;
 
 // A transformation without projection as three rows, exactly.
 void put_transform(MessageWriter& message, const glm::mat4& m) {
@@ -219,7 +219,7 @@ void get_surroundings(MessageReader& message, render::Scene& scene, const Stream
 
 void get_objects(MessageReader& message, const StreamedModels& models, render::Scene& scene) {
     const auto count = message.get<std::uint32_t>();
-    if (count > most_objects) message.stop();
+    if (count > scene.objects.size() + message.size() / smallest_object) message.stop();
     if (!message.ok()) return;
     scene.objects.resize(count);
     for (;;) {
@@ -238,7 +238,7 @@ void get_objects(MessageReader& message, const StreamedModels& models, render::S
 
 void get_labels(MessageReader& message, render::Scene& scene) {
     const auto count = message.get<std::uint32_t>();
-    if (count > most_labels) message.stop();
+    if (count > scene.labels.size() + message.size() / smallest_label) message.stop();
     if (!message.ok()) return;
     scene.labels.resize(count);
     for (;;) {

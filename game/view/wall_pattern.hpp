@@ -1,4 +1,4 @@
-// The fitter's test pattern on projection walls, as the content of a window with view::Walls. The window
+// The installer's test pattern on projection walls, as the content of a window with view::Walls. The window
 // itself shows where the head is; Escape ends.
 #pragma once
 

@@ -235,10 +235,10 @@ std::vector<platform::InputEvent> Walls::poll_events() {
 }
 
 // Logs a change of the tracker's state.
-void Walls::tell(tracking::HeadStatus status) {
-    const bool first = !told_;
-    if (told_ == status) return;
-    told_ = status;
+void Walls::log_status(tracking::HeadStatus status) {
+    const bool first = !logged_status_;
+    if (logged_status_ == status) return;
+    logged_status_ = status;
     if (!log_) return;
     switch (status) {
         case tracking::HeadStatus::tracked:
@@ -256,7 +256,7 @@ void Walls::tell(tracking::HeadStatus status) {
 Result<Immersion> Walls::begin_frame(double seconds) {
     const tracking::FilteredHead head = head_->at(seconds);
     const bool fixed = displays_.head.tracker == content::HeadTracker::fixed;
-    if (!fixed) tell(head.status);
+    if (!fixed) log_status(head.status);
     return begin_frame(head.pose, fixed || head.status == tracking::HeadStatus::tracked);
 }
 

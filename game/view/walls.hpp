@@ -1,4 +1,4 @@
-// Projection walls: a window without a frame for each output, and the pictures in it, as the tracked head
+// Projection walls: a window without a border for each output, and the pictures in it, as the tracked head
 // sees the room through the wall. Poses are in the room's frame (view::Immersion), m.
 #pragma once
 
@@ -22,7 +22,7 @@ namespace bolt::view {
 // an eye is not in front of the wall: then nothing can be drawn on it.
 EyeGroup wall_eyes(const content::Wall& wall, const Pose& head, double eye_separation, VkExtent2D size);
 
-// Returns true if the point, or something in its direction, is in the picture of a wall.
+// Returns true if the ray from `eye` through `point` hits a wall from the front.
 bool on_a_wall(std::span<const content::Wall> walls, const Vec3& eye, const Vec3& point);
 
 // A window that shows a wall, or the picture of one of its eyes.
@@ -106,7 +106,7 @@ class Walls {
         std::unique_ptr<gpu::Swapchain> swapchain;
         VkExtent2D size{};
     };
-    void tell(tracking::HeadStatus status);
+    void log_status(tracking::HeadStatus status);
 
     content::DisplayFile displays_;
     std::optional<displays::HeadSource> head_;
@@ -114,7 +114,7 @@ class Walls {
     std::optional<WallLeader> leader_;
     std::uint64_t frame_ = 0;                             // that was sent last
     std::vector<platform::InputEvent> events_of_others_;  // since the last call of poll_events()
-    std::optional<tracking::HeadStatus> told_;            // in the log
+    std::optional<tracking::HeadStatus> logged_status_;   // in the log
     std::function<void(const std::string&)> log_;
     std::vector<Output> outputs_;
 };

@@ -174,20 +174,20 @@ Status draw_walls(WindowContent& content, Canvas& canvas, Walls& walls, WindowFr
     return {};
 }
 
-// The headset's frame is begun when its runtime releases it, which paces the loop. If the runtime is late for
-// longer than a hitch, the window goes on without it.
+// The headset's frame is begun when its runtime releases it, which paces the loop. If the runtime is late, no
+// frame is drawn; after `max_hitch` the window draws without it.
 Status draw(WindowContent& content, Canvas& canvas, platform::Window& window,
             const WindowRunOptions& options) {
-    static constexpr double longest_wait = 0.1, longest_hitch = 0.5;  // s
+    static constexpr double max_wait = 0.1, max_hitch = 0.5;  // s
     BOLT_TRY_ASSIGN(const auto size, canvas.swapchain->prepare(size_of(window)));
     std::optional<xr::HeadsetFrame> headset_frame;
     if (options.headset != nullptr)
-        headset_frame = options.headset->begin_frame(options.headset->running() ? longest_wait : 0.0);
+        headset_frame = options.headset->begin_frame(options.headset->running() ? max_wait : 0.0);
     const double now = seconds();
     const bool late = options.headset != nullptr && options.headset->running() && !headset_frame;
     if (late && canvas.late_since == 0.0) canvas.late_since = now;
     if (!late) canvas.late_since = 0.0;
-    if (late && now - canvas.late_since < longest_hitch) return {};
+    if (late && now - canvas.late_since < max_hitch) return {};
     const double elapsed = now - canvas.last_frame;
     canvas.last_frame = now;
     const std::vector<platform::InputEvent> events = std::exchange(canvas.events, {});

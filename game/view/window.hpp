@@ -15,7 +15,7 @@ namespace bolt::view {
 class Walls;
 class WallFollower;
 
-// A frame of a window.
+// The input of one frame of a window.
 struct WindowFrame {
     std::span<const platform::InputEvent> events;
     VkExtent2D size{};                     // px, of the window
@@ -38,8 +38,9 @@ class WindowContent {
     virtual void release() = 0;
     // Applies the input and advances by the time of the frame.
     virtual Status update(const WindowFrame& window) = 0;
-    // Records the frame. Without an immersion its picture is the renderer's picture 0; with one, each group
-    // of eyes is drawn as a group of the renderer. The poses of the eyes may be newer than those of update().
+    // Records the commands of the frame. Without an immersion its picture is the renderer's picture 0; with
+    // one, each group of eyes is drawn as a group of the renderer. The poses of the eyes may be newer than
+    // those of update().
     virtual Status draw(gpu::FrameContext& frame, const WindowFrame& window) = 0;
     // With an immersion: the picture for the window, when drawn. The window shows all of it.
     [[nodiscard]] virtual render::ImageLayer window_picture(const render::Renderer& renderer) const {
@@ -49,9 +50,9 @@ class WindowContent {
     // there, follow() reads it before update(). Contents that are shown by one process need neither.
     virtual Status share(cluster::MessageWriter&) { return {}; }
     virtual Status follow(cluster::MessageReader&) { return {}; }
-    // Replaces both while the window is minimised and no headset is used.
+    // Called instead of update() and draw() while the window is minimised and no headset is used.
     virtual Status frame_while_hidden() { return {}; }
-    // The window closes, or drawing has failed for good.
+    // Called once, when the window closes or drawing has failed permanently.
     virtual Status end() { return {}; }
 
     [[nodiscard]] virtual bool closed() const = 0;
