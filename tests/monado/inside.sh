@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# What tests/monado.sh runs inside its Debian 13 root, on a screen: inside.sh BIN SOURCES OUT [PARTS...]. The parts: program (the
+# What tests/monado.sh runs inside its Debian 13 root, on a screen: inside.sh BIN SOURCES OUT [PARTS...]. The parts: tracker (the head
+# of a viewer of projection walls, tracked without pictures, lost and found again), program (the
 # headset is lost and found again), first-nut and cover-m8 (a driven hand plays the lesson), window (Monado composes the pictures in
 # a window, for a look at them), speed (prints how many frames a second are drawn).
 . "$2/tests/cli/checks.sh"
 out=$3
 parts=("${@:4}")
-[[ ${#parts[@]} -gt 0 ]] || parts=(program first-nut cover-m8)
+[[ ${#parts[@]} -gt 0 ]] || parts=(tracker program first-nut cover-m8)
 export XDG_RUNTIME_DIR=$work/run XRT_NO_STDIN=1 P_OVERRIDE_ACTIVE_CONFIG=remote XRT_COMPOSITOR_NULL=1
 mkdir -m 700 "$XDG_RUNTIME_DIR"
 service=
@@ -55,6 +56,25 @@ play_program() {
     stop_service
 }
 
+track_head() {
+    "$bin/boltwright" displays new cave.json >/dev/null
+    sed -i 's/"tracker": "[a-z]*"/"tracker": "openxr", "pose": "headset"/' cave.json
+    start_service
+    "$bin/boltwright" displays track cave.json --seconds 60 >"$out/program.log" 2>&1 &
+    player=$!
+    check 'the head is tracked' eventually told '^tracked ' 2
+    stop_service -9
+    check 'its loss is told' eventually told '^(held|lost) ' 1
+    before=$(grep -c '^tracked ' "$out/program.log")
+    start_service
+    check 'it is found again' eventually told '^tracked ' $((before + 2))
+    kill -INT $player
+    check 'the program ends in order' wait $player
+    player=
+    tail -2 "$out/program.log"
+    stop_service
+}
+
 # Without validation layers, in the pictures' full size and in the size that the program chooses.
 measure_speed() {
     start_service
@@ -99,6 +119,7 @@ play_lesson() {
 
 for part in "${parts[@]}"; do
     case $part in
+        tracker) track_head ;;
         program) play_program ;;
         speed) measure_speed ;;
         window) show_window ;;
