@@ -9,8 +9,8 @@ rm -f "$pictures"/*
 [[ $(ldd "$bin/boltwright") == *libmpi* ]] || skip_all "boltwright was built without MPI"
 command -v mpirun >/dev/null || skip_all "mpirun is not installed"
 # Processes on one computer: as root, more of them than processors, and without reading each other's memory, which containers forbid.
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
-    OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_show_help=0
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_show_help=0
+launch=(mpirun --oversubscribe --bind-to none)
 rank=0
 wall() {  # wall NAME LOWER_LEFT LOWER_RIGHT UPPER_RIGHT X Y
     echo "    { \"name\": \"$1\", \"lower_left_m\": [$2], \"lower_right_m\": [$3], \"upper_right_m\": [$4],"
@@ -54,7 +54,7 @@ check 'one process: the walls show it' eventually rests "$pictures/lesson-one.pn
 kill -INT $player
 check 'one process: it ends' wait $player
 player=
-run_walls mpirun -n 5 "$bin/boltwright" "${train[@]}" cave.json --start --out five
+run_walls "${launch[@]}" -n 5 "$bin/boltwright" "${train[@]}" cave.json --start --out five
 check 'five processes: the lesson begins' eventually logged 'lesson begun'
 check 'five processes show the same pixels as one' eventually equals "$pictures/lesson-one.png" "$pictures/lesson-five.png"
 kill -INT $player
@@ -74,7 +74,7 @@ check 'one process: the walls show the menu' eventually rests "$pictures/menu-on
 kill -INT $player
 wait $player
 player=
-run_walls mpirun -n 5 "$bin/boltwright" "${train[@]}" cave.json --out five
+run_walls "${launch[@]}" -n 5 "$bin/boltwright" "${train[@]}" cave.json --out five
 check 'five processes show the same menu as one' eventually equals "$pictures/menu-one.png" "$pictures/menu-five.png"
 kill -INT $player
 check 'five processes: the menu ends' eventually ended
@@ -82,7 +82,7 @@ wait $player
 player=
 
 # The test pattern ends by a key in the window of another process.
-run_walls mpirun -n 5 "$bin/boltwright" displays test cave.json --validate
+run_walls "${launch[@]}" -n 5 "$bin/boltwright" displays test cave.json --validate
 check 'the window of another process opens' eventually opened 'Boltwright: ceiling'
 pattern_ends() { press 'Boltwright: ceiling' Escape; sleep 0.5; ended; }
 check 'Escape in it ends all processes' bash -c "$(declare -f pattern_ends press window ended); player=$player; for i in \$(seq 60); do pattern_ends && exit 0; done; exit 1"
@@ -90,7 +90,7 @@ check 'without an error' wait $player
 player=
 
 # A process that dies: the others end, and nothing recorded is lost.
-run_walls mpirun -n 5 "$bin/boltwright" "${train[@]}" cave.json --start --out lost
+run_walls "${launch[@]}" -n 5 "$bin/boltwright" "${train[@]}" cave.json --start --out lost
 check 'the lesson begins again' eventually logged 'lesson begun'
 sleep 3
 kill -KILL "$(pgrep -f -- "--displays cave.json --start --out lost" | tail -1)"
@@ -102,9 +102,9 @@ check 'the session can be read' eval "$bin/boltwright report lost/session.boltwr
 
 # Mistakes.
 expect 2 'wall "front": its output has rank 1, and the program was started alone; expected mpirun -n 2 or more' "$bin/boltwright" "${train[@]}" cave.json --out none
-expect 2 'wall "right": its output has rank 2, and there are 2 processes' mpirun -n 2 "$bin/boltwright" "${train[@]}" cave.json --out none
-expect 2 'process 5 shows no wall' mpirun -n 6 "$bin/boltwright" "${train[@]}" cave.json --out none
+expect 2 'wall "right": its output has rank 2, and there are 2 processes' "${launch[@]}" -n 2 "$bin/boltwright" "${train[@]}" cave.json --out none
+expect 2 'process 5 shows no wall' "${launch[@]}" -n 6 "$bin/boltwright" "${train[@]}" cave.json --out none
 sed 's/0.2, 1.65/0.1, 1.65/' cave.json > other.json
 expect 3 'process 4 on .* has another display file or another version' \
-    mpirun -n 4 "$bin/boltwright" "${train[@]}" cave.json --out none : -n 1 "$bin/boltwright" "${train[@]}" other.json --out none
+    "${launch[@]}" -n 4 "$bin/boltwright" "${train[@]}" cave.json --out none : -n 1 "$bin/boltwright" "${train[@]}" other.json --out none
 finish_checks
