@@ -51,6 +51,7 @@ double handle_turn(const ActiveLesson& active, const Projection& projection, con
 Quat viewer_heading(const ActiveLesson& active) {
     if (active.station && active.station->tracked)
         return {1.0, 0.0, 0.0, 0.0};  // its frame is the assembly's
+    if (active.view.heading) return *active.view.heading;
     return glm::angleAxis(active.view.camera.shown.yaw, Vec3(0, 1, 0));
 }
 
@@ -93,6 +94,7 @@ namespace {
 void enter_room(ActiveLesson& active, const std::optional<RoomInput>& room) {
     static const xr::HandInput no_hand;
     active.view.head = room ? std::optional(room->room_in_assembly * room->head) : std::nullopt;
+    active.view.heading = room ? std::optional(room->heading) : std::nullopt;
     if (active.view.head) active.shoulder = *active.view.head * shoulder_at_head;
     if (!active.station || !active.station->tracked) return;
     StationClient& client = *active.station;

@@ -113,9 +113,10 @@ inline const world::ToolState& tool_state_of(const ActiveLesson& active) {
 
 // The trainee's head and hands in a room, for a headset or projection walls.
 struct RoomInput {
-    Pose room_in_assembly;                                        // the room's frame in the assembly's
-    Pose head;                                                    // in the room
-    const xr::Hands* hands = nullptr;                             // in the room
+    Pose room_in_assembly;             // the room's frame in the assembly's
+    Pose head;                         // in the room
+    Quat heading{1.0, 0.0, 0.0, 0.0};  // about the vertical, from the user's frame to the assembly's
+    const xr::Hands* hands = nullptr;  // in the room
     std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
 };
 

@@ -230,9 +230,7 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
                 &*gpu_->fonts,
                 {},
                 {}};
-    if (in_room())
-        frame.room = RoomInput{inverse(scene_in_room()), window.immersion->head, &window.immersion->hands,
-                               window.immersion->vibrate};
+    if (in_room()) frame.room = room_input(*window.immersion);
     const bool waits_for_arm = active.station && active.station->waits_for_arm;
     if (frame.input.triggered(Action::pause) && in_lesson && !waits_for_arm)
         active.clock.paused = !active.clock.paused;

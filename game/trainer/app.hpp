@@ -118,6 +118,8 @@ class App : public view::WindowContent {
     [[nodiscard]] bool in_room() const { return room_ && room_->shown; }
     void pause_unseen(bool seen);
     void place_in_room(const view::Immersion& immersion);
+    void find_arm(const view::Immersion& immersion);
+    [[nodiscard]] RoomInput room_input(const view::Immersion& immersion) const;
     void follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events);
     [[nodiscard]] Pose scene_in_room() const;
     Status draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale);

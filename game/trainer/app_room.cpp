@@ -1,5 +1,7 @@
 // The part of App that is played in a room, in a headset or before walls: where workpiece and panel stand,
 // and the input of the hands.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -16,7 +18,24 @@ constexpr double default_seated_eyes = 1.2;  // m above the floor, about the mea
 // The pose of the assembly's frame in the room; the identity without a lesson.
 Pose App::scene_in_room() const {
     if (!active_ || !room_->workpiece) return {};
+    if (room_->arm && active_->station)
+        return registered_scene(*room_->arm, active_->station->latest.mover_in_assembly);
     return adjusted(*room_->workpiece, active_->workplace.workpiece, room_->turns, room_->height);
+}
+
+// What a lesson's systems need of the room.
+RoomInput App::room_input(const view::Immersion& immersion) const {
+    const Pose scene = scene_in_room();
+    RoomInput input;
+    input.room_in_assembly = inverse(scene);
+    input.head = immersion.head;
+    input.hands = &immersion.hands;
+    input.vibrate = immersion.vibrate;
+    // A registered arm moves in the assembly as it moves in the room. Else right is the user's right, also
+    // after the workpiece was turned.
+    if (!room_->arm && room_->workpiece)
+        input.heading = glm::conjugate(scene.orientation) * room_->workpiece->orientation;
+    return input;
 }
 
 Status App::share(cluster::MessageWriter& message) {
@@ -46,6 +65,40 @@ void App::pause_unseen(bool seen) {
     if (std::exchange(room_->paused, false)) paused = false;
 }
 
+// The arm's frame in the room; none: the picture does not depend on where the arm is. Logs the reason once.
+void App::find_arm(const view::Immersion& immersion) {
+    Room& room = *room_;
+    if (!active_ || !active_->station) {
+        room.arm.reset();
+        room.arm_lesson = 0;
+        return;
+    }
+    if (std::exchange(room.arm_lesson, lesson_number_) == lesson_number_) return;
+    room.arm.reset();
+    const content::Registration* found =
+        content::find_registration(context_->choice.equipment.station.registrations,
+                                   content::CoordinateFrame::arm, content::CoordinateFrame::room);
+    // Only an arm is registered; the mouse and a tracked hand move the tool in the assembly's own frame.
+    const StationClient& client = *active_->station;
+    if (found == nullptr || !context_->choice.equipment.station.arm || client.dragged || client.tracked)
+        return;
+    const double scale = client.link->layout().workspace.scale;
+    if (scale != 1.0 || !immersion.floor_known) {
+        log(fmt::format(
+            "the picture is not where the arm feels: {}",
+            scale != 1.0
+                ? fmt::format("the scale of the arm is {:.2f}; expected 1 (\"scale\" in the station file)",
+                              scale)
+                : "the headset has no stage, to which the arm is registered"));
+        return;
+    }
+    room.arm = found->from == content::CoordinateFrame::arm ? found->pose : inverse(found->pose);
+    log(fmt::format(
+        "the picture is where the arm feels: registered on {} with {:.1f} mm rms; `boltwright station "
+        "register FILE --check` checks it",
+        found->date, found->rms / mm));
+}
+
 // Places panel and workpiece if they have no place yet.
 void App::place_in_room(const view::Immersion& immersion) {
     Room& room = *room_;
@@ -53,6 +106,7 @@ void App::place_in_room(const view::Immersion& immersion) {
     const bool placed = immersion.tracked || immersion.expected_head || room.panel;
     if (placed && !room.panel) room.panel = place_panel(viewer);
     if (!active_) room.workpiece.reset();
+    find_arm(immersion);
     if (placed && active_ && !room.workpiece) {
         const render::BoundingBox& machine = active_->workplace.workpiece;
         room.workpiece = place_workpiece(

@@ -38,9 +38,13 @@ struct Room {
     std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};  // in the last frame, by hand
     double height = 0.0;  // m that the user has raised the workpiece
     int turns = 0;        // steps by which the user has turned it
-    bool shown = false;   // the display surrounds the user in this frame
-    bool seen = false;    // the user saw the lesson in the last frame
-    bool paused = false;  // the lesson is paused because the user does not see it
+    // The arm's frame in the room, if the station file has the registration and the arm's scale is 1; else
+    // the workpiece stands where the user looks.
+    std::optional<Pose> arm;
+    std::uint32_t arm_lesson = 0;  // number of the lesson in which that was decided; 0: none
+    bool shown = false;            // the display surrounds the user in this frame
+    bool seen = false;             // the user saw the lesson in the last frame
+    bool paused = false;           // the lesson is paused because the user does not see it
 };
 
 // Where the workpiece stands when the user looks straight ahead: in front, on a bench whose floor is the
@@ -58,6 +62,12 @@ Pose place_panel(const Pose& head);
 // The workpiece after the user has turned and raised it: about the vertical through its middle.
 Pose adjusted(const Pose& workpiece, const render::BoundingBox& machine, int turns, double height);
 inline constexpr double turn_step = to_radians(30.0);
+
+// The pose of the scene in the room, when the arm's frame is registered to it: the end of the handle is shown
+// where the hand is. `room_from_arm`: the registration; `arm_in_scene`: StationTick::mover_in_assembly.
+inline Pose registered_scene(const Pose& room_from_arm, const Pose& arm_in_scene) {
+    return room_from_arm * inverse(arm_in_scene);
+}
 
 // Where a ray along −z of `aim` meets the panel, px; none: it does not.
 std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim);

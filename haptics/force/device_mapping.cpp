@@ -17,6 +17,10 @@ Quat to_viewer(const WorkspaceMap& w, const WorkspaceState& s) { return s.headin
 
 Vec3 lever_end(const WorkspaceState& s, const Pose& tool) { return tool * Vec3(s.lever_arm, 0.0, 0.0); }
 
+Pose device_in_assembly(const WorkspaceMap& w, const WorkspaceState& s) {
+    return {s.centre, to_viewer(w, s)};
+}
+
 void realign(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, const Pose& tool) {
     const Quat to_user = to_viewer(w, s);
     s.centre = lever_end(s, tool) - w.scale * (to_user * device.position);

@@ -53,6 +53,10 @@ void realign(const WorkspaceMap& workspace, WorkspaceState& state, const Pose& d
 // The end of the lever arm, in the assembly's frame: the point of the tool that follows the device.
 Vec3 lever_end(const WorkspaceState& state, const Pose& tool);
 
+// The pose of the device's frame in the assembly's, at a scale of 1: takes the device's position to the end
+// of the lever arm.
+Pose device_in_assembly(const WorkspaceMap& workspace, const WorkspaceState& state);
+
 // One tick of dt. Returns the tool's pose in the assembly's frame. Releasing the clutch does not move the
 // tool. A device pose that is not finite is returned unchanged for the watchdog to reject.
 Pose to_assembly(const WorkspaceMap& workspace, WorkspaceState& state, const Pose& device, bool clutch,

@@ -415,9 +415,14 @@ StationStep step(const DeviceLayout& layout, const servo::Setup& setup, StationS
     done.paused = inputs.controls.pause;
     done.commands =
         done.paused ? pause_tick(layout, setup, s, inputs) : tick(layout, setup, s, servo, inputs);
-    done.tick = {
-        number,   s.input, s.output, s.workspace.commanded_tool, s.resting_wrench, s.dead_man_pressed,
-        s.gripper};
+    done.tick.number = number;
+    done.tick.input = s.input;
+    done.tick.output = s.output;
+    done.tick.commanded_tool = s.workspace.commanded_tool;
+    done.tick.mover_in_assembly = force::device_in_assembly(layout.workspace, s.workspace);
+    done.tick.resting_wrench = s.resting_wrench;
+    done.tick.dead_man_pressed = s.dead_man_pressed;
+    done.tick.gripper = s.gripper;
     return done;
 }
 

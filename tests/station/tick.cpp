@@ -63,6 +63,27 @@ TEST_CASE("Station: a closed gripper is the dead-man switch, and opens only when
     CHECK_FALSE(without.state.input.dead_man);
 }
 
+TEST_CASE("Station: at a scale of 1 the mover's frame takes its hand to the tool, also after a clutch") {
+    Random random(21);
+    DeviceLayout layout = test::with_arm();
+    layout.mover->limits.torque = 0.0;
+    layout.lever_arm = 0.2;  // the handle's end follows the hand
+    layout.workspace.rotation = rotation({0.0, 2.1, 0.0});
+    layout.home.position = {0.1, 0.4, 0.2};  // in the air
+    Rig rig(layout);
+    rig.inputs.controls.view = rotation({0.0, -0.7, 0.0});
+    rig.ticks(2);
+    for (int i = 0; i < 200; ++i) {
+        rig.inputs.controls.clutch = i % 20 > 12;
+        rig.hand().position += Vec3(random.uniform(-1e-4, 1e-4), random.uniform(-1e-4, 1e-4), 1e-4);
+        rig.hand().orientation = rotation({0.0, 1e-3 * i, 0.0});
+        ++rig.inputs.mover.number;
+        const StationTick tick = step(rig.layout, rig.setup, rig.state, rig.servo, rig.inputs, 1).tick;
+        const Vec3 end = tick.commanded_tool * Vec3(0.2, 0.0, 0.0);
+        CHECK(glm::length(tick.mover_in_assembly * rig.hand().position - end) < 1e-12);
+    }
+}
+
 TEST_CASE("Station: after a clutch, a loss or a reconnection the tool stays and follows from there") {
     Rig rig(with_arm());
     rig.ticks(10);

@@ -12,12 +12,14 @@ namespace bolt::test {
 
 class VirtualBench final : public station_setup::LessonStation {
   public:
-    VirtualBench(session::SessionSetup prepared, session::LessonOptions options)
+    // `scale`: that of the workspace map.
+    VirtualBench(session::SessionSetup prepared, session::LessonOptions options, double scale = 1.0)
         : puck_({}, device::virtual_timer(time_)),
           supervisor_(puck_.factory(), device::virtual_timer(time_)) {
         while (!supervisor_.status().description) serve();
         layout_.mover = *supervisor_.status().description;
         layout_.mover_buttons = {1, 0, 0, 0};
+        layout_.workspace.scale = scale;
         options.device_limits = station::limits_of(layout_);
         session::set_device_limits(options, prepared);
         setup_ = prepared.setup;
