@@ -35,7 +35,7 @@ struct LessonView {
     CloseUp close_up;
     bool clamp_map = false;                   // show the clamp force of every joint
     std::vector<render::Rectangle> occupied;  // px, areas of the interface in the previous picture
-    std::optional<Pose> head;  // of the user in a room, assembly frame; none: the camera shows the lesson
+    std::optional<Pose> head;     // of the user in a room, assembly frame; none: the camera shows the lesson
     std::optional<Quat> heading;  // RoomInput::heading
 };
 
