@@ -38,8 +38,7 @@ endif()
 find_package(doctest QUIET)
 find_package(benchmark QUIET)
 
-# Projection walls on several computers; everything else works without it. A package would depend on an MPI library that few
-# users need.
+# Projection walls on several computers; everything else works without it. Packages are built without it, because few users need it.
 option(BOLT_WITH_MPI "Walls of several processes, if there is an MPI library" ON)
 if(BOLT_WITH_MPI)
     enable_language(C)  # FindMPI asks the C compiler

@@ -1,6 +1,5 @@
-// The processes of one program on several computers, which `mpirun` starts together: messages between them
-// through MPI. A build without MPI has no clusters (available() is false). Call all functions from the thread
-// that joined.
+// The processes of one program on several computers, which `mpirun` starts together, and the messages between
+// them. Call all functions from the thread that joined.
 #pragma once
 
 #include <memory>
@@ -9,14 +8,9 @@
 
 #include "engine/base/function_ref.hpp"
 #include "engine/base/result.hpp"
-#include "engine/cluster/message.hpp"
+#include "engine/cluster/transport.hpp"
 
 namespace bolt::cluster {
-
-// Returns whether this build can form a cluster.
-bool available();
-
-inline constexpr std::size_t max_message = 64U << 20;  // bytes
 
 class Cluster {
   public:
@@ -29,25 +23,26 @@ class Cluster {
     // Waits until all processes have left, unless lost() was called.
     ~Cluster();
 
-    [[nodiscard]] int rank() const;  // 0 … size() − 1
-    [[nodiscard]] int size() const;
-    [[nodiscard]] const std::string& host(int rank) const;  // name of the computer that the process runs on
+    [[nodiscard]] int rank() const { return transport_->rank(); }  // 0 … size() − 1
+    [[nodiscard]] int size() const { return transport_->size(); }
+    // Name of the computer that the process runs on.
+    [[nodiscard]] const std::string& host(int rank) const { return transport_->host(rank); }
     // "process 2 on wall-pc-2", for messages.
     [[nodiscard]] std::string describe(int rank) const;
 
     // Sends without waiting; messages from one process to another arrive in order.
-    Status send(int to, std::span<const std::byte> message);
+    Status send(int to, std::span<const std::byte> message) { return transport_->send(to, message); }
     // The next message from a process; none after `seconds`, or when `stop` returns true. `stop` is called at
     // least 1000 times a second.
     Result<std::optional<Message>> receive(int from, double seconds, FunctionRef<bool()> stop);
 
     // Another process does not answer: the destructor does not wait for it. mpirun then ends all others.
-    void lost();
+    void lost() { lost_ = true; }
 
   private:
-    struct State;
-    explicit Cluster(std::unique_ptr<State> state);
-    std::unique_ptr<State> state_;
+    explicit Cluster(std::unique_ptr<Transport> transport);
+    std::unique_ptr<Transport> transport_;
+    bool lost_ = false;
 };
 
 }  // namespace bolt::cluster

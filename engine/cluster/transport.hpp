@@ -1,0 +1,39 @@
+// How messages travel between the processes of a cluster. The only transport is in a module,
+// boltwright_mpi.so, which a program loads when mpirun has started it: a program that runs alone need not
+// load an MPI library.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/base/result.hpp"
+#include "engine/cluster/message.hpp"
+
+namespace bolt::cluster {
+
+inline constexpr std::size_t max_message = 64U << 20;  // bytes
+
+class Transport {
+  public:
+    Transport() = default;
+    Transport(const Transport&) = delete;
+    Transport& operator=(const Transport&) = delete;
+    virtual ~Transport() = default;
+
+    [[nodiscard]] virtual int rank() const = 0;
+    [[nodiscard]] virtual int size() const = 0;
+    [[nodiscard]] virtual const std::string& host(int rank) const = 0;
+    // Sends without waiting.
+    virtual Status send(int to, std::span<const std::byte> message) = 0;
+    // The next message from a process, if it has arrived.
+    virtual Result<std::optional<Message>> try_receive(int from) = 0;
+    // Waits until all messages are sent and all processes have left.
+    virtual void leave() = 0;
+};
+
+// The function of the module. Sets one of the two.
+using JoinFunction = void (*)(std::unique_ptr<Transport>& transport, Error& error);
+inline constexpr const char* join_function_name = "boltwright_join_cluster";
+
+}  // namespace bolt::cluster
