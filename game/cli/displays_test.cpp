@@ -122,7 +122,7 @@ Result<OpenedWalls> open_walls(const std::string& file, const platform::Desktop&
     }
     if (ready) return opened;
     if (first)
-        view::WallLeader::dismiss(*cluster, ready.error().message());
+        view::WallLeader::dismiss(*cluster, ready.error());
     else
         view::WallFollower::report(*cluster, ready.error());
     return fail(ready.error());

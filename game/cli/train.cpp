@@ -276,8 +276,7 @@ int run_train(TrainArguments options) {
         done = follow_first_process(lesson, *opened, *desktop, {options.gpu, options.validate});
     } else {
         done = run_window(named, *train, *equipment, {headset->get(), walls}, *desktop);
-        if (!done && walls != nullptr && walls->leader() != nullptr)
-            walls->leader()->end(done.error().message());
+        if (!done && walls != nullptr && walls->leader() != nullptr) walls->leader()->end(done.error());
     }
     return done ? 0 : print_error(done.error());
 }

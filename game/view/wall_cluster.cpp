@@ -113,11 +113,25 @@ Error strange_message(const Cluster& cluster, int rank) {
             "the same program in all processes"};
 }
 
+ErrorCode get_code(MessageReader& message) {
+    const auto code = message.get<std::uint8_t>();
+    return code >= 1 && code <= 4 ? static_cast<ErrorCode>(code) : ErrorCode::failed;
+}
+
+// The error with which the first process has ended; none: it has ended in order.
+std::optional<Error> reason_of_end(const Cluster& cluster, MessageReader& message) {
+    Error error;
+    error.code = get_code(message);
+    const std::string reason = message.get_text();
+    if (reason.empty()) return std::nullopt;
+    error.what = fmt::format("{} has ended: {}", cluster.describe(0), reason);
+    return error;
+}
+
 // The error of another process, which begins with where it happened.
 Error reported_error(const Cluster& cluster, int rank, MessageReader& message) {
     Error error;
-    const auto code = message.get<std::uint8_t>();
-    error.code = code >= 1 && code <= 4 ? static_cast<ErrorCode>(code) : ErrorCode::failed;
+    error.code = get_code(message);
     error.what = fmt::format("{}: {}", cluster.describe(rank), message.get_text());
     error.expected = message.get_text();
     return error;
@@ -210,14 +224,15 @@ Status WallLeader::permit() {
 
 void WallLeader::presented() { own_delay_ = steady_seconds() - permitted_; }
 
-void WallLeader::end(const std::string& reason) {
-    if (!std::exchange(ended_, true)) dismiss(*cluster_, reason);
+void WallLeader::end(const std::optional<Error>& error) {
+    if (!std::exchange(ended_, true)) dismiss(*cluster_, error);
 }
 
-void WallLeader::dismiss(Cluster& cluster, const std::string& reason) {
+void WallLeader::dismiss(Cluster& cluster, const std::optional<Error>& error) {
     MessageWriter message;
     message.put(MessageKind::end);
-    message.put_text(reason);
+    message.put(static_cast<std::uint8_t>(error ? error->code : ErrorCode::failed));
+    message.put_text(error ? error->message() : "");
     // A process that has ended already needs no message.
     for (int rank = 1; rank < cluster.size(); ++rank) (void)cluster.send(rank, message.message());
 }
@@ -248,9 +263,8 @@ Result<std::optional<ClusterFrame>> WallFollower::next_frame() {
     MessageReader message(*received);
     const auto kind = message.get<MessageKind>();
     if (kind == MessageKind::end) {
-        const std::string reason = message.get_text();
-        if (reason.empty()) return std::optional<ClusterFrame>();
-        return fail(ErrorCode::failed, fmt::format("{} has ended: {}", cluster_->describe(0), reason));
+        if (auto error = reason_of_end(*cluster_, message)) return fail(std::move(*error));
+        return std::optional<ClusterFrame>();
     }
     ClusterFrame frame;
     frame.number = message.get<std::uint64_t>();
@@ -272,9 +286,8 @@ Result<bool> WallFollower::wait_for_permission(std::span<const InputEvent> event
     MessageReader answer(*received);
     const auto kind = answer.get<MessageKind>();
     if (kind == MessageKind::end) {
-        const std::string reason = answer.get_text();
-        if (reason.empty()) return false;
-        return fail(ErrorCode::failed, fmt::format("{} has ended: {}", cluster_->describe(0), reason));
+        if (auto error = reason_of_end(*cluster_, answer)) return fail(std::move(*error));
+        return false;
     }
     if (kind != MessageKind::present) return fail(strange_message(*cluster_, 0));
     permitted_ = steady_seconds();

@@ -45,10 +45,11 @@ class WallLeader {
     // All present now. Call presented() afterwards.
     Status permit();
     void presented();
-    // Ends the other processes, once. `reason` is their error; empty: they end without one.
-    void end(const std::string& reason);
+    // Ends the other processes, once. They fail with the error too, with its exit code; none: they end
+    // without one.
+    void end(const std::optional<Error>& error);
     // The same before begin() has succeeded.
-    static void dismiss(cluster::Cluster& cluster, const std::string& reason);
+    static void dismiss(cluster::Cluster& cluster, const std::optional<Error>& error);
 
     // One line for the log: frames, bytes of a frame, and how far apart the processes presented.
     [[nodiscard]] std::string summary() const;
