@@ -11,6 +11,7 @@ command -v mpirun >/dev/null || skip_all "mpirun is not installed"
 # Processes on one computer: as root, more of them than processors, and without reading each other's memory, which containers forbid.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_show_help=0
 launch=(mpirun --oversubscribe --bind-to none)
+"${launch[@]}" -n 2 true >/dev/null 2>&1 || skip_all "mpirun cannot start processes on this computer"
 rank=0
 wall() {  # wall NAME LOWER_LEFT LOWER_RIGHT UPPER_RIGHT X Y
     echo "    { \"name\": \"$1\", \"lower_left_m\": [$2], \"lower_right_m\": [$3], \"upper_right_m\": [$4],"
