@@ -69,7 +69,7 @@ inline double height(const Wall& wall) { return glm::length(wall.upper_right - w
 enum class HeadTracker : std::uint8_t { fixed, dtrack, openxr, file };
 std::string_view name(HeadTracker tracker);
 
-// What an OpenXR runtime tracks: the headset, or a controller, whose grip pose is used.
+// The pose that an OpenXR runtime tracks: that of the headset, or the grip pose of a controller.
 enum class TrackedPose : std::uint8_t { headset, left_hand, right_hand };
 std::string_view name(TrackedPose pose);
 

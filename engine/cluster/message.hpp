@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "engine/base/math.hpp"
+
 namespace bolt::cluster {
 
 using Message = std::vector<std::byte>;
@@ -30,6 +32,10 @@ class MessageWriter {
     void put_all(std::span<const T> values) {
         put(static_cast<std::uint32_t>(values.size()));
         add(std::as_bytes(values));
+    }
+    void put_pose(const Pose& pose) {
+        put(pose.position);
+        put(pose.orientation);
     }
     void put_text(std::string_view text) { put_all(std::span<const char>(text)); }
 
@@ -72,6 +78,12 @@ class MessageReader {
         if (count > 0) std::memcpy(values.data(), rest_.data(), count * sizeof(T));
         rest_ = rest_.subspan(count * sizeof(T));
         return values;
+    }
+    Pose get_pose() {
+        Pose pose;
+        pose.position = get<Vec3>();
+        pose.orientation = get<Quat>();
+        return pose;
     }
     std::string get_text() {
         const std::vector<char> text = get_all<char>();

@@ -30,8 +30,8 @@ std::string_view name(XrResult result);
 // lost, after which only destroying it succeeds.
 Status check(XrResult result, std::string_view function);
 
-// What all instances of OpenXR have in common: the extensions that the runtime offers (fails with
-// ErrorCode::no_device if there is no runtime), and the program's description without extensions.
+// Return the extensions that the runtime offers (fails with ErrorCode::no_device if there is no runtime), and
+// the description of this program, without extensions.
 Result<std::vector<std::string>> offered_extensions();
 XrInstanceCreateInfo instance_info();
 // The loader keeps a runtime until an instance of it is destroyed, also if the user has since chosen another

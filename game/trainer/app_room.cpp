@@ -23,7 +23,7 @@ Pose App::scene_in_room() const {
     return adjusted(*room_->workpiece, active_->workplace.workpiece, room_->turns, room_->height);
 }
 
-// What a lesson's systems need of the room.
+// Returns the room as the systems of a lesson read it.
 RoomInput App::room_input(const view::Immersion& immersion) const {
     const Pose scene = scene_in_room();
     RoomInput input;

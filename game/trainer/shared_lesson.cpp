@@ -14,18 +14,6 @@ view::StreamedModels streamed(const scene::GpuLessonModels& models) {
             &models.light};
 }
 
-void put_pose(cluster::MessageWriter& message, const Pose& pose) {
-    message.put(pose.position);
-    message.put(pose.orientation);
-}
-
-Pose get_pose(cluster::MessageReader& message) {
-    Pose pose;
-    pose.position = message.get<Vec3>();
-    pose.orientation = message.get<Quat>();
-    return pose;
-}
-
 Error unknown_scene() {
     return {ErrorCode::failed, "the lesson that another process sent cannot be shown",
             "the same program in all processes"};
@@ -53,10 +41,10 @@ void LessonSharing::write(cluster::MessageWriter& message, const SharedFrame& fr
             message.put_text(*text);
         message.put(frame.models->side);
     }
-    put_pose(message, frame.scene_in_room);
+    message.put_pose(frame.scene_in_room);
     message.put(frame.panel.has_value());
     if (frame.panel) {
-        put_pose(message, *frame.panel);
+        message.put_pose(*frame.panel);
         panel.write(message);
     }
     if (lesson != 0) scene_.write(message, *frame.scene, streamed(*frame.on_gpu));
@@ -107,10 +95,10 @@ Status FollowedLesson::follow(cluster::MessageReader& message) {
     }
     if (lesson == 0) lesson_ = 0;
     if (lesson != lesson_) return fail(unknown_scene());
-    scene_in_room_ = get_pose(message);
+    scene_in_room_ = message.get_pose();
     panel_pose_.reset();
     if (message.get<bool>()) {
-        panel_pose_ = get_pose(message);
+        panel_pose_ = message.get_pose();
         BOLT_TRY(panel_.read(message));
     }
     if (lesson != 0) return view::read_scene(message, streamed(*models_), scene_);

@@ -41,7 +41,7 @@ class LessonSharing {
     const scene::GpuLessonModels* on_gpu_ = nullptr;  // of the last frame
 };
 
-// What the other processes show: the content of their walls.
+// The content of the walls of the other processes.
 class FollowedLesson : public view::WindowContent {
   public:
     FollowedLesson() = default;

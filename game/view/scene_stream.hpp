@@ -10,7 +10,7 @@
 
 namespace bolt::view {
 
-// What the scenes may refer to: the same models in the same order in all processes.
+// The models and the light that scenes may refer to: the same ones in the same order in all processes.
 struct StreamedModels {
     std::vector<const render::GpuModel*> models;
     const render::EnvironmentLight* light = nullptr;

@@ -88,18 +88,6 @@ std::vector<InputEvent> get_events(MessageReader& message) {
     return events;
 }
 
-void put_pose(MessageWriter& message, const Pose& pose) {
-    message.put(pose.position);
-    message.put(pose.orientation);
-}
-
-Pose get_pose(MessageReader& message) {
-    Pose pose;
-    pose.position = message.get<Vec3>();
-    pose.orientation = message.get<Quat>();
-    return pose;
-}
-
 Error lost_process(Cluster& cluster, int rank) {
     cluster.lost();
     Error error;
@@ -186,7 +174,7 @@ Status WallLeader::send(const ClusterFrame& frame) {
     MessageWriter message;
     message.put(MessageKind::frame);
     message.put(frame.number);
-    put_pose(message, frame.head);
+    message.put_pose(frame.head);
     message.put(frame.tracked);
     message.put_all(std::span<const std::byte>(frame.content));
     sizes_.push_back(static_cast<std::uint32_t>(message.size()));
@@ -268,7 +256,7 @@ Result<std::optional<ClusterFrame>> WallFollower::next_frame() {
     }
     ClusterFrame frame;
     frame.number = message.get<std::uint64_t>();
-    frame.head = get_pose(message);
+    frame.head = message.get_pose();
     frame.tracked = message.get<bool>();
     frame.content = message.get_all<std::byte>();
     if (kind != MessageKind::frame || !message.ok()) return fail(strange_message(*cluster_, 0));

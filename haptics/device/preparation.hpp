@@ -80,7 +80,7 @@ struct ArmDialog {
     std::shared_ptr<MovePermission> permission{};
 };
 
-// What the arm screen shows: the arm's need, and whether the arm moves by itself.
+// The arm's need, and whether the arm moves by itself, for the screen that asks the user.
 struct ArmNeeds {
     Preparation preparation;
     bool moves = false;  // it has the permission and moves by itself, or is about to

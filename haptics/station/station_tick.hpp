@@ -210,8 +210,8 @@ struct StationTick {
     servo::TickInput input;
     servo::Output output;
     Pose commanded_tool;  // in the assembly's frame
-    // Of the mover's frame in the assembly's, at a scale of 1: its position of the hand is then where the
-    // hand holds the tool. It moves with the clutch.
+    // Pose of the mover's frame in the assembly's. At a scale of 1 it takes the position of the hand to the
+    // point where the hand holds the tool. It moves with the clutch.
     Pose mover_in_assembly;
     // Pose of the wrench while no hand holds it (StationControls::wrench_rest_pose).
     std::optional<Pose> resting_wrench;

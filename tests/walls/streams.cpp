@@ -1,4 +1,4 @@
-// What the processes of projection walls send each other: messages, scenes and panels arrive as they were.
+// Messages, scenes and panels that the processes of projection walls send each other arrive as they were.
 #include <doctest/doctest.h>
 
 #include "engine/base/random.hpp"
