@@ -15,11 +15,17 @@ namespace {
 
 constexpr const char* headless_extension = XR_MND_HEADLESS_EXTENSION_NAME;
 constexpr const char* clock_extension = XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME;
+struct TrackerProfile {
+    const char* path;
+    const char* button;  // below the path of the hand
+};
 // Controllers that are also sold as trackers, or whose grip pose is easily fixed to glasses.
-constexpr std::array<const char*, 5> tracker_profiles{
-    "/interaction_profiles/khr/simple_controller", "/interaction_profiles/oculus/touch_controller",
-    "/interaction_profiles/valve/index_controller", "/interaction_profiles/htc/vive_controller",
-    "/interaction_profiles/microsoft/motion_controller"};
+constexpr std::array<TrackerProfile, 5> tracker_profiles{
+    {{"/interaction_profiles/khr/simple_controller", "/input/select/click"},
+     {"/interaction_profiles/oculus/touch_controller", "/input/trigger/value"},
+     {"/interaction_profiles/valve/index_controller", "/input/trigger/click"},
+     {"/interaction_profiles/htc/vive_controller", "/input/trigger/click"},
+     {"/interaction_profiles/microsoft/motion_controller", "/input/trigger/value"}}};
 constexpr XrSpaceLocationFlags fully_tracked =
     XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT |
     XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
@@ -38,6 +44,9 @@ struct PoseTracker::Objects {
     SessionHandle session;
     ActionSetHandle actions;
     SpaceHandle base, thing;
+    XrPath side = XR_NULL_PATH;       // of the controller
+    XrAction press = XR_NULL_HANDLE;  // its button
+    bool stage = false, pressed = false;
     PFN_xrConvertTimespecTimeToTimeKHR to_time = nullptr;
     XrViewConfigurationType views = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
     bool running = false, focused = false, ended = false;
@@ -46,8 +55,11 @@ struct PoseTracker::Objects {
     Status create_session();
     Status create_spaces(TrackedThing tracked);
     Result<SpaceHandle> reference_space(XrReferenceSpaceType type) const;
+    Result<XrAction> make_action(const char* name, const char* shown, XrActionType type);
+    Status suggest_bindings(const std::string& hand, XrAction grip);
     Result<SpaceHandle> grip_space(const char* hand);
     Status follow_events();
+    Status read_button();
     Result<std::optional<Pose>> locate() const;
 };
 
@@ -111,6 +123,36 @@ Result<SpaceHandle> PoseTracker::Objects::reference_space(XrReferenceSpaceType t
     return SpaceHandle(raw);
 }
 
+Result<XrAction> PoseTracker::Objects::make_action(const char* name, const char* shown, XrActionType type) {
+    XrActionCreateInfo info{XR_TYPE_ACTION_CREATE_INFO};
+    fmt::format_to_n(info.actionName, sizeof info.actionName - 1, "{}", name);
+    fmt::format_to_n(info.localizedActionName, sizeof info.localizedActionName - 1, "{}", shown);
+    info.actionType = type;
+    info.countSubactionPaths = 1;
+    info.subactionPaths = &side;
+    XrAction action = XR_NULL_HANDLE;
+    BOLT_TRY(check(xrCreateAction(actions.get(), &info, &action), "xrCreateAction"));
+    return action;
+}
+
+Status PoseTracker::Objects::suggest_bindings(const std::string& hand, XrAction grip) {
+    BOLT_TRY_ASSIGN(const auto pose, to_path(instance.get(), hand + "/input/grip/pose"));
+    for (const TrackerProfile& known : tracker_profiles) {
+        BOLT_TRY_ASSIGN(const auto profile, to_path(instance.get(), known.path));
+        BOLT_TRY_ASSIGN(const auto button, to_path(instance.get(), hand + known.button));
+        const std::array<XrActionSuggestedBinding, 2> bindings{{{grip, pose}, {press, button}}};
+        XrInteractionProfileSuggestedBinding suggested{XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING};
+        suggested.interactionProfile = profile;
+        suggested.countSuggestedBindings = static_cast<std::uint32_t>(bindings.size());
+        suggested.suggestedBindings = bindings.data();
+        // A runtime rejects controllers that it does not know; the others still work.
+        const XrResult accepted = xrSuggestInteractionProfileBindings(instance.get(), &suggested);
+        if (accepted != XR_ERROR_PATH_UNSUPPORTED)
+            BOLT_TRY(check(accepted, "xrSuggestInteractionProfileBindings"));
+    }
+    return {};
+}
+
 Result<SpaceHandle> PoseTracker::Objects::grip_space(const char* hand) {
     XrActionSetCreateInfo set{XR_TYPE_ACTION_SET_CREATE_INFO};
     fmt::format_to_n(set.actionSetName, sizeof set.actionSetName - 1, "tracker");
@@ -118,28 +160,10 @@ Result<SpaceHandle> PoseTracker::Objects::grip_space(const char* hand) {
     XrActionSet raw_set = XR_NULL_HANDLE;
     BOLT_TRY(check(xrCreateActionSet(instance.get(), &set, &raw_set), "xrCreateActionSet"));
     actions = ActionSetHandle(raw_set);
-    BOLT_TRY_ASSIGN(XrPath side, to_path(instance.get(), hand));
-    XrActionCreateInfo action{XR_TYPE_ACTION_CREATE_INFO};
-    fmt::format_to_n(action.actionName, sizeof action.actionName - 1, "pose");
-    fmt::format_to_n(action.localizedActionName, sizeof action.localizedActionName - 1, "Pose");
-    action.actionType = XR_ACTION_TYPE_POSE_INPUT;
-    action.countSubactionPaths = 1;
-    action.subactionPaths = &side;
-    XrAction grip = XR_NULL_HANDLE;
-    BOLT_TRY(check(xrCreateAction(raw_set, &action, &grip), "xrCreateAction"));
-    BOLT_TRY_ASSIGN(const auto pose, to_path(instance.get(), std::string(hand) + "/input/grip/pose"));
-    for (const char* name : tracker_profiles) {
-        BOLT_TRY_ASSIGN(const auto profile, to_path(instance.get(), name));
-        const XrActionSuggestedBinding binding{grip, pose};
-        XrInteractionProfileSuggestedBinding suggested{XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING};
-        suggested.interactionProfile = profile;
-        suggested.countSuggestedBindings = 1;
-        suggested.suggestedBindings = &binding;
-        // A runtime rejects controllers that it does not know; the others still work.
-        const XrResult accepted = xrSuggestInteractionProfileBindings(instance.get(), &suggested);
-        if (accepted != XR_ERROR_PATH_UNSUPPORTED)
-            BOLT_TRY(check(accepted, "xrSuggestInteractionProfileBindings"));
-    }
+    BOLT_TRY_ASSIGN(side, to_path(instance.get(), hand));
+    BOLT_TRY_ASSIGN(const XrAction grip, make_action("pose", "Pose", XR_ACTION_TYPE_POSE_INPUT));
+    BOLT_TRY_ASSIGN(press, make_action("press", "Press", XR_ACTION_TYPE_BOOLEAN_INPUT));
+    BOLT_TRY(suggest_bindings(hand, grip));
     XrSessionActionSetsAttachInfo attach{XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO};
     attach.countActionSets = 1;
     attach.actionSets = &raw_set;
@@ -160,7 +184,7 @@ Status PoseTracker::Objects::create_spaces(TrackedThing tracked) {
                                  return xrEnumerateReferenceSpaces(session.get(), capacity, count, values);
                              }),
                    "xrEnumerateReferenceSpaces"));
-    const bool stage = std::find(types.begin(), types.end(), XR_REFERENCE_SPACE_TYPE_STAGE) != types.end();
+    stage = std::find(types.begin(), types.end(), XR_REFERENCE_SPACE_TYPE_STAGE) != types.end();
     BOLT_TRY_ASSIGN(base,
                     reference_space(stage ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL));
     if (tracked == TrackedThing::head) {
@@ -199,14 +223,25 @@ Status PoseTracker::Objects::follow_events() {
     return {};
 }
 
+// The poses of controllers are those of the last synchronization too.
+Status PoseTracker::Objects::read_button() {
+    pressed = false;
+    if (!actions || !focused) return {};
+    const XrActiveActionSet active{actions.get(), XR_NULL_PATH};
+    XrActionsSyncInfo sync{XR_TYPE_ACTIONS_SYNC_INFO};
+    sync.countActiveActionSets = 1;
+    sync.activeActionSets = &active;
+    BOLT_TRY(check(xrSyncActions(session.get(), &sync), "xrSyncActions"));
+    XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
+    info.action = press;
+    info.subactionPath = side;
+    XrActionStateBoolean state{XR_TYPE_ACTION_STATE_BOOLEAN};
+    BOLT_TRY(check(xrGetActionStateBoolean(session.get(), &info, &state), "xrGetActionStateBoolean"));
+    pressed = state.isActive == XR_TRUE && state.currentState == XR_TRUE;
+    return {};
+}
+
 Result<std::optional<Pose>> PoseTracker::Objects::locate() const {
-    if (actions && focused) {
-        const XrActiveActionSet active{actions.get(), XR_NULL_PATH};
-        XrActionsSyncInfo sync{XR_TYPE_ACTIONS_SYNC_INFO};
-        sync.countActiveActionSets = 1;
-        sync.activeActionSets = &active;
-        BOLT_TRY(check(xrSyncActions(session.get(), &sync), "xrSyncActions"));
-    }
     timespec now{};
     (void)clock_gettime(CLOCK_MONOTONIC, &now);
     XrTime time = 0;
@@ -237,8 +272,14 @@ Result<std::optional<Pose>> PoseTracker::read() {
         error.lost = true;
         return fail(std::move(error));
     }
+    objects_->pressed = false;
     if (!objects_->running) return std::optional<Pose>();
+    BOLT_TRY(objects_->read_button());
     return objects_->locate();
 }
+
+bool PoseTracker::pressed() const { return objects_->pressed; }
+
+bool PoseTracker::in_stage() const { return objects_->stage; }
 
 }  // namespace bolt::xr

@@ -1,5 +1,5 @@
 // The pose of something that the OpenXR runtime tracks, without pictures in a headset (XR_MND_headless): the
-// head of a viewer of projection walls.
+// head of a viewer of projection walls, or the controller that touches the points of a registration.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace bolt::xr {
 
-// The headset, or a controller that is fixed to the viewer's glasses: its grip pose.
+// The headset, or a controller, such as one that is fixed to the viewer's glasses: its grip pose.
 enum class TrackedThing : std::uint8_t { head, left_hand, right_hand };
 
 class PoseTracker {
@@ -25,6 +25,12 @@ class PoseTracker {
     // The pose now, in the runtime's stage, or where it has none in its local space: x right, y up, m. None:
     // it is not tracked at the moment. Fails if the runtime has ended; the tracker must then be destroyed.
     Result<std::optional<Pose>> read();
+
+    // True if the trigger of the controller, or its button that selects, was pressed at the last read().
+    [[nodiscard]] bool pressed() const;
+
+    // True if the poses are those in the stage, which is fixed in the room.
+    [[nodiscard]] bool in_stage() const;
 
   private:
     struct Objects;

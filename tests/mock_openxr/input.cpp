@@ -148,6 +148,7 @@ XrResult XRAPI_CALL sync(XrSession, const XrActionsSyncInfo* info) {
                 return refuse(s, name, XR_ERROR_ACTIONSET_NOT_ATTACHED,
                               "is called before attaching the actions");
         }
+        run_followed(s);
         session.synced_before = session.synced;
         session.synced = s.hands;
         session.has_synced = true;

@@ -33,8 +33,9 @@
 //   F headset 0|1          disconnected or connected, as the next xrGetSystem reports it
 //   F render 0|1           whether xrWaitFrame asks for pictures
 //   F fail FUNCTION RESULT COUNT                   RESULT: a number, for example -17
+//   F follow FILE          each xrSyncActions runs the commands of FILE, which have no frame numbers
 //   F picture FILE         writes the frame's pictures, side by side, as PPM, when the frame ends
-//   F exit                 the user ends the program in the headset's menu; the same as `event exit`
+//   F exit                 the user ends the program in the headset's menu: `event exit`
 #pragma once
 
 #include <openxr/openxr.h>

@@ -181,6 +181,8 @@ void run_command(State& s, const Words& words) {
         set_config(s, arguments);
     } else if (command == "report") {
         s.script.report = arguments.text();
+    } else if (command == "follow") {
+        s.script.followed = arguments.text();
     } else if (command == "head") {
         if (words.size() > 1 && (words[1] == "valid" || words[1] == "tracked"))
             set_tracked(s.head, arguments.text(), arguments);
@@ -264,6 +266,23 @@ void run_commands(State& s, std::uint64_t frame) {
             run_command(s, line->second.words);
         } catch (const std::exception& error) {
             violate(s, "script", fmt::format("{}:{}: {}", s.script.file, line->second.number, error.what()));
+        }
+    }
+}
+
+void run_followed(State& s) {
+    if (s.script.followed.empty()) return;
+    std::ifstream file(s.script.followed);
+    std::string line;
+    for (int number = 1; std::getline(file, line); ++number) {
+        std::istringstream stream(line);
+        Words words;
+        for (std::string word; stream >> word;) words.push_back(word);
+        if (words.empty()) continue;
+        try {
+            run_command(s, words);
+        } catch (const std::exception& error) {
+            violate(s, "script", fmt::format("{}:{}: {}", s.script.followed, number, error.what()));
         }
     }
 }

@@ -53,6 +53,43 @@ TEST_CASE("PoseTracker: the controller that is fixed to the glasses, of one hand
     check_same(pose_of(*left), somewhere);
 }
 
+TEST_CASE("PoseTracker: the trigger of each kind of controller, and no press while it is switched off") {
+    for (const char* profile :
+         {"/interaction_profiles/khr/simple_controller", "/interaction_profiles/oculus/touch_controller",
+          "/interaction_profiles/valve/index_controller", "/interaction_profiles/htc/vive_controller",
+          "/interaction_profiles/microsoft/motion_controller"}) {
+        CAPTURE(profile);
+        const test::MockRuntime mock;
+        mock::Hand hand;
+        hand.profile = profile;
+        mock->set_hand(mock::Side::right, hand);
+        const auto right = opened(xr::TrackedThing::right_hand);
+        (void)pose_of(*right);
+        (void)pose_of(*right);
+        CHECK(!right->pressed());
+        hand.trigger = 1.0F;
+        mock->set_hand(mock::Side::right, hand);
+        (void)pose_of(*right);
+        CHECK(right->pressed());
+        hand.active = false;
+        mock->set_hand(mock::Side::right, hand);
+        (void)pose_of(*right);
+        CHECK(!right->pressed());
+        CHECK(mock->take_violations().empty());
+    }
+}
+
+TEST_CASE("PoseTracker: tells whether its poses are those in the stage") {
+    {
+        const test::MockRuntime mock;
+        CHECK(opened(xr::TrackedThing::right_hand)->in_stage());
+    }
+    mock::Config config;
+    config.spaces = {XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL};
+    const test::MockRuntime mock(config);
+    CHECK(!opened(xr::TrackedThing::right_hand)->in_stage());
+}
+
 TEST_CASE("PoseTracker: a controller that is switched off, and a pose that is estimated, are not tracked") {
     const test::MockRuntime mock;
     mock::Hand hand;
