@@ -123,7 +123,7 @@ std::optional<PointPair> read_check_point(MemberReader& members, const json& obj
 Registration read_registration(MemberReader& members, const json& object, const std::string& at) {
     members.check_known(object, at,
                         {"from", "to", "date", "position_m", "orientation_wxyz", "points", "rms_m",
-                         "largest_left_out_m", "check_point"});
+                         "largest_left_out_m", "check_point", "tip_m"});
     Registration one;
     one.from = read_frame(members, object, at, "from");
     one.to = read_frame(members, object, at, "to");
@@ -138,6 +138,7 @@ Registration read_registration(MemberReader& members, const json& object, const 
             members.number(object, at, "largest_left_out_m", 0.0, 2.0 * max_registered_distance);
     check_residuals(members, at, one);
     one.check_point = read_check_point(members, object, at);
+    if (object.contains("tip_m")) one.tip = read_point(members, object, at, "tip_m");
     return one;
 }
 
@@ -158,6 +159,7 @@ ordered_json json_of(const Registration& one) {
         object["check_point"]["from_m"] = json_of(one.check_point->from);
         object["check_point"]["to_m"] = json_of(one.check_point->to);
     }
+    if (one.tip != Vec3(0.0)) object["tip_m"] = json_of(one.tip);
     return object;
 }
 
@@ -188,7 +190,7 @@ bool Registration::operator==(const Registration& other) const {
     return from == other.from && to == other.to && date == other.date &&
            pose.position == other.pose.position && pose.orientation == other.pose.orientation &&
            points == other.points && rms == other.rms && largest_left_out == other.largest_left_out &&
-           pair(check_point, other.check_point);
+           pair(check_point, other.check_point) && tip == other.tip;
 }
 
 bool is_utc_date(std::string_view text) {

@@ -6,7 +6,7 @@
 //   {"from": "arm", "to": "room", "date": "2026-03-02T09:15:00Z",
 //    "position_m": [0.41, 0.72, -0.3], "orientation_wxyz": [1, 0, 0, 0],
 //    "points": 7, "rms_m": 0.0012, "largest_left_out_m": 0.0031,
-//    "check_point": {"from_m": [0.05, 0, 0.02], "to_m": [0.46, 0.72, -0.28]}}
+//    "check_point": {"from_m": [0.05, 0, 0.02], "to_m": [0.46, 0.72, -0.28]}, "tip_m": [0, 0, 0.1]}
 #pragma once
 
 #include <cstdint>
@@ -49,6 +49,8 @@ struct Registration {
     std::optional<double> largest_left_out;
     // A point that was not among them, as measured in both frames. A touch of it checks the registration.
     std::optional<PointPair> check_point;
+    // m, of an arm that touched the points: its tip in the frame of its handle.
+    Vec3 tip{0.0};
     bool operator==(const Registration& other) const;
 };
 

@@ -11,7 +11,9 @@
 
 #include "content/station/point_table.hpp"
 #include "content/station/station_file.hpp"
+#include "engine/xr/pose_tracker.hpp"
 #include "game/cli/commands.hpp"
+#include "game/station/controller_tip.hpp"
 #include "game/station/frame_registration.hpp"
 #include "game/station/point_source.hpp"
 
@@ -22,8 +24,10 @@ namespace {
 using station_setup::max_check_error;
 
 struct RegisterArguments {
-    std::string file, points, device, targets, from, to = "room";
-    std::vector<double> tip{0.0, 0.0, 0.0};
+    std::string file, points, device, targets, controller, from, to = "room";
+    std::vector<double> tip{};  // empty: the stored one for --check, or the origin of the handle
+    std::vector<double> controller_tip{0.0, 0.0, 0.0};
+    std::size_t count = 7;
     bool check = false, force = false, yes = false;
 };
 
@@ -84,35 +88,79 @@ Result<std::string> arm_of(const RegisterArguments& options, const content::Stat
     return station.arm->device;
 }
 
-// Measures the targets with the tip of the station's arm.
-Result<std::vector<PointPair>> touch(const RegisterArguments& options, const content::StationFile& station,
-                                     std::span<const Vec3> targets) {
+void show_line(std::string_view line) { fmt::print(stderr, "{}\n", line); }
+
+Vec3 point_of(const std::vector<double>& option) {
+    return option.empty() ? Vec3(0.0) : Vec3(option[0], option[1], option[2]);
+}
+
+// Opens the station's arm, whose tip touches points.
+Result<OpenDevice> open_arm(const RegisterArguments& options, const content::StationFile& station) {
     BOLT_TRY_ASSIGN(const std::string id, arm_of(options, station));
     device::OpenOptions opening;
     opening.effector_mass = station.arm->effector_mass;
     BOLT_TRY_ASSIGN(OpenDevice device, open_device(id, opening, options.yes));
-    const Vec3 tip(options.tip[0], options.tip[1], options.tip[2]);
     if (device.description->sensing != device::Sensing::pose)
         return fail(ErrorCode::no_device, fmt::format("{} senses no position", id), "a force-feedback arm");
-    if (!device.description->senses_rotation && tip != Vec3(0.0))
+    if (!device.description->senses_rotation && point_of(options.tip) != Vec3(0.0))
         return fail(ErrorCode::usage, fmt::format("--tip: {} senses no rotation of its handle", id),
                     "its own point, without --tip");
+    return device;
+}
+
+// The arm's side of a touch; the arguments must outlive it.
+station_setup::TouchIo arm_io(OpenDevice& device, EnterKey& enter) {
+    return {[&device] { return device.thread.snapshot(); }, [&enter] { return enter.pressed(); },
+            [] { return interrupted(); }, show_line, device::steady_timer()};
+}
+
+// Measures the targets with the tip of the station's arm.
+Result<std::vector<PointPair>> touch(const RegisterArguments& options, const content::StationFile& station,
+                                     std::span<const Vec3> targets) {
+    BOLT_TRY_ASSIGN(OpenDevice device, open_arm(options, station));
     catch_interruption();
     EnterKey enter;
-    station_setup::ArmTip source(
-        {[&] { return device.thread.snapshot(); }, [&] { return enter.pressed(); },
-         [] { return interrupted(); }, [](std::string_view line) { fmt::print(stderr, "{}\n", line); },
-         device::steady_timer()},
-        tip);
+    station_setup::ArmTip source(arm_io(device, enter), point_of(options.tip));
     return station_setup::measure_points(source, targets);
+}
+
+// Opens the tracker of the controller. Only the stage is fixed in the room.
+Result<std::unique_ptr<xr::PoseTracker>> open_controller(const std::string& side) {
+    BOLT_TRY_ASSIGN(auto tracker, xr::PoseTracker::open(side == "left" ? xr::TrackedThing::left_hand
+                                                                       : xr::TrackedThing::right_hand));
+    if (!tracker->in_stage())
+        return fail(ErrorCode::no_device, "the headset has no stage, so its poses are not fixed in the room",
+                    "one whose room is set up");
+    return tracker;
+}
+
+// Measures `count` points with the controller and with the tip of the station's arm.
+Result<std::vector<PointPair>> touch_with_both(const RegisterArguments& options,
+                                               const content::StationFile& station, std::size_t count) {
+    BOLT_TRY(arm_of(options, station));  // a mistake in the file is reported before any device is opened
+    BOLT_TRY_ASSIGN(const auto tracker, open_controller(options.controller));
+    BOLT_TRY_ASSIGN(OpenDevice device, open_arm(options, station));
+    catch_interruption();
+    EnterKey enter;
+    station_setup::ArmTip arm(arm_io(device, enter), point_of(options.tip));
+    const auto read = [&]() -> Result<station_setup::ControllerSample> {
+        BOLT_TRY_ASSIGN(const std::optional<Pose> pose, tracker->read());
+        return station_setup::ControllerSample{pose, tracker->pressed()};
+    };
+    station_setup::ControllerTip controller({read, [&] { return enter.pressed(); },
+                                             [] { return interrupted(); }, show_line, device::steady_timer()},
+                                            point_of(options.controller_tip));
+    return station_setup::measure_pairs(arm, controller, count);
 }
 
 Result<std::vector<PointPair>> measured_pairs(const RegisterArguments& options,
                                               const content::StationFile& station) {
     if (!options.points.empty()) return content::load_point_pairs(options.points);
+    if (!options.controller.empty()) return touch_with_both(options, station, options.count);
     if (options.targets.empty())
         return fail(ErrorCode::usage, "the points to touch are not given",
-                    "--targets FILE, or --points FILE with points that a tracker has measured");
+                    "--targets FILE, --controller SIDE, or --points FILE with points that a tracker has "
+                    "measured");
     BOLT_TRY_ASSIGN(const std::vector<Vec3> targets, content::load_points(options.targets));
     if (targets.size() < 4)
         return fail(ErrorCode::bad_content,
@@ -133,7 +181,8 @@ Status register_station(const RegisterArguments& options) {
     BOLT_TRY_ASSIGN(const content::StationFile station, content::load_station(options.file));
     BOLT_TRY_ASSIGN(const std::vector<PointPair> pairs, measured_pairs(options, station));
     const std::string date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-    BOLT_TRY_ASSIGN(const auto measured, station_setup::register_frames(frames.from, frames.to, pairs, date));
+    BOLT_TRY_ASSIGN(auto measured, station_setup::register_frames(frames.from, frames.to, pairs, date));
+    measured.registration.tip = point_of(options.tip);
     std::string text = station_setup::describe(measured);
     for (const std::string& warning : station_setup::warnings_of(measured))
         text += fmt::format("  warning: {}\n", warning);
@@ -149,9 +198,9 @@ Status register_station(const RegisterArguments& options) {
     return print(fmt::format("{}: stored\n", options.file));
 }
 
-// Compares the stored registration with a touch of its check point, or with the points of a file. Fails if
-// one is off by more than max_check_error.
-Status check_registration(const RegisterArguments& options) {
+// Compares the stored registration with a touch of its check point, with a point that the arm and a
+// controller touch, or with the points of a file. Fails if one is off by more than max_check_error.
+Status check_registration(RegisterArguments options) {
     BOLT_TRY_ASSIGN(const FramePair frames, frames_of(options));
     BOLT_TRY_ASSIGN(const content::StationFile station, content::load_station(options.file));
     auto found = station_setup::registration_from(station.registrations, frames.from, frames.to);
@@ -159,14 +208,18 @@ Status check_registration(const RegisterArguments& options) {
         found.error().file = options.file;
         return fail(found.error());
     }
+    if (options.tip.empty()) options.tip = {found->tip.x, found->tip.y, found->tip.z};
     std::vector<PointPair> pairs;
     if (!options.points.empty()) {
         BOLT_TRY_ASSIGN(pairs, content::load_point_pairs(options.points));
+    } else if (!options.controller.empty()) {
+        BOLT_TRY_ASSIGN(pairs, touch_with_both(options, station, 1));
     } else if (found->check_point) {
         BOLT_TRY_ASSIGN(pairs, touch(options, station, std::array{found->check_point->to}));
     }
     if (pairs.empty())
-        return fail(ErrorCode::bad_content, "there is no point to check", "a check point, or --points FILE");
+        return fail(ErrorCode::bad_content, "there is no point to check",
+                    "a check point, --controller SIDE, or --points FILE");
     double most = 0.0;
     for (const PointPair& pair : pairs) most = std::max(most, glm::length(found->pose * pair.from - pair.to));
     const std::string text = fmt::format("{} -> {} of {}: off by {:.1f} mm", content::name(frames.from),
@@ -179,6 +232,40 @@ Status check_registration(const RegisterArguments& options) {
 
 }  // namespace
 
+// The options of the two tools that touch points.
+void add_touch_options(CLI::App& command, RegisterArguments& options, CLI::Option* points) {
+    command
+        .add_option("--device", options.device,
+                    "Id of the arm whose tip touches the points; default: that of the station file")
+        ->excludes(points);
+    CLI::Option* targets = command.add_option(
+        "--targets", options.targets,
+        "CSV file with the title x,y,z: the points to touch, m, in the second frame; the last is "
+        "the check point");
+    targets->excludes(points);
+    const auto add_tip = [&](const char* name, std::vector<double>& tip, const char* text) {
+        return command.add_option(name, tip, text)->delimiter(',')->expected(3)->check(CLI::Range(-1.0, 1.0));
+    };
+    add_tip("--tip", options.tip,
+            "Position x,y,z of the tip in the frame of the handle, m; default: 0,0,0, with --check that of "
+            "the registration")
+        ->excludes(points);
+    CLI::Option* controller = command.add_option(
+        "--controller", options.controller,
+        "left or right: the headset's controller that touches each point of the user's choice before the arm "
+        "does; no file of points is needed");
+    controller->check(CLI::IsMember({"left", "right"}))->excludes(points)->excludes(targets);
+    add_tip("--controller-tip", options.controller_tip,
+            "Position x,y,z of the controller's tip in the frame of its grip, m")
+        ->needs(controller);
+    command
+        .add_option("--count", options.count,
+                    "Number of points to touch with the controller and the arm; the last is the check point")
+        ->capture_default_str()
+        ->check(CLI::Range(4, 100))
+        ->needs(controller);
+}
+
 void add_station_register(CLI::App& station, int& exit_code) {
     auto options = std::make_shared<RegisterArguments>();
     CLI::App* command = station.add_subcommand(
@@ -189,28 +276,16 @@ void add_station_register(CLI::App& station, int& exit_code) {
         "--points", options->points,
         "CSV file with the title ax,ay,az,bx,by,bz: points in the first frame and in the second, m; the last "
         "is the check point");
-    command
-        ->add_option("--device", options->device,
-                     "Id of the arm whose tip touches the points; default: that of the station file")
-        ->excludes(points);
-    command
-        ->add_option(
-            "--targets", options->targets,
-            "CSV file with the title x,y,z: the points to touch, m, in the second frame; the last is "
-            "the check point")
-        ->excludes(points);
-    command->add_option("--tip", options->tip, "Position x,y,z of the tip in the frame of the handle, m")
-        ->delimiter(',')
-        ->expected(3)
-        ->check(CLI::Range(-1.0, 1.0))
-        ->excludes(points);
+    add_touch_options(*command, *options, points);
     command->add_option("--from", options->from,
                         "The first frame: arm, wheel, tracker, wall, workpiece or room; default: arm, with "
                         "--points tracker");
     command->add_option("--to", options->to, "The second frame")->capture_default_str();
-    command->add_flag("--check", options->check,
-                      "Store nothing; touch the check point, or compare --points: exit code 0 if the stored "
-                      "registration is right to 5 mm, 1 if it is not");
+    command->add_flag(
+        "--check", options->check,
+        "Store nothing; touch the check point, with --controller a point of the user's choice, or "
+        "compare --points: exit code 0 if the stored registration is right to 5 mm, 1 if it is "
+        "not");
     command->add_flag("--force", options->force,
                       "Store it even if an rms of 4 mm or a check point of 5 mm is exceeded");
     command->add_flag("--yes", options->yes,

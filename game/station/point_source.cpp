@@ -55,6 +55,7 @@ Result<device::DeviceSnapshot> ArmTip::next_snapshot() {
 
 Status ArmTip::wait_for_press() {
     (void)io_.confirmed();  // an Enter from before is no confirmation
+    buttons_ = ~0U;         // and a button that is held from before is no press
     while (true) {
         BOLT_TRY_ASSIGN(const device::DeviceSnapshot snapshot, next_snapshot());
         const bool fresh = snapshot.usable && snapshot.number != sample_;
@@ -78,11 +79,16 @@ Result<std::vector<Vec3>> ArmTip::positions() {
 }
 
 Result<Vec3> ArmTip::measure(std::size_t number, std::size_t count, const Vec3& target) {
+    return touch(number,
+                 fmt::format("Point {} of {}: touch ({:.3f}, {:.3f}, {:.3f}) m, hold still, and press "
+                             "a button of the arm or Enter.",
+                             number + 1, count, target.x, target.y, target.z));
+}
+
+Result<Vec3> ArmTip::touch(std::size_t number, std::string_view request) {
+    sample_time_ = io_.timer.now();  // samples were not read between two points
     while (true) {
-        io_.show(
-            fmt::format("Point {} of {}: touch ({:.3f}, {:.3f}, {:.3f}) m, hold still, and press a button "
-                        "of the arm or Enter.",
-                        number + 1, count, target.x, target.y, target.z));
+        io_.show(request);
         BOLT_TRY(wait_for_press());
         BOLT_TRY_ASSIGN(const std::vector<Vec3> touched, positions());
         Result<Vec3> mean = average_touch(touched, options_);

@@ -56,6 +56,9 @@ class ArmTip final : public PointSource {
     ArmTip(TouchIo io, const Vec3& tip, const TouchOptions& options = {});
     Result<Vec3> measure(std::size_t number, std::size_t count, const Vec3& target) override;
 
+    // Shows `request` and waits until point `number`, from 0, is measured.
+    Result<Vec3> touch(std::size_t number, std::string_view request);
+
   private:
     Status wait_for_press();
     Result<std::vector<Vec3>> positions();
@@ -64,7 +67,7 @@ class ArmTip final : public PointSource {
     TouchIo io_;
     Vec3 tip_;
     TouchOptions options_;
-    std::uint32_t buttons_ = ~0U;  // pressed at the last look; a button that is held from before is no press
+    std::uint32_t buttons_ = ~0U;  // of the last sample
     std::uint64_t sample_ = 0;     // number of the last sample
     double sample_time_ = 0.0;     // s, when it arrived
 };

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Registration of a station's frames: from files, and with the tip of an emulated arm. register.sh BIN SOURCES.
+# Registration of a station's frames: from files, with the tip of an emulated arm, and with a controller of the mock OpenXR
+# runtime. register.sh BIN SOURCES.
 . "$(dirname "$0")/checks.sh"
 arm=force-dimension:0
 library=lib/release/lin-x86_64-gcc/libdrd.so.3
@@ -60,6 +61,13 @@ expect 2 'are both "room"' "${run[@]}" s.json --points pairs.csv --from room
 expect 2 'excludes' "${run[@]}" s.json --points pairs.csv --device $arm
 expect 2 'an arm touches the points; expected --from arm' "${run[@]}" s.json --from tracker
 expect 2 'the points to touch are not given; expected --targets FILE' "${run[@]}" s.json
+expect 2 'excludes' "${run[@]}" s.json --controller right --targets points.csv
+expect 2 'requires --controller' "${run[@]}" s.json --targets points.csv --count 8
+expect 2 'not in \{left,right\}' "${run[@]}" s.json --controller both
+expect 2 'not in range' "${run[@]}" s.json --controller left --count 3
+expect 4 'no OpenXR runtime' env XR_RUNTIME_JSON=/nowhere.json "${run[@]}" s.json --controller left
+echo '{"format": "boltwright station 1"}' > armless.json
+expect 3 'armless.json: the station has no "arm"' "${run[@]}" armless.json --controller left
 expect 3 'few.csv: 3 points are too few' bash -c 'head -4 points.csv > few.csv; "$@"' - "${run[@]}" s.json --targets few.csv
 expect 3 'has no registration between "arm" and "room"' "${run[@]}" s.json --check
 expect 2 'the station.s "arm" is force-dimension:0; expected that device' "${run[@]}" s.json --targets points.csv --device haply:0
@@ -126,4 +134,93 @@ wait $player
 check 'its exit code is 1' test $? = 1
 player=
 check 'and is stated' grep -q 'the registration was interrupted' log
+
+# With a controller and the arm. The tip of the controller is 0.1 m before its grip, which is turned by 90 degrees about y, so the grip is
+# 0.1 m behind the point along x. The frame of the arm is turned and moved as above.
+export XR_RUNTIME_JSON=${bin%/bin}/mock_openxr/mock_openxr.json
+cat > lacking.txt <<< '0 config without XR_MND_headless'
+MOCK_OPENXR_SCRIPT=lacking.txt expect 4 'cannot track without a headset.s pictures: it lacks XR_MND_headless' "${run[@]}" s.json --controller right
+cat > script.txt <<END
+0 report $work/report.txt
+0 follow $work/controller
+END
+export MOCK_OPENXR_SCRIPT=$work/script.txt
+control() {  # control COMMAND...: commands of the mock runtime, one an argument
+    printf '%s\n' "$@" > controller.new
+    mv controller.new controller
+}
+hold() {  # hold X Y Z TRIGGER: the tip of the right controller at a point of the room
+    control 'hand right active 1' "hand right grip $(awk "BEGIN { print $1 + 0.1 }") $2 $3 0 0.7071067811865476 0 0.7071067811865476" "hand right trigger $4"
+}
+asked_for() { grep -q "^Point $1 of .*: touch .* with the tip of the $2" log; }
+touch_with_both() {  # touch_with_both NUMBER X Y Z AX AY AZ: a point of the room with the controller, one of the arm with the arm
+    place 0 0 0 0
+    check "point $1 is asked for with the controller" eventually asked_for "$1" controller
+    hold "$2" "$3" "$4" 0
+    sleep 0.1
+    hold "$2" "$3" "$4" 1
+    check "point $1 is measured with the controller" eventually grep -q "^Point $1: measured with the controller" log
+    check "point $1 is asked for with the arm" eventually asked_for "$1" arm
+    place "$5" "$6" "$7" 0
+    sleep 0.1
+    place "$5" "$6" "$7" 1
+    check "point $1 is measured with the arm" eventually grep -qx "Point $1: measured." log
+}
+start() {  # start OPTION...: registers in the background
+    : > log
+    place 0 0 0 0
+    "${run[@]}" s.json --controller right --controller-tip 0,0,-0.1 "$@" < /dev/null > out.txt 2> log &
+    player=$!
+}
+cp old.json s.json
+control 'hand right active 0'
+start
+check 'a controller that is switched off is reported' eventually grep -q 'The controller is not tracked' log
+hold 0 0 0 0
+check 'and waited for' eventually grep -q 'The controller is tracked again' log
+number=0
+while IFS=, read -r x y z tx ty tz; do
+    number=$((number + 1))
+    touch_with_both $number "$tx" "$ty" "$tz" "$x" "$y" "$z"
+done < <(tail -n +2 pairs.csv)
+check 'the arm is registered with the controller' wait $player
+player=
+check 'its points fit too' grep -q 'arm -> room, 6 points' out.txt
+check 'their rms is zero' grep -qE 'rms 0\.0 mm' out.txt
+check 'the position of the arm is that in the room' python3 - s.json <<'END'
+import json, sys
+one = json.load(open(sys.argv[1]))["registrations"][0]
+assert (one["from"], one["to"]) == ("arm", "room"), one
+assert all(abs(a - b) < 1e-4 for a, b in zip(one["position_m"], (1, 2, 3))), one
+assert abs(one["orientation_wxyz"][0] - 0.5 ** 0.5) < 1e-3 and abs(one["orientation_wxyz"][3] - 0.5 ** 0.5) < 1e-3, one
+END
+
+# One point checks it, of the user's choice.
+start --check
+touch_with_both 1 0.98 2.01 3.02 0.01 0.02 0.02
+check 'a point that both touch is right' wait $player
+check 'with its error' grep -q 'off by 0.0 mm' out.txt
+start --check
+touch_with_both 1 0.98 2.01 3.02 0.01 0.02 0.026
+wait $player
+check 'exit code 1 for two points' test $? = 1
+check 'with their distance' grep -q 'off by 6.0 mm; expected at most 5 mm; register it again' log
+
+# An interruption and a runtime that ends stop it, also while a controller is not tracked.
+control 'hand right active 0'
+start
+check 'a hidden controller is reported' eventually grep -q 'The controller is not tracked' log
+kill -INT $player
+wait $player
+check 'an interrupted registration has exit code 1' test $? = 1
+check 'and says so' grep -q 'the registration was interrupted' log
+hold 0 0 0 0
+start
+check 'a first point is asked for' eventually asked_for 1 controller
+control 'event instance_loss'
+wait $player
+check 'exit code 4 if the runtime ends' test $? = 4
+player=
+check 'with the reason' grep -q 'the OpenXR runtime has ended' log
+check 'the rules of OpenXR are kept' bash -c '! grep violation report.txt'
 finish_checks

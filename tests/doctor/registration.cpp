@@ -127,6 +127,19 @@ TEST_CASE("Arm tip: an arm that is lost, and a user who ends it, end the wait") 
     CHECK(ArmTip(ended.io(), {}).measure(0, 1, {}).error().message() == "the registration was interrupted");
 }
 
+TEST_CASE("Arm tip: after a pause, a button that was pressed in it is no press, and the arm is not lost") {
+    ScriptedArm arm;
+    arm.script = {{0.5, first, 0},  {0.6, first, 1},  {4.0, first, 0},
+                  {6.0, second, 1}, {6.5, second, 0}, {9.0, second, 1}};
+    ArmTip tip(arm.io(), {});
+    REQUIRE(tip.touch(0, "Touch."));
+    arm.time.now = 5.0;
+    const auto measured = tip.touch(1, "Touch.");
+    REQUIRE_MESSAGE(measured, (measured ? "" : measured.error().message()));
+    CHECK(arm.time.now == doctest::Approx(6.5 + TouchOptions{}.duration).epsilon(0.01));
+    CHECK(glm::length(*measured - second.position) < 1e-12);
+}
+
 TEST_CASE("Arm tip: a touch is the mean of positions that stay together") {
     Random random(3);
     std::vector<Vec3> positions;

@@ -35,7 +35,8 @@ const char* const everything = R"({
   "registrations": [
     {"from": "arm", "to": "room", "date": "2026-03-02T09:15:00Z", "position_m": [0.4, 0.7, -0.3],
      "orientation_wxyz": [0.6, 0, 0.8, 0], "points": 7, "rms_m": 0.001, "largest_left_out_m": 0.003,
-     "check_point": {"from_m": [0.05, 0, 0.02], "to_m": [0.41, 0.7, -0.35]}}
+     "check_point": {"from_m": [0.05, 0, 0.02], "to_m": [0.41, 0.7, -0.35]},
+     "tip_m": [0, 0.01, 0.12]}
   ]
 })";
 
@@ -94,6 +95,7 @@ Registration any_registration(Random& random, CoordinateFrame from) {
     one.rms = random.uniform(0.0, 0.01);
     if (random.chance(0.5)) one.largest_left_out = random.uniform(0.01, 0.02);
     if (random.chance(0.5)) one.check_point = PointPair{point(), point()};
+    if (random.chance(0.5)) one.tip = point();
     return one;
 }
 
@@ -183,6 +185,7 @@ TEST_CASE("Station file: every member is read, and absent ones keep their defaul
     REQUIRE(one.check_point);
     CHECK(one.check_point->from == Vec3(0.05, 0.0, 0.02));
     CHECK(one.check_point->to == Vec3(0.41, 0.7, -0.35));
+    CHECK(one.tip == Vec3(0.0, 0.01, 0.12));
 
     const Result<StationFile> bare = parsed("");
     REQUIRE(bare);
@@ -299,7 +302,7 @@ TEST_CASE("Station file: the schema has exactly the members and bounds of the re
                           CHECK(!reads(other));
                       }
                   });
-    CHECK(count == 51);
+    CHECK(count == 52);
     // No member of the reader is missing in the schema: the file with every member has no others.
     const std::function<void(const json&, const json&)> check = [&](const json& value, const json& node) {
         const json& rule = node.contains("$ref")
@@ -323,9 +326,10 @@ TEST_CASE("Station file: the schema has exactly the members and bounds of the re
         for (const auto& [name, member] : value.items()) {
             json without = all;
             without.at(at).erase(name);
-            const bool needed = name == "format" || name == "device" || name == "port" || name == "from_m" ||
-                                name == "to_m" ||
-                                (registers && name != "largest_left_out_m" && name != "check_point");
+            const bool needed =
+                name == "format" || name == "device" || name == "port" || name == "from_m" ||
+                name == "to_m" ||
+                (registers && name != "largest_left_out_m" && name != "check_point" && name != "tip_m");
             CAPTURE((at / name).to_string());
             CHECK(reads(without) == !needed);
             required(member, at / name);

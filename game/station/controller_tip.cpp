@@ -1,0 +1,91 @@
+#include "game/station/controller_tip.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace bolt::station_setup {
+
+namespace {
+
+constexpr double controller_period = 5e-3;  // s; trackers send about 100 poses a second or more
+
+}  // namespace
+
+ControllerTip::ControllerTip(ControllerIo io, const Vec3& tip, const TouchOptions& options)
+    : io_(std::move(io)), tip_(tip), options_(options) {}
+
+// Waits for one poll.
+Result<ControllerSample> ControllerTip::next_sample() {
+    io_.timer.wait(controller_period);
+    if (io_.stop()) return fail(ErrorCode::failed, "the registration was interrupted");
+    return io_.read();
+}
+
+// A press while the controller is not tracked measures no position, so the reason is shown once more.
+Status ControllerTip::wait_for_press() {
+    (void)io_.confirmed();  // an Enter from before is no confirmation
+    bool held = true;       // a button that is held from before is no press
+    bool shown = false;     // the user knows that the controller is not tracked
+    double tracked_time = io_.timer.now();
+    while (true) {
+        BOLT_TRY_ASSIGN(const ControllerSample sample, next_sample());
+        const bool was_held = std::exchange(held, sample.pressed);
+        const bool pressed = (sample.pressed && !was_held) || io_.confirmed();
+        if (sample.pose) {
+            if (std::exchange(shown, false)) io_.show("The controller is tracked again.");
+            tracked_time = io_.timer.now();
+            if (pressed) return {};
+        } else if (pressed || (!shown && io_.timer.now() - tracked_time > options_.max_silence)) {
+            io_.show("The controller is not tracked: switch it on, and hold it where the headset sees it.");
+            shown = true;
+        }
+    }
+}
+
+// Empty if the controller was not tracked for a moment: the poses around such a gap are unreliable.
+Result<std::vector<Vec3>> ControllerTip::positions() {
+    std::vector<Vec3> positions;
+    bool tracked = true;
+    for (const double end = io_.timer.now() + options_.duration; io_.timer.now() < end;) {
+        BOLT_TRY_ASSIGN(const ControllerSample sample, next_sample());
+        tracked = tracked && sample.pose;
+        if (sample.pose) positions.push_back(*sample.pose * tip_);
+    }
+    if (!tracked) positions.clear();
+    return positions;
+}
+
+Result<Vec3> ControllerTip::touch(std::size_t number, std::string_view request) {
+    while (true) {
+        io_.show(request);
+        BOLT_TRY(wait_for_press());
+        BOLT_TRY_ASSIGN(const std::vector<Vec3> touched, positions());
+        Result<Vec3> mean = average_touch(touched, options_);
+        if (mean) {
+            io_.show(fmt::format("Point {}: measured with the controller.", number + 1));
+            return mean;
+        }
+        io_.show(fmt::format(
+            "Point {}: {}. Once more.", number + 1,
+            touched.empty() ? "the controller was not tracked all the time" : mean.error().message()));
+    }
+}
+
+Result<std::vector<PointPair>> measure_pairs(ArmTip& arm, ControllerTip& controller, std::size_t count) {
+    std::vector<PointPair> pairs;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string point = fmt::format("Point {} of {}: ", i + 1, count);
+        BOLT_TRY_ASSIGN(
+            const Vec3 to,
+            controller.touch(i, point + "touch a point with the tip of the controller, hold still, "
+                                        "and press its trigger or Enter."));
+        BOLT_TRY_ASSIGN(const Vec3 from,
+                        arm.touch(i, point + "touch the same point with the tip of the arm, hold still, and "
+                                             "press a button of the arm or Enter."));
+        pairs.push_back({from, to});
+    }
+    return pairs;
+}
+
+}  // namespace bolt::station_setup
