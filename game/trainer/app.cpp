@@ -202,6 +202,8 @@ void App::perform(ScreenAction action) {
             return;
         case ScreenAction::cancel_start:
             return cancel_start();
+        case ScreenAction::end_touch_check:
+            return end_touch_check();
         case ScreenAction::select_trainee:
             return select_trainee();
         case ScreenAction::quit:
@@ -231,8 +233,8 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
                 {},
                 {}};
     if (in_room()) frame.room = room_input(*window.immersion);
-    const bool waits_for_arm = active.station && active.station->waits_for_arm;
-    if (frame.input.triggered(Action::pause) && in_lesson && !waits_for_arm)
+    const bool waits = (active.station && active.station->waits_for_arm) || (room_ && room_->touch);
+    if (frame.input.triggered(Action::pause) && in_lesson && !waits)
         active.clock.paused = !active.clock.paused;
     full_screen_requested_ = full_screen_requested_ || frame.input.triggered(Action::full_screen);
     const bool had_wrench = hand_of(active).wrench;
@@ -245,6 +247,8 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
     timed("pointer", [&] { handle_input(active.workplace.world, frame); });
     ecs::run(frame_systems, active.workplace.world, frame, timed);
     if (tour_ && in_lesson) trainer::update(*tour_, frame);
+    if (room_ && room_->touch && waits_for_touch(*room_->touch))
+        show_touch_marker(active.scene, gpu_->models->arrows, scene_in_room(), room_->touch->marker);
 
     const double dt = active.session->setup().dt;
     if (hand_of(active).wrench != had_wrench)
@@ -270,6 +274,8 @@ void App::draw_screen(const ScreenContext& context) {
         perform(action);
     } else if (starter_ || arm_screen_.needs.any()) {
         perform(draw_arm(context, arm_screen_));
+    } else if (in_lesson && room_ && room_->touch) {
+        perform(draw_touch_check(context, *room_->touch));
     } else if (in_lesson && active_->clock.paused) {
         perform(draw_pause(context, preferences_, active_->session->lesson().mode));
     } else if (screen_ == ShownScreen::menu) {
@@ -352,6 +358,7 @@ Status App::update(const view::WindowFrame& window) {
     input_.seconds = window.seconds;
     if (active_) BOLT_TRY(run_systems(picture, window));
     follow_arm(events, window.seconds, enter_starts);
+    follow_touch_check(events, window.seconds, enter_starts);
     if (close_settings) perform(ScreenAction::close_settings);
     for (const platform::InputEvent& event : events) {
         closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event);

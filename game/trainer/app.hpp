@@ -119,6 +119,8 @@ class App : public view::WindowContent {
     void pause_unseen(bool seen);
     void place_in_room(const view::Immersion& immersion);
     void find_arm(const view::Immersion& immersion);
+    void follow_touch_check(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);
+    void end_touch_check();
     [[nodiscard]] RoomInput room_input(const view::Immersion& immersion) const;
     void follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events);
     [[nodiscard]] Pose scene_in_room() const;

@@ -70,11 +70,13 @@ void App::find_arm(const view::Immersion& immersion) {
     Room& room = *room_;
     if (!active_ || !active_->station) {
         room.arm.reset();
+        room.touch.reset();
         room.arm_lesson = 0;
         return;
     }
     if (std::exchange(room.arm_lesson, lesson_number_) == lesson_number_) return;
     room.arm.reset();
+    room.touch.reset();
     const content::Registration* found =
         content::find_registration(context_->choice.equipment.station.registrations,
                                    content::CoordinateFrame::arm, content::CoordinateFrame::room);
@@ -97,6 +99,37 @@ void App::find_arm(const view::Immersion& immersion) {
         "the picture is where the arm feels: registered on {} with {:.1f} mm rms; `boltwright station "
         "register FILE --check` checks it",
         found->date, found->rms / mm));
+    if (!room.touch_asked && active_->session->time() == 0.0) room.touch = touch_check_of(*found);
+    if (room.touch) active_->clock.paused = true;
+}
+
+// The touch that checks the registration: the lesson stays paused, and the user's answer is performed.
+void App::follow_touch_check(std::span<const platform::InputEvent> events, double seconds,
+                             bool enter_answers) {
+    if (!room_ || !room_->touch) return;
+    if (!active_ || screen_ != ShownScreen::lesson || !active_->station) return room_->touch.reset();
+    TouchCheck& touch = *room_->touch;
+    active_->clock.paused = true;
+    if (settings_ || arm_screen_.needs.any()) {  // another screen covers it
+        touch.held = ~0U;
+        return;
+    }
+    const TouchAnswer answer = answer_of(touch, events, enter_answers);
+    const bool asked = waits_for_touch(touch);
+    const bool started = trainer::update(touch, active_->station->latest.mover, answer.confirmed, seconds);
+    if (asked && !waits_for_touch(touch))
+        log(fmt::format("a touch of the registration's check point is off by {:.1f} mm{}", touch.error / mm,
+                        touch.phase == TouchPhase::wrong ? "; register the arm again" : ""));
+    if (started || answer.ended) end_touch_check();
+}
+
+// The lesson begins, unless its user does not see it.
+void App::end_touch_check() {
+    if (!room_ || !room_->touch) return;
+    if (waits_for_touch(*room_->touch)) log("the check of the arm's registration was skipped");
+    room_->touch.reset();
+    room_->touch_asked = true;
+    active_->clock.paused = room_->paused = !room_->seen;
 }
 
 // Places panel and workpiece if they have no place yet.
@@ -131,7 +164,10 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     room.shown = immersion->tracks_hands || !active_ || options_.choice.equipment.has_hardware();
     room.seen = immersion->attentive;
     if (immersion->tracks_hands) offer_tracked_hand(menu_.devices);
-    if (immersion->recentred) room.panel = room.workpiece = std::nullopt;
+    if (immersion->recentred) {
+        room.panel = room.workpiece = std::nullopt;
+        room.touch_asked = false;  // the registration may be wrong from now on
+    }
     place_in_room(*immersion);
     if (!room.shown) return;
     if (immersion->tracks_hands) {

@@ -12,6 +12,7 @@
 #include "engine/render/gpu_model.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/render/scene.hpp"
+#include "game/trainer/touch_check.hpp"
 #include "game/view/immersion.hpp"
 
 namespace bolt::trainer {
@@ -41,10 +42,12 @@ struct Room {
     // The arm's frame in the room, if the station file has the registration and the arm's scale is 1; else
     // the workpiece stands where the user looks.
     std::optional<Pose> arm;
-    std::uint32_t arm_lesson = 0;  // number of the lesson in which that was decided; 0: none
-    bool shown = false;            // the display surrounds the user in this frame
-    bool seen = false;             // the user saw the lesson in the last frame
-    bool paused = false;           // the lesson is paused because the user does not see it
+    std::uint32_t arm_lesson = 0;     // number of the lesson in which that was decided; 0: none
+    std::optional<TouchCheck> touch;  // checks that registration before the lesson begins
+    bool touch_asked = false;         // it was checked or skipped since the room was centred
+    bool shown = false;               // the display surrounds the user in this frame
+    bool seen = false;                // the user saw the lesson in the last frame
+    bool paused = false;              // the lesson is paused because the user does not see it
 };
 
 // Where the workpiece stands when the user looks straight ahead: in front, on a bench whose floor is the

@@ -31,7 +31,8 @@ enum class ScreenAction : std::uint8_t {
     close_page,
     permit_move,  // the arm may move by itself
     cancel_start,
-    select_trainee,  // LessonChoice::trainee was edited
+    end_touch_check,  // skips it, or starts the lesson after its result
+    select_trainee,   // LessonChoice::trainee was edited
     quit,
 };
 

@@ -420,6 +420,8 @@ StationStep step(const DeviceLayout& layout, const servo::Setup& setup, StationS
     done.tick.output = s.output;
     done.tick.commanded_tool = s.workspace.commanded_tool;
     done.tick.mover_in_assembly = force::device_in_assembly(layout.workspace, s.workspace);
+    if (layout.mover && layout.mover->sensing == Sensing::pose && s.mover.usable)
+        done.tick.mover = HeldMover{s.mover_pose, inputs.mover.sample.buttons};
     done.tick.resting_wrench = s.resting_wrench;
     done.tick.dead_man_pressed = s.dead_man_pressed;
     done.tick.gripper = s.gripper;

@@ -204,6 +204,12 @@ inline constexpr double handle_capture_distance = 0.10;  // m from the handle's 
 DeviceCommands pause_tick(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                           const StationInputs& inputs);
 
+// A device that senses the pose of the hand, as the hand holds it.
+struct HeldMover {
+    Pose pose;  // in the frame of the device
+    std::uint32_t buttons = 0;
+};
+
 // One tick, for recording.
 struct StationTick {
     std::uint64_t number = 0;  // of the servo's deadline; missed ones are counted
@@ -213,6 +219,9 @@ struct StationTick {
     // Pose of the mover's frame in the assembly's. At a scale of 1 it takes the position of the hand to the
     // point where the hand holds the tool. It moves with the clutch.
     Pose mover_in_assembly;
+    // The mover's last pose in its own frame and its buttons, also in a pause; none without a mover that
+    // senses its pose, and while that sends no samples.
+    std::optional<HeldMover> mover;
     // Pose of the wrench while no hand holds it (StationControls::wrench_rest_pose).
     std::optional<Pose> resting_wrench;
     bool dead_man_pressed = false;  // by a button or the gripper of a device

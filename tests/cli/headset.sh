@@ -81,4 +81,33 @@ kill -INT $player
 check 'the program ends in order' wait $player
 player=
 check 'one line tells of the absence' test "$(grep -c 'no OpenXR runtime' log)" = 1
+
+# A lesson with an arm that is registered to the room begins after a touch of the check point. The axes of the emulated arm are x to the
+# user, y to the right, z up.
+library=lib/release/lin-x86_64-gcc/libdrd.so.3
+mkdir -p "sdk/${library%/*}"
+cp "${bin%/bin}/emulated/force_dimension/libdrd.so.3" "sdk/$library"
+export XR_RUNTIME_JSON=$manifest FDSDK=$work/sdk EMULATED_ARM_INITIALIZED=1 EMULATED_ARM_HAND=$work/hand
+place() {  # place X Y Z BUTTONS: holds the handle at a point of the frame "arm"
+    echo "$3 $1 $2 $4" > hand.new
+    mv hand.new hand
+}
+cat >station.json <<'END'
+{"format": "boltwright station 1", "arm": {"device": "force-dimension:0", "scale": 1},
+ "registrations": [{"from": "arm", "to": "room", "date": "2026-03-02T09:15:00Z", "position_m": [0, 1, -0.5],
+  "orientation_wxyz": [1, 0, 0, 0], "points": 6, "rms_m": 0.001,
+  "check_point": {"from_m": [0.02, 0.01, 0.03], "to_m": [0.02, 1.01, -0.47]}}]}
+END
+place 0 0 0 0
+"${train[@]}" --hmd first-nut --station station.json --out touched >log 2>&1 &
+player=$!
+check 'the arm is registered to the room' eventually grep -q 'the picture is where the arm feels' log
+place 0.02 0.016 0.03 0
+sleep 1
+place 0.02 0.016 0.03 1
+check 'a touch of the check point is measured' eventually grep -q "check point is off by 6.0 mm; register the arm again" log
+kill -INT $player
+check 'the program ends in order' wait $player
+player=
+check 'no tick of the lesson was played before' grep -q 'lesson ended: not finished' log
 finish_checks

@@ -85,6 +85,8 @@ TEST_CASE(
         CHECK(distance(at.scene_in_room(), expected) < 1e-9);
         CHECK(at.logged(
             "the picture is where the arm feels: registered on 2026-11-20T10:00:00Z with 1.2 mm rms"));
+        CHECK(!at.driver->app().room()->touch);  // there is no check point
+        CHECK(!at.lesson().clock.paused);
         // The arm's directions are those of the room, wherever the user looks.
         REQUIRE(at.lesson().view.heading);
         CHECK(at.lesson().view.heading->w == 1.0);

@@ -14,17 +14,7 @@ using test::HeadlessTrainer;
 
 namespace {
 
-// Large pictures, to be looked at, go to the folder that BOLT_ROOM_PICTURES names.
-const VkExtent2D eye_size =
-    std::getenv("BOLT_ROOM_PICTURES") != nullptr ? VkExtent2D{960, 900} : VkExtent2D{160, 120};
-
-void save(HeadlessTrainer& driver, const std::string& name) {
-    const char* folder = std::getenv("BOLT_ROOM_PICTURES");
-    if (folder == nullptr) return;
-    const render::Picture eyes[] = {driver.room_picture(0), driver.room_picture(1)};
-    (void)view::write_picture(view::side_by_side(eyes),
-                              std::filesystem::path(folder) / ("room-" + name + ".png"));
-}
+const VkExtent2D eye_size = test::eye_size();
 
 AppOptions tracked_hand(const char* assembly) {
     AppOptions o = test::options(assembly, false);
@@ -48,7 +38,7 @@ TEST_CASE("Room: workpiece and panel stand in front of the user, and stay when t
     driver.frame();
     CHECK(driver.app().room()->workpiece->position == room.workpiece->position);
     CHECK(driver.app().room()->panel->position == room.panel->position);
-    save(driver, "lesson");
+    test::save_eyes(driver, "lesson");
 }
 
 TEST_CASE("Room: the menu is a panel that the hand points at, and its buttons are pressed by the trigger") {
@@ -57,33 +47,12 @@ TEST_CASE("Room: the menu is a panel that the hand points at, and its buttons ar
     HeadlessTrainer driver(std::move(menu), {eye_size, 0.3F, 0.02});
     driver.immersion = test::standing_user(eye_size);
     for (int i = 0; i < 40; ++i) driver.frame();
-    save(driver, "menu");
+    test::save_eyes(driver, "menu");
     REQUIRE(driver.app().room()->panel);
-    const Pose panel = *driver.app().room()->panel;
-    const auto point_at = [&](const DrawnWidget& widget, float select) {
-        const glm::dvec2 middle(widget.middle);
-        const glm::dvec2 points = middle / static_cast<double>(panel_scale) - 0.5 * panel_points;
-        const Vec3 target = panel * Vec3(points.x * point_size, -points.y * point_size, 0.0);
-        const Vec3 hand = panel * Vec3(0.1, -0.4, 0.5);
-        xr::HandInput& right = driver.immersion->hands[xr::Side::right];
-        right.active = true;
-        right.select = select;
-        const Vec3 along = glm::normalize(target - hand);
-        right.aim = xr::TrackedPose{
-            {hand, glm::normalize(Quat(1.0 - along.z, glm::cross(Vec3(0.0, 0.0, -1.0), along)))}, true};
-        driver.frame();
-    };
-    const auto widgets = driver.app().drawn_widgets();
-    const auto start = std::find_if(widgets.begin(), widgets.end(), [](const DrawnWidget& widget) {
-        return widget.label == words::TextKey("menu.start");
-    });
-    REQUIRE(start != widgets.end());
-    const DrawnWidget button = *start;
-    for (const float select : {0.0F, 0.0F, 1.0F, 1.0F, 0.0F, 0.0F}) point_at(button, select);
-    driver.frame();
+    test::press_on_panel(driver, "menu.start");
     CHECK(driver.app().screen() == ShownScreen::lesson);
     CHECK(driver.app().room()->pointer.on_panel);
-    save(driver, "started");
+    test::save_eyes(driver, "started");
 }
 
 TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wrench, aligns it and tightens") {

@@ -41,6 +41,15 @@ class VirtualBench final : public station_setup::LessonStation {
         gripper_ = 1.0;
     }
 
+    // Makes the device one that senses its pose, without forces, and holds it there.
+    void hold(const station::HeldMover& held) {
+        if (!held_) {
+            layout_.mover->sensing = device::Sensing::pose;
+            state_ = station::initial_state(layout_);
+        }
+        held_ = held;
+    }
+
     // Advances the time by `seconds`.
     void advance(double seconds) {
         owed_ += seconds;
@@ -95,6 +104,12 @@ class VirtualBench final : public station_setup::LessonStation {
         inputs.mover = mailboxes_.snapshots.latest();
         inputs.mover.usable = inputs.mover.usable && !unplugged_;
         inputs.mover.sample.gripper = gripper_;
+        if (held_) {
+            inputs.mover.usable = !unplugged_;
+            inputs.mover.number = number_ + 1;
+            inputs.mover.sample.pose = held_->pose;
+            inputs.mover.sample.buttons = held_->buttons;
+        }
         inputs.controls = controls_;
         inputs.commands = commands_;
         if (hand_) inputs.hand_grip = hand_->held ? servo::Grip::wrench : servo::Grip::none;
@@ -121,6 +136,7 @@ class VirtualBench final : public station_setup::LessonStation {
     std::deque<station::StationTick> ticks_;
     station::StationTick newest_;
     double now_ = 0.0, owed_ = 0.0;  // s
+    std::optional<station::HeldMover> held_;
     std::uint64_t number_ = 0, command_number_ = 0;
     bool stopped_ = false;
 };

@@ -1,0 +1,133 @@
+#include "game/trainer/touch_check.hpp"
+
+#include <imgui/imgui.h>
+
+#include <utility>
+
+#include "game/scene/annotations.hpp"
+#include "game/station/frame_registration.hpp"
+#include "game/station/point_source.hpp"
+#include "game/trainer/arm_screen.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+using station_setup::max_check_error;
+
+constexpr double marker_length = 0.06;  // m, of its arrows
+constexpr glm::vec4 marker_color{1.0F, 0.75F, 0.2F, 1.0F};
+constexpr float marker_outline = 0.8F;  // opacity
+
+void show_phase(TouchCheck& check, TouchPhase phase) {
+    check.phase = phase;
+    check.shown = 0.0;
+}
+
+// Collects positions for the time of a touch, and for more if the pictures are slow.
+void measure(TouchCheck& check, const std::optional<station::HeldMover>& mover) {
+    const station_setup::TouchOptions options;
+    if (mover) check.touched.push_back(check.room_from_arm * (mover->pose * check.tip));
+    if (mover && (check.shown < options.duration || check.touched.size() < options.min_samples)) return;
+    const Result<Vec3> mean = station_setup::average_touch(check.touched, options);
+    check.moved = !mover || !mean;
+    if (check.moved) return show_phase(check, TouchPhase::asks);
+    check.error = glm::length(*mean - check.marker);
+    show_phase(check, check.error <= max_check_error ? TouchPhase::right : TouchPhase::wrong);
+}
+
+words::Number millimetres(double length) { return {length / mm, 1}; }
+
+}  // namespace
+
+std::optional<TouchCheck> touch_check_of(const content::Registration& registration) {
+    const auto found = station_setup::registration_from(
+        std::span(&registration, 1), content::CoordinateFrame::arm, content::CoordinateFrame::room);
+    if (!found || !found->check_point) return std::nullopt;
+    TouchCheck check;
+    check.marker = found->check_point->to;
+    check.room_from_arm = found->pose;
+    check.tip = found->tip;
+    return check;
+}
+
+bool update(TouchCheck& check, const std::optional<station::HeldMover>& mover, bool confirmed,
+            double seconds) {
+    check.shown += seconds;
+    const std::uint32_t buttons = mover ? mover->buttons : ~0U;
+    const bool pressed = (buttons & ~std::exchange(check.held, buttons)) != 0 && mover;
+    if (check.phase == TouchPhase::measures) {
+        measure(check, mover);
+        return false;
+    }
+    if (!pressed && !confirmed) return false;
+    if (check.phase != TouchPhase::asks) return true;
+    if (!mover) return false;
+    check.touched.clear();
+    check.moved = false;
+    show_phase(check, TouchPhase::measures);
+    return false;
+}
+
+TouchAnswer answer_of(const TouchCheck& check, std::span<const platform::InputEvent> events,
+                      bool enter_answers) {
+    TouchAnswer answer;
+    for (const platform::InputEvent& event : events) {
+        const bool answers = enter_answers || !std::holds_alternative<platform::KeyEvent>(event);
+        answer.confirmed =
+            answer.confirmed || (is_confirmation(event) && answers && check.shown >= question_time);
+        answer.ended = answer.ended || is_back(event);
+    }
+    return answer;
+}
+
+ScreenAction draw_touch_check(const ScreenContext& context, const TouchCheck& check) {
+    const words::Words& words = context.words;
+    const std::string enter(platform::name(platform::Key::enter));
+    const std::string escape(platform::name(platform::Key::escape));
+    const bool asks = waits_for_touch(check);
+    begin_dialog(context, "##touch", 420.0F * context.scale, 0.94F);
+    if (asks) {
+        draw_wrapped(words["touch.ask"], muted_text);
+        if (check.moved) draw_wrapped(words["touch.moved"], warning_text);
+    } else if (check.phase == TouchPhase::right) {
+        draw_wrapped(words::format_text(words, "touch.right", {{"error", millimetres(check.error)}}),
+                     muted_text);
+    } else {
+        draw_wrapped(words::format_text(words, "touch.wrong",
+                                        {{"error", millimetres(check.error)},
+                                         {"limit", words::Number{max_check_error / mm, 0}}}),
+                     warning_text);
+    }
+    ImGui::Separator();
+    draw_wrapped(
+        asks ? words::format_text(words, "touch.keys", {{"measure", enter}, {"skip", escape}})
+             : words["touch.place"] + "\n" + words::format_text(words, "touch.key", {{"start", enter}}),
+        muted_text);
+    const bool pressed =
+        draw_button(context, asks ? words::TextKey("touch.skip") : words::TextKey("touch.start"));
+    ImGui::End();
+    return pressed ? ScreenAction::end_touch_check : ScreenAction::none;
+}
+
+void show_touch_marker(render::Scene& scene, const render::GpuModel& arrows, const Pose& scene_in_room,
+                       const Vec3& marker) {
+    scene.objects.clear();
+    scene.labels.clear();
+    const Pose room_in_scene = inverse(scene_in_room);
+    const Vec3 at = room_in_scene * marker;
+    for (const Vec3& side : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, -1)}) {
+        const scene::MotionArrow arrow =
+            scene::straight_arrow(room_in_scene * (marker + marker_length * side), at, marker_color);
+        render::Object object;
+        object.model = &arrows;
+        object.mesh = static_cast<std::uint32_t>(arrow.shape);
+        object.world = glm::mat4(arrow.world);
+        object.tint = marker_color;
+        object.moves = true;
+        object.outline = glm::vec4(glm::vec3(marker_color), marker_outline);
+        scene.objects.push_back(object);
+    }
+}
+
+}  // namespace bolt::trainer

@@ -1,0 +1,65 @@
+// The touch that checks, at the start of a lesson, whether the arm still is where its registration says: the
+// user holds the tip of the arm on the registration's check point, a mark in the real room, where a marker is
+// drawn. The lesson is paused meanwhile, so the arm renders no force.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "content/station/registration.hpp"
+#include "engine/platform/input.hpp"
+#include "engine/render/scene.hpp"
+#include "game/trainer/screens.hpp"
+#include "haptics/station/station_tick.hpp"
+
+namespace bolt::trainer {
+
+enum class TouchPhase : std::uint8_t {
+    asks,      // until a button of the arm, or Enter, is pressed
+    measures,  // the positions of the tip are collected
+    right,     // the result, until the user starts the lesson
+    wrong,     // off by more than station_setup::max_check_error
+};
+
+struct TouchCheck {
+    Vec3 marker{0.0};    // m, the check point in the room
+    Pose room_from_arm;  // the registration
+    Vec3 tip{0.0};       // m, in the frame of the handle
+
+    TouchPhase phase = TouchPhase::asks;
+    bool moved = false;         // the hand moved in the last touch
+    double error = 0.0;         // m, of the result
+    double shown = 0.0;         // s for which the phase is shown
+    std::vector<Vec3> touched;  // m, positions of the tip in the room
+    std::uint32_t held = ~0U;   // buttons of the arm; one that is held from before is no press
+};
+
+// True until there is a result.
+inline bool waits_for_touch(const TouchCheck& check) {
+    return check.phase == TouchPhase::asks || check.phase == TouchPhase::measures;
+}
+
+// None if the registration, between an arm and the room in either direction, has no check point.
+std::optional<TouchCheck> touch_check_of(const content::Registration& registration);
+
+// Call once a frame. `mover`: StationTick::mover; while there is none, nothing is measured. `confirmed`: the
+// user has pressed Enter. Returns true when the user starts the lesson.
+bool update(TouchCheck& check, const std::optional<station::HeldMover>& mover, bool confirmed,
+            double seconds);
+
+// The events that confirm, or end the check. `enter_answers`: as action_of() of ArmScreen.
+struct TouchAnswer {
+    bool confirmed = false, ended = false;
+};
+TouchAnswer answer_of(const TouchCheck& check, std::span<const platform::InputEvent> events,
+                      bool enter_answers);
+
+ScreenAction draw_touch_check(const ScreenContext& context, const TouchCheck& check);
+
+// Shows arrows whose tips meet at the marker, and no workpiece and no hand: the user would bring the drawn
+// hand to the marker, which fits whatever the registration is. `arrows`: scene::GpuLessonModels::arrows.
+void show_touch_marker(render::Scene& scene, const render::GpuModel& arrows, const Pose& scene_in_room,
+                       const Vec3& marker);
+
+}  // namespace bolt::trainer
