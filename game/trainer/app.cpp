@@ -230,7 +230,7 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
                 &*gpu_->fonts,
                 {},
                 {}};
-    if (in_room()) frame.room = room_input(*window.immersion);
+    if (in_room()) frame.room = room_input(*window.immersive);
     const bool waits_for_arm = active.station && active.station->waits_for_arm;
     if (frame.input.triggered(Action::pause) && in_lesson && !waits_for_arm)
         active.clock.paused = !active.clock.paused;
@@ -338,7 +338,7 @@ Status App::update(const view::WindowFrame& window) {
         starter_.reset();
         BOLT_TRY(report_start(enter_lesson(std::move(*started), aspect)));
     }
-    if (window.immersion != nullptr) place_in_room(*window.immersion);  // a lesson that has just begun
+    if (window.immersive != nullptr) place_in_room(*window.immersive);  // a lesson that has just begun
     if (screen_ == ShownScreen::menu && active_) BOLT_TRY(close_lesson());
     const bool chooses = screen_ == ShownScreen::menu || screen_ == ShownScreen::result;
     const bool can_start = chooses && !settings_ && menu_.page == MenuPage::choices;
@@ -376,12 +376,12 @@ Status App::draw_panel(gpu::FrameContext& frame) {
     return draw_interface(frame, gpu_->panel->layer());
 }
 
-Status App::draw_room(gpu::FrameContext& frame, const view::Immersion& immersion) {
+Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& immersive) {
     const Pose place = scene_in_room();
     render::Scene scene = active_ ? active_->scene : empty_room();
     if (in_room() && room_->panel)
         scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
-    return draw_in_room(*gpu_->context->renderer, frame, scene, place, immersion);
+    return draw_in_room(*gpu_->context->renderer, frame, scene, place, immersive);
 }
 
 Status App::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
@@ -392,7 +392,7 @@ Status App::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
         BOLT_TRY(draw_pictures(frame, window.size, window.scale));
         BOLT_TRY(draw_interface(frame, gpu_->context->renderer->picture(0)));
     }
-    if (window.immersion != nullptr) BOLT_TRY(draw_room(frame, *window.immersion));
+    if (window.immersive != nullptr) BOLT_TRY(draw_room(frame, *window.immersive));
     return std::exchange(end_requested_, false) ? end_lesson() : Status{};
 }
 

@@ -6,9 +6,9 @@
 
 #include "engine/ui/ui.hpp"
 #include "game/trainer/arm_screen.hpp"
-#include "game/trainer/immersive.hpp"
 #include "game/trainer/lesson_starter.hpp"
 #include "game/trainer/menu.hpp"
+#include "game/trainer/room_state.hpp"
 #include "game/trainer/settings_screen.hpp"
 #include "game/trainer/shared_lesson.hpp"
 #include "game/trainer/tour.hpp"
@@ -90,7 +90,7 @@ class App : public view::WindowContent {
     [[nodiscard]] bool shows_settings() const { return settings_.has_value(); }
     [[nodiscard]] const std::optional<Error>& start_error() const { return menu_.start_error; }
     [[nodiscard]] const ArmScreen& arm_screen() const { return arm_screen_; }
-    [[nodiscard]] const std::optional<Room>& room() const { return room_; }
+    [[nodiscard]] const std::optional<RoomState>& room() const { return room_; }
 
   private:
     struct GpuResources {
@@ -117,15 +117,15 @@ class App : public view::WindowContent {
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
     [[nodiscard]] bool in_room() const { return room_ && room_->shown; }
     void pause_unseen(bool seen);
-    void place_in_room(const view::Immersion& immersion);
-    void find_arm(const view::Immersion& immersion);
-    [[nodiscard]] RoomInput room_input(const view::Immersion& immersion) const;
+    void place_in_room(const view::ImmersiveFrame& immersive);
+    void find_arm(const view::ImmersiveFrame& immersive);
+    [[nodiscard]] RoomInput room_input(const view::ImmersiveFrame& immersive) const;
     void follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events);
     [[nodiscard]] Pose scene_in_room() const;
     Status draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale);
     Status draw_interface(gpu::FrameContext& frame, const render::ImageLayer& picture);
     Status draw_panel(gpu::FrameContext& frame);
-    Status draw_room(gpu::FrameContext& frame, const view::Immersion& immersion);
+    Status draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& immersive);
     void draw_screen(const ScreenContext& context);
     void press_start();
     void show_page(MenuPage page);
@@ -162,7 +162,7 @@ class App : public view::WindowContent {
     std::optional<session::LessonOutcome> outcome_;
     std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson
 
-    std::optional<Room> room_;  // since a display has surrounded the user
+    std::optional<RoomState> room_;  // since a display has surrounded the user
 
     std::optional<LessonSharing> sharing_;  // since other processes show walls
     std::uint32_t lesson_number_ = 0;       // counts the lessons of this program

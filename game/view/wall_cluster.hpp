@@ -22,7 +22,7 @@ namespace bolt::view {
 struct ClusterFrame {
     std::uint64_t number = 0;
     Pose head;                 // of the viewer, in the room
-    bool tracked = false;      // Immersion::tracked
+    bool tracked = false;      // ImmersiveFrame::tracked
     cluster::Message content;  // WindowContent::share
 };
 

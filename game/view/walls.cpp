@@ -184,11 +184,11 @@ Result<gpu::Surface> Walls::make_surface(const gpu::Instance& instance) {
     return outputs_.front().window.make_surface(instance);
 }
 
-Status Walls::share(const Immersion& immersion, const cluster::Message& content) {
+Status Walls::share(const ImmersiveFrame& immersive, const cluster::Message& content) {
     ClusterFrame frame;
     frame.number = ++frame_;
-    frame.head = immersion.head;
-    frame.tracked = immersion.tracked;
+    frame.head = immersive.head;
+    frame.tracked = immersive.tracked;
     frame.content = content;
     return leader_->send(frame);
 }
@@ -253,22 +253,22 @@ void Walls::log_status(tracking::HeadStatus status) {
     }
 }
 
-Result<Immersion> Walls::begin_frame(double seconds) {
+Result<ImmersiveFrame> Walls::begin_frame(double seconds) {
     const tracking::FilteredHead head = head_->at(seconds);
     const bool fixed = displays_.head.tracker == content::HeadTracker::fixed;
     if (!fixed) log_status(head.status);
     return begin_frame(head.pose, fixed || head.status == tracking::HeadStatus::tracked);
 }
 
-Result<Immersion> Walls::begin_frame(const Pose& head, bool tracked) {
-    Immersion immersion;
-    immersion.head = head;
-    immersion.tracked = tracked;
-    immersion.expected_head = displays_.head.fixed_head;
-    immersion.shows = [this](const Vec3& point) {
+Result<ImmersiveFrame> Walls::begin_frame(const Pose& head, bool tracked) {
+    ImmersiveFrame immersive;
+    immersive.head = head;
+    immersive.tracked = tracked;
+    immersive.expected_head = displays_.head.fixed_head;
+    immersive.shows = [this](const Vec3& point) {
         return on_a_wall(displays_.walls, displays_.head.fixed_head.position, point);
     };
-    immersion.attentive = true;
+    immersive.attentive = true;
     for (const content::Wall& wall : displays_.walls) {
         VkExtent2D size{};
         for (Output& output : outputs_) {
@@ -281,18 +281,18 @@ Result<Immersion> Walls::begin_frame(const Pose& head, bool tracked) {
             }
         }
         const bool visible = size.width > 0 && size.height > 0;
-        immersion.groups.push_back(visible ? wall_eyes(wall, head, displays_.eye_separation, size)
+        immersive.groups.push_back(visible ? wall_eyes(wall, head, displays_.eye_separation, size)
                                            : EyeGroup{});
     }
-    return immersion;
+    return immersive;
 }
 
-void Walls::add_pictures(const render::Renderer& renderer, const Immersion& immersion,
+void Walls::add_pictures(const render::Renderer& renderer, const ImmersiveFrame& immersive,
                          std::vector<gpu::WindowPictures>& windows) const {
     for (const Output& output : outputs_) {
         gpu::WindowPictures window{output.swapchain.get(), {}, true};
         const std::size_t wall = output.plan.wall;
-        const bool drawn = !immersion.groups[wall].eyes.empty();
+        const bool drawn = !immersive.groups[wall].eyes.empty();
         if (drawn) {
             for (const EyePlace& place : eye_places(displays_.walls[wall], output.plan.shows, output.size)) {
                 const render::ImageLayer picture =

@@ -1,5 +1,5 @@
 // Projection walls: a window without a border for each output, and the pictures in it, as the tracked head
-// sees the room through the wall. Poses are in the room's frame (view::Immersion), m.
+// sees the room through the wall. Poses are in the room's frame (view::ImmersiveFrame), m.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 #include "engine/platform/window.hpp"
 #include "engine/render/renderer.hpp"
 #include "game/displays/head_source.hpp"
-#include "game/view/immersion.hpp"
+#include "game/view/immersive_frame.hpp"
 #include "game/view/wall_cluster.hpp"
 
 namespace bolt::view {
@@ -79,17 +79,17 @@ class Walls {
 
     // The next frame: prepares the swapchains, and reads the pose of the head at a time on the steady clock.
     // Group i belongs to wall i; it is empty for a wall of another process.
-    Result<Immersion> begin_frame(double seconds);
+    Result<ImmersiveFrame> begin_frame(double seconds);
     // The same with a head that another process has read.
-    Result<Immersion> begin_frame(const Pose& head, bool tracked);
+    Result<ImmersiveFrame> begin_frame(const Pose& head, bool tracked);
     // Adds the pictures that the renderer has drawn for it.
-    void add_pictures(const render::Renderer& renderer, const Immersion& immersion,
+    void add_pictures(const render::Renderer& renderer, const ImmersiveFrame& immersive,
                       std::vector<gpu::WindowPictures>& windows) const;
 
     // The first one of several processes; null: the only one, or another one.
     [[nodiscard]] WallLeader* leader() { return leader_ ? &*leader_ : nullptr; }
     // Sends the frame to the other processes. `content`: WindowContent::share.
-    Status share(const Immersion& immersion, const cluster::Message& content);
+    Status share(const ImmersiveFrame& immersive, const cluster::Message& content);
     // Waits until they have drawn it, and permits all to present it.
     Status wait_for_others();
 

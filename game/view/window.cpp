@@ -99,32 +99,32 @@ Status draw_headset(WindowContent& content, Canvas& canvas, xr::Headset& headset
                     WindowFrame window, bool adapts) {
     GpuContext& gpu = canvas.gpu_context;
     const VkExtent2D size = scaled(canvas.resolution, headset.session().extent());
-    Immersion immersion;
-    immersion.head = frame.view.head;
-    immersion.tracked = frame.view.tracked;
-    immersion.attentive = frame.focused;
-    immersion.recentred = has_recentred(frame);
-    immersion.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
-    immersion.hands = frame.hands;
-    immersion.tracks_hands = true;
-    immersion.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
+    ImmersiveFrame immersive;
+    immersive.head = frame.view.head;
+    immersive.tracked = frame.view.tracked;
+    immersive.attentive = frame.focused;
+    immersive.recentred = has_recentred(frame);
+    immersive.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
+    immersive.hands = frame.hands;
+    immersive.tracks_hands = true;
+    immersive.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
         headset.vibrate(side, vibration);
     };
-    if (!frame.view.eyes.empty()) immersion.groups = {eye_group(frame.view, size)};
-    window.immersion = &immersion;
+    if (!frame.view.eyes.empty()) immersive.groups = {eye_group(frame.view, size)};
+    window.immersive = &immersive;
     BOLT_TRY(content.update(window));
     BOLT_TRY_ASSIGN(const auto recorded, gpu.frames->begin());
-    if (!immersion.groups.empty()) {
+    if (!immersive.groups.empty()) {
         headset.locate(frame);
-        immersion.head = frame.view.head;
-        immersion.groups = {eye_group(frame.view, size)};
+        immersive.head = frame.view.head;
+        immersive.groups = {eye_group(frame.view, size)};
     }
     BOLT_TRY(content.draw(*recorded, window));
-    const bool drawn = !immersion.groups.empty() && !immersion.groups.front().eyes.empty();
+    const bool drawn = !immersive.groups.empty() && !immersive.groups.front().eyes.empty();
     if (!drawn) {
         BOLT_TRY(gpu.frames->submit(*recorded));
     } else {
-        headset.record(recorded->commands(), eye_pictures(*gpu.renderer, immersion.groups.front()));
+        headset.record(recorded->commands(), eye_pictures(*gpu.renderer, immersive.groups.front()));
         const render::ImageLayer picture = gpu.renderer->picture(0, immersive_group);
         BOLT_TRY(canvas.swapchain->present(
             *gpu.frames, *recorded,
@@ -143,14 +143,14 @@ Status draw_headset(WindowContent& content, Canvas& canvas, xr::Headset& headset
 // presented together.
 Status draw_walls(WindowContent& content, Canvas& canvas, Walls& walls, WindowFrame window) {
     GpuContext& gpu = canvas.gpu_context;
-    BOLT_TRY_ASSIGN(const Immersion immersion, walls.begin_frame(canvas.last_frame));
-    window.immersion = &immersion;
+    BOLT_TRY_ASSIGN(const ImmersiveFrame immersive, walls.begin_frame(canvas.last_frame));
+    window.immersive = &immersive;
     BOLT_TRY(content.update(window));
     WallLeader* leader = walls.leader();
     if (leader != nullptr) {
         cluster::MessageWriter shared;
         BOLT_TRY(content.share(shared));
-        BOLT_TRY(walls.share(immersion, shared.message()));
+        BOLT_TRY(walls.share(immersive, shared.message()));
     }
     BOLT_TRY_ASSIGN(const auto recorded, gpu.frames->begin());
     BOLT_TRY(content.draw(*recorded, window));
@@ -160,7 +160,7 @@ Status draw_walls(WindowContent& content, Canvas& canvas, Walls& walls, WindowFr
         const VkRect2D place = fitted(picture.image->info().extent, window.size);
         windows.push_back({canvas.swapchain.get(), {{picture.image, picture.layer, {}, place}}, false});
     }
-    walls.add_pictures(*gpu.renderer, immersion, windows);
+    walls.add_pictures(*gpu.renderer, immersive, windows);
     if (leader == nullptr) {
         BOLT_TRY(gpu::present(*gpu.frames, *recorded, windows));
         return {};

@@ -18,7 +18,7 @@ struct EyeGroup {
     std::vector<render::Eye> eyes;
 };
 
-struct Immersion {
+struct ImmersiveFrame {
     Pose head;
     bool tracked = false;    // false: the head's pose is held or estimated
     bool attentive = false;  // false: the user does not see the picture; pause, and output no force

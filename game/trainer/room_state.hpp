@@ -1,6 +1,6 @@
 // A lesson in a headset or between projection walls: where the workpiece and the panel of the user interface
 // stand in the room, and the pointer on the panel. Nothing moves with the head. Poses are in the room's frame
-// (view::Immersion) unless a comment says otherwise.
+// (view::ImmersiveFrame) unless a comment says otherwise.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 #include "engine/render/gpu_model.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/render/scene.hpp"
-#include "game/view/immersion.hpp"
+#include "game/view/immersive_frame.hpp"
 
 namespace bolt::trainer {
 
@@ -31,7 +31,7 @@ struct PanelPointer {
 };
 
 // Survives a short loss of the display, so that workpiece and panel keep their poses.
-struct Room {
+struct RoomState {
     std::optional<Pose> workpiece;  // of the assembly's frame; none: not placed yet
     std::optional<Pose> panel;      // of its centre; x right, y up, z towards the user
     PanelPointer pointer;
@@ -78,7 +78,7 @@ struct HandKeys {
     platform::Key pause = platform::Key::escape, tool = platform::Key::unknown;
 };
 // `seconds`: of the frame.
-std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys,
+std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& hands, const HandKeys& keys,
                                               double seconds);
 
 // The position of an event of the pointer, px; null for other events.
@@ -89,7 +89,7 @@ void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown
 
 // Draws the scene for each group of eyes of the room. `scene_in_room`: the pose of the scene's frame.
 Status draw_in_room(render::Renderer& renderer, gpu::FrameContext& frame, const render::Scene& scene,
-                    const Pose& scene_in_room, const view::Immersion& immersion);
+                    const Pose& scene_in_room, const view::ImmersiveFrame& immersive);
 
 // The panel in the scene whose frame is `scene_in_room`.
 render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture);

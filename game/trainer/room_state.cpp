@@ -1,4 +1,4 @@
-#include "game/trainer/immersive.hpp"
+#include "game/trainer/room_state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ void add_key(std::vector<platform::InputEvent>& events, platform::Key key, bool 
 }
 
 // The stick turns the workpiece by steps, once for each deflection: smooth turning makes people sick.
-void apply_stick(Room& room, const glm::vec2& stick, bool& used, double seconds) {
+void apply_stick(RoomState& room, const glm::vec2& stick, bool& used, double seconds) {
     if (!used && std::abs(stick.x) > stick_turns) {
         room.turns += stick.x > 0.0F ? 1 : -1;
         used = true;
@@ -108,7 +108,7 @@ std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim) {
     return points * static_cast<double>(panel_scale);
 }
 
-std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys,
+std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& hands, const HandKeys& keys,
                                               double seconds) {
     std::vector<platform::InputEvent> events;
     std::optional<glm::dvec2> at;
@@ -154,9 +154,9 @@ void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown
 }
 
 Status draw_in_room(render::Renderer& renderer, gpu::FrameContext& frame, const render::Scene& scene,
-                    const Pose& scene_in_room, const view::Immersion& immersion) {
-    for (std::uint32_t i = 0; i < immersion.groups.size(); ++i) {
-        const view::EyeGroup& group = immersion.groups[i];
+                    const Pose& scene_in_room, const view::ImmersiveFrame& immersive) {
+    for (std::uint32_t i = 0; i < immersive.groups.size(); ++i) {
+        const view::EyeGroup& group = immersive.groups[i];
         std::vector<render::Eye> eyes;
         for (const render::Eye& eye : group.eyes) eyes.push_back(render::seen_from(eye, scene_in_room));
         if (!eyes.empty())
