@@ -197,7 +197,7 @@ void App::perform(ScreenAction action) {
         case ScreenAction::close_page:
             return show_page(MenuPage::choices);
         case ScreenAction::permit_move:
-            if (starter_) starter_->permit_move();
+            if (start_thread_) start_thread_->permit_move();
             if (active_ && active_->station) active_->station->link->permit_move();
             return;
         case ScreenAction::cancel_start:
@@ -268,7 +268,7 @@ void App::draw_screen(const ScreenContext& context) {
         const ScreenAction action = settings_->draw(context, preferences_, active_ && in_lesson);
         apply_preferences();
         perform(action);
-    } else if (starter_ || arm_screen_.needs.any()) {
+    } else if (start_thread_ || arm_screen_.needs.any()) {
         perform(draw_arm(context, arm_screen_));
     } else if (in_lesson && active_->clock.paused) {
         perform(draw_pause(context, preferences_, active_->session->lesson().mode));
@@ -330,12 +330,12 @@ Status App::update(const view::WindowFrame& window) {
     const glm::dvec2 extent(picture.size.width, picture.size.height);
     if (const auto code = std::exchange(selected_language_, std::nullopt)) BOLT_TRY(select_language(*code));
     const auto aspect = static_cast<float>(extent.x / extent.y);
-    if (std::exchange(start_requested_, false) && !starter_) {
+    if (std::exchange(start_requested_, false) && !start_thread_) {
         menu_.start_error.reset();
         BOLT_TRY(report_start(begin_lesson(aspect)));
     }
-    if (std::optional<Result<StartedLesson>> started = starter_ ? starter_->take() : std::nullopt) {
-        starter_.reset();
+    if (std::optional<Result<StartedLesson>> started = start_thread_ ? start_thread_->take() : std::nullopt) {
+        start_thread_.reset();
         BOLT_TRY(report_start(enter_lesson(std::move(*started), aspect)));
     }
     if (window.immersive != nullptr) place_in_room(*window.immersive);  // a lesson that has just begun

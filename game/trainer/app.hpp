@@ -6,7 +6,7 @@
 
 #include "engine/ui/ui.hpp"
 #include "game/trainer/arm_screen.hpp"
-#include "game/trainer/lesson_starter.hpp"
+#include "game/trainer/lesson_start.hpp"
 #include "game/trainer/menu.hpp"
 #include "game/trainer/room_state.hpp"
 #include "game/trainer/settings_screen.hpp"
@@ -26,7 +26,7 @@ struct AppOptions {
     std::filesystem::path settings_folder, settings_file;  // Preferences::folder and ::file
     bool first_start = false;                              // the menu offers the tour first
     ComputerCheck::GatherFacts gather_facts = computer::gather_facts;  // tests replace it
-    StartStation start_station = trainer::start_station;
+    StationFactory start_station = trainer::start_station;
 
     // Called with the folder of a lesson when it starts. Removes the files of an earlier lesson that would
     // describe another session.
@@ -152,8 +152,8 @@ class App : public view::WindowContent {
     bool start_requested_ = false, end_requested_ = false;
     bool tour_requested_ = false;  // the next lesson is the tour
 
-    std::unique_ptr<LessonStarter> starter_;   // of a lesson with devices, while it starts
-    std::unique_ptr<LessonStarter> given_up_;  // an earlier one, which may still hold the devices
+    std::unique_ptr<LessonStartThread> start_thread_;  // of a lesson with devices, while it starts
+    std::unique_ptr<LessonStartThread> given_up_;      // an earlier one, which may still hold the devices
     ArmScreen arm_screen_;
     std::optional<LessonContext> context_;  // of the last lesson that started
     std::filesystem::path folder_;          // of its session

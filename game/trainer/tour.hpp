@@ -7,7 +7,7 @@
 #include "content/words/words.hpp"
 #include "game/lesson/hints.hpp"
 #include "game/trainer/active_lesson.hpp"
-#include "game/trainer/lesson_start.hpp"
+#include "game/trainer/lesson_choice.hpp"
 
 namespace bolt::trainer {
 
