@@ -221,15 +221,15 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
     const bool has_keys = screen_ != ShownScreen::menu && !settings_;
     const InputFocus focus{has_keys && !in_room() && !gpu_->ui->wants_pointer(), has_keys};
     const double shown = std::min(window.seconds, max_frame_time);
-    Frame frame{active,
-                words_,
-                shown,
-                window.seconds - shown,
-                glm::dvec2(picture.size.width, picture.size.height),
-                apply_events(active.input, picture.events, focus),
-                &*gpu_->fonts,
-                {},
-                {}};
+    LessonFrame frame{active,
+                      words_,
+                      shown,
+                      window.seconds - shown,
+                      glm::dvec2(picture.size.width, picture.size.height),
+                      apply_events(active.input, picture.events, focus),
+                      &*gpu_->fonts,
+                      {},
+                      {}};
     if (in_room()) frame.room = room_input(*window.immersive);
     const bool waits_for_arm = active.station && active.station->waits_for_arm;
     if (frame.input.triggered(Action::pause) && in_lesson && !waits_for_arm)
