@@ -220,14 +220,13 @@ void PvxImport::place_head() {
     Vec3 middle(0.0);
     for (const Wall& wall : displays_.walls) {
         const Vec3 center = 0.5 * (wall.lower_left + wall.upper_right);
-        middle +=
-            (center + 0.5 * width(wall) * frame_of(wall).normal) / static_cast<double>(machines_.size());
+        middle += (center + 0.5 * width(wall) * axes_of(wall).normal) / static_cast<double>(machines_.size());
     }
     Vec3& head = displays_.head.fixed_head.position;
     for (const Vec3& point : {head, Vec3(0.0), middle}) {
         head = point;
         const auto is_in_front = [&](const Wall& wall) {
-            return distance_in_front(frame_of(wall), point) > 0.05;
+            return distance_in_front(axes_of(wall), point) > 0.05;
         };
         if (std::all_of(displays_.walls.begin(), displays_.walls.end(), is_in_front)) break;
     }

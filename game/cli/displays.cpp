@@ -139,7 +139,7 @@ int import_displays(const DisplaysArguments& options) {
 std::string describe_walls_behind(const content::DisplayFile& displays, const Vec3& head) {
     std::vector<std::string> names;
     for (const content::Wall& wall : displays.walls)
-        if (content::distance_in_front(content::frame_of(wall), head) <= 0.0) names.push_back(wall.name);
+        if (content::distance_in_front(content::axes_of(wall), head) <= 0.0) names.push_back(wall.name);
     return names.empty() ? "" : fmt::format("   behind {}", fmt::join(names, ", "));
 }
 

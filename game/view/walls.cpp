@@ -80,13 +80,13 @@ EyeGroup wall_eyes(const content::Wall& wall, const Pose& head, double eye_separ
 
 bool on_a_wall(std::span<const content::Wall> walls, const Vec3& eye, const Vec3& point) {
     return std::any_of(walls.begin(), walls.end(), [&](const content::Wall& wall) {
-        const content::WallFrame frame = content::frame_of(wall);
-        const double from = content::distance_in_front(frame, eye),
-                     towards = from - content::distance_in_front(frame, point);
+        const content::WallAxes axes = content::axes_of(wall);
+        const double from = content::distance_in_front(axes, eye),
+                     towards = from - content::distance_in_front(axes, point);
         if (from <= 0.0 || towards <= 0.0) return false;
-        const Vec3 seen = eye + from / towards * (point - eye) - frame.origin;
-        const double x = glm::dot(seen, frame.right), y = glm::dot(seen, frame.up);
-        return x >= 0.0 && x <= frame.width && y >= 0.0 && y <= frame.height;
+        const Vec3 seen = eye + from / towards * (point - eye) - axes.origin;
+        const double x = glm::dot(seen, axes.right), y = glm::dot(seen, axes.up);
+        return x >= 0.0 && x <= axes.width && y >= 0.0 && y <= axes.height;
     });
 }
 
@@ -128,7 +128,8 @@ Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& di
     return windows;
 }
 
-std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows shows, VkExtent2D window) {
+std::vector<EyeViewport> eye_viewports(const content::Wall& wall, WallWindow::Shows shows,
+                                       VkExtent2D window) {
     const std::uint32_t first = wall.swap_eyes ? 1 : 0, second = 1 - first;
     const auto offset = [](std::uint32_t x, std::uint32_t y) {
         return VkOffset2D{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
@@ -275,9 +276,9 @@ Result<ImmersiveFrame> Walls::begin_frame(const Pose& head, bool tracked) {
             if (&displays_.walls[output.plan.wall] != &wall) continue;
             const platform::Size pixels = output.window.pixels();
             BOLT_TRY_ASSIGN(output.size, output.swapchain->prepare({pixels.width, pixels.height}));
-            for (const EyePlace& place : eye_places(wall, output.plan.shows, output.size)) {
-                size.width = std::max(size.width, place.place.extent.width);
-                size.height = std::max(size.height, place.place.extent.height);
+            for (const EyeViewport& viewport : eye_viewports(wall, output.plan.shows, output.size)) {
+                size.width = std::max(size.width, viewport.area.extent.width);
+                size.height = std::max(size.height, viewport.area.extent.height);
             }
         }
         const bool visible = size.width > 0 && size.height > 0;
@@ -294,10 +295,11 @@ void Walls::add_pictures(const render::Renderer& renderer, const ImmersiveFrame&
         const std::size_t wall = output.plan.wall;
         const bool drawn = !immersive.groups[wall].eyes.empty();
         if (drawn) {
-            for (const EyePlace& place : eye_places(displays_.walls[wall], output.plan.shows, output.size)) {
+            for (const EyeViewport& viewport :
+                 eye_viewports(displays_.walls[wall], output.plan.shows, output.size)) {
                 const render::ImageLayer picture =
-                    renderer.picture(place.eye, immersive_group + static_cast<std::uint32_t>(wall));
-                window.pictures.push_back({picture.image, picture.layer, {}, place.place});
+                    renderer.picture(viewport.eye, immersive_group + static_cast<std::uint32_t>(wall));
+                window.pictures.push_back({picture.image, picture.layer, {}, viewport.area});
             }
         }
         windows.push_back(std::move(window));

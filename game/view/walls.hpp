@@ -42,11 +42,11 @@ Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& di
                                                   const content::Computer& computer);
 
 // The part of a window that shows an eye: 0 is the first eye of wall_eyes().
-struct EyePlace {
+struct EyeViewport {
     std::uint32_t eye = 0;
-    VkRect2D place{};  // px
+    VkRect2D area{};  // px
 };
-std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows shows, VkExtent2D window);
+std::vector<EyeViewport> eye_viewports(const content::Wall& wall, WallWindow::Shows shows, VkExtent2D window);
 
 struct WallsOptions {
     content::DisplayFile displays;
