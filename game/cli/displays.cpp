@@ -21,7 +21,7 @@
 #include "engine/platform/window.hpp"
 #include "engine/tracking/recorded_poses.hpp"
 #include "game/cli/commands.hpp"
-#include "game/displays/head_source.hpp"
+#include "game/head_tracking/head_source.hpp"
 #include "game/view/walls.hpp"
 
 namespace bolt::cli {
@@ -156,7 +156,7 @@ std::string describe_shown_head(const content::DisplayFile& displays, const trac
         describe_walls_behind(displays, at));
 }
 
-std::string describe_tracker_counts(const displays::TrackerCounts& counts,
+std::string describe_tracker_counts(const head_tracking::TrackerCounts& counts,
                                     const content::HeadTracking& head) {
     std::string text = fmt::format("{} poses of the head", counts.samples);
     if (head.tracker != content::HeadTracker::dtrack) return text + "\n";
@@ -186,7 +186,7 @@ int track_head(const DisplaysArguments& options) {
             {ErrorCode::usage,
              fmt::format("the tracker of {} is \"{}\"", options.file, content::name(head.tracker)),
              "\"dtrack\", \"openxr\" or \"file\""});
-    auto source = displays::HeadSource::open(head, std::filesystem::path(options.file).parent_path());
+    auto source = head_tracking::HeadSource::open(head, std::filesystem::path(options.file).parent_path());
     if (!source) return print_error(source.error());
     catch_interruption();
     const double start = steady_seconds();

@@ -8,7 +8,7 @@
 #include "engine/base/hash.hpp"
 #include "game/cli/commands.hpp"
 #include "game/cli/opened_walls.hpp"
-#include "game/displays/head_source.hpp"
+#include "game/head_tracking/head_source.hpp"
 #include "game/view/pictures.hpp"
 #include "game/view/wall_pattern.hpp"
 
@@ -74,8 +74,8 @@ Result<std::unique_ptr<view::Walls>> open_checked_walls(const std::string& file,
                     "a display file without mistakes for these monitors");
     view::WallsOptions options;
     if (first) {
-        BOLT_TRY_ASSIGN(auto head, displays::HeadSource::open(loaded.displays.head,
-                                                              std::filesystem::path(file).parent_path()));
+        BOLT_TRY_ASSIGN(auto head, head_tracking::HeadSource::open(
+                                       loaded.displays.head, std::filesystem::path(file).parent_path()));
         options.head.emplace(std::move(head));
     }
     options.displays = std::move(loaded.displays);

@@ -12,7 +12,7 @@
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/window.hpp"
 #include "engine/render/renderer.hpp"
-#include "game/displays/head_source.hpp"
+#include "game/head_tracking/head_source.hpp"
 #include "game/view/immersive_frame.hpp"
 #include "game/view/wall_cluster.hpp"
 
@@ -50,8 +50,8 @@ std::vector<EyeViewport> eye_viewports(const content::Wall& wall, WallWindow::Sh
 
 struct WallsOptions {
     content::DisplayFile displays;
-    std::optional<displays::HeadSource> head;  // none in the processes that follow the first one
-    cluster::Cluster* cluster = nullptr;       // null: this process shows all walls
+    std::optional<head_tracking::HeadSource> head;  // none in the processes that follow the first one
+    cluster::Cluster* cluster = nullptr;            // null: this process shows all walls
     // Receives a line when the tracker finds or loses the head, or a process is slow; may be empty.
     std::function<void(const std::string&)> log;
 };
@@ -109,7 +109,7 @@ class Walls {
     void log_status(tracking::HeadStatus status);
 
     content::DisplayFile displays_;
-    std::optional<displays::HeadSource> head_;
+    std::optional<head_tracking::HeadSource> head_;
     cluster::Cluster* cluster_ = nullptr;
     std::optional<WallLeader> leader_;
     std::uint64_t frame_ = 0;                             // that was sent last

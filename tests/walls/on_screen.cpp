@@ -163,7 +163,7 @@ void run_cave(const Vec3& head, const std::function<void(const SpheresAround&)>&
     platform::Window window = test::need(platform::Window::open(desktop, window_options));
     view::WallsOptions walls_options;
     walls_options.displays = displays;
-    walls_options.head.emplace(test::need(displays::HeadSource::open(displays.head, ".")));
+    walls_options.head.emplace(test::need(head_tracking::HeadSource::open(displays.head, ".")));
     const auto walls = test::need(view::Walls::open(desktop, std::move(walls_options)));
     gpu::InstanceOptions options;
     options.validation = true;

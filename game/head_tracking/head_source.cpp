@@ -1,11 +1,11 @@
-#include "game/displays/head_source.hpp"
+#include "game/head_tracking/head_source.hpp"
 
 #include <algorithm>
 #include <limits>
 
 #include "engine/tracking/recorded_poses.hpp"
 
-namespace bolt::displays {
+namespace bolt::head_tracking {
 
 using content::HeadTracker;
 
@@ -100,4 +100,4 @@ tracking::FilteredHead HeadSource::at(double now) {
     return head;
 }
 
-}  // namespace bolt::displays
+}  // namespace bolt::head_tracking

@@ -11,7 +11,7 @@
 #include "engine/tracking/head_pose.hpp"
 #include "engine/xr/pose_tracker.hpp"
 
-namespace bolt::displays {
+namespace bolt::head_tracking {
 
 // The samples that have arrived from the tracker.
 struct TrackerCounts {
@@ -58,4 +58,4 @@ class HeadSource {
     TrackerCounts counts_;
 };
 
-}  // namespace bolt::displays
+}  // namespace bolt::head_tracking
