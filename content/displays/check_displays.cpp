@@ -148,9 +148,9 @@ std::vector<DisplayFinding> check_walls(const DisplayFile& displays) {
     return findings;
 }
 
-std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const Computer& computer) {
+std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const DisplayHost& host) {
     Findings findings = check_walls(displays);
-    for (DisplayFinding& finding : check_outputs(displays, computer)) findings.push_back(std::move(finding));
+    for (DisplayFinding& finding : check_outputs(displays, host)) findings.push_back(std::move(finding));
     std::stable_partition(findings.begin(), findings.end(),
                           [](const DisplayFinding& finding) { return finding.prevents_use; });
     return findings;

@@ -113,7 +113,7 @@ WallSummary summarize(const Wall& wall, const Vec3& fixed_head, const std::optio
     return s;
 }
 
-std::string list_walls(const DisplayFile& displays, const Computer& computer) {
+std::string list_walls(const DisplayFile& displays, const DisplayHost& host) {
     std::string text = displays.name.empty() ? "" : displays.name + "\n";
     text += describe_head(displays);
     text +=
@@ -122,9 +122,9 @@ std::string list_walls(const DisplayFile& displays, const Computer& computer) {
     for (const Wall& wall : displays.walls) {
         std::optional<PixelSize> resolution = wall.output.resolution;
         const bool is_here =
-            wall.output.rank == computer.rank &&
-            (wall.output.display.empty() || is_same_display(wall.output.display, computer.display));
-        if (const Monitor* monitor = is_here ? find_monitor(wall.output, computer.monitors) : nullptr)
+            wall.output.rank == host.rank &&
+            (wall.output.display.empty() || is_same_display(wall.output.display, host.display));
+        if (const HostMonitor* monitor = is_here ? find_monitor(wall.output, host.monitors) : nullptr)
             resolution = PixelSize{monitor->width, monitor->height};
         text += describe_wall(wall, summarize(wall, displays.head.fixed_head.position, resolution));
     }

@@ -80,8 +80,8 @@ bool any_prevents_use(const std::vector<content::DisplayFinding>& findings) {
 
 // Prints all findings. Returns the exit code: bad_content if the file is wrong on any computer, failed if it
 // does not fit this one.
-int report_findings(const content::LoadedDisplays& loaded, const content::Computer& computer) {
-    const auto findings = content::check_displays(loaded.displays, computer);
+int report_findings(const content::LoadedDisplays& loaded, const content::DisplayHost& host) {
+    const auto findings = content::check_displays(loaded.displays, host);
     print_to_stderr(content::describe(findings, loaded));
     if (any_prevents_use(content::check_displays(loaded.displays)))
         return static_cast<int>(ErrorCode::bad_content);
@@ -97,24 +97,24 @@ int check_display_file(const DisplaysArguments& options) {
         const auto poses = tracking::load_recorded_poses(folder / head.recording);
         if (!poses) return print_error(poses.error());
     }
-    content::Computer computer;
-    computer.rank = options.rank;
+    content::DisplayHost host;
+    host.rank = options.rank;
     std::string compared = "The outputs were not compared with monitors";
     if (!options.without_monitors) {
         const auto desktop = platform::Desktop::open();
         if (desktop) {
-            computer = view::this_computer(*desktop);
-            computer.rank = options.rank;
-            const std::size_t count = computer.monitors.size();
+            host = view::this_host(*desktop);
+            host.rank = options.rank;
+            const std::size_t count = host.monitors.size();
             compared = fmt::format("The outputs were compared with {} of this computer",
                                    count == 1 ? "the monitor" : fmt::format("the {} monitors", count));
         } else {
             compared += ": " + desktop.error().message();
         }
     }
-    const Status listed = print(content::list_walls(loaded.displays, computer) + compared + "\n");
+    const Status listed = print(content::list_walls(loaded.displays, host) + compared + "\n");
     if (!listed) return print_error(listed.error());
-    const int exit_code = report_findings(loaded, computer);
+    const int exit_code = report_findings(loaded, host);
     const Status printed =
         print(exit_code == 0 ? "The file is right\n" : "These walls cannot be used as the file says\n");
     return printed ? exit_code : print_error(printed.error());

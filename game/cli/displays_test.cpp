@@ -64,7 +64,7 @@ Result<std::unique_ptr<view::Walls>> open_checked_walls(const std::string& file,
         return fail(loaded.errors.back());
     }
     const std::vector<content::DisplayFinding> findings =
-        content::check_displays(loaded.displays, view::this_computer(desktop, cluster));
+        content::check_displays(loaded.displays, view::this_host(desktop, cluster));
     const bool unusable = !findings.empty() && findings.front().prevents_use;
     const bool first = cluster == nullptr || cluster->rank() == 0;
     if (!findings.empty() && (unusable || (first && !quiet)))

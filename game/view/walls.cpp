@@ -33,29 +33,29 @@ Error missing_process(const content::Wall& wall, int rank, int processes) {
     return error;
 }
 
-std::string monitor_names(std::span<const content::Monitor> monitors) {
+std::string monitor_names(std::span<const content::HostMonitor> monitors) {
     std::string all;
-    for (const content::Monitor& monitor : monitors)
+    for (const content::HostMonitor& monitor : monitors)
         all += (all.empty() ? "" : ", ") + fmt::format("\"{}\"", monitor.name);
     return all.empty() ? "a connected monitor" : all;
 }
 
 Result<platform::DesktopArea> area_of(const content::Wall& wall, const content::DisplayOutput& output,
-                                      const content::Computer& computer) {
-    if (!output.display.empty() && !content::is_same_display(output.display, computer.display))
+                                      const content::DisplayHost& host) {
+    if (!output.display.empty() && !content::is_same_display(output.display, host.display))
         return fail(output_error(wall, fmt::format("its output is on X display \"{}\"", output.display),
-                                 fmt::format("\"{}\", which DISPLAY names", computer.display)));
+                                 fmt::format("\"{}\", which DISPLAY names", host.display)));
     if (output.position) {
         const content::PixelSize size = output.resolution.value_or(content::PixelSize{});
         return platform::DesktopArea{output.position->x, output.position->y, size.width, size.height};
     }
-    const content::Monitor* named = content::find_monitor(output, computer.monitors);
+    const content::HostMonitor* named = content::find_monitor(output, host.monitors);
     if (named == nullptr)
         return fail(output_error(wall,
                                  output.monitor_index
                                      ? fmt::format("there is no monitor {}", *output.monitor_index)
                                      : fmt::format("there is no monitor \"{}\"", output.monitor),
-                                 monitor_names(computer.monitors)));
+                                 monitor_names(host.monitors)));
     return platform::DesktopArea{named->x, named->y, named->width, named->height};
 }
 
@@ -90,31 +90,31 @@ bool on_a_wall(std::span<const content::Wall> walls, const Vec3& eye, const Vec3
     });
 }
 
-content::Computer this_computer(const platform::Desktop& desktop, const cluster::Cluster* cluster) {
-    content::Computer computer;
+content::DisplayHost this_host(const platform::Desktop& desktop, const cluster::Cluster* cluster) {
+    content::DisplayHost host;
     if (cluster != nullptr) {
-        computer.rank = cluster->rank();
-        computer.processes = cluster->size();
+        host.rank = cluster->rank();
+        host.processes = cluster->size();
     }
     for (const platform::Monitor& monitor : platform::monitors(desktop))
-        computer.monitors.push_back(
+        host.monitors.push_back(
             {monitor.name, monitor.area.x, monitor.area.y, monitor.area.width, monitor.area.height});
     // NOLINTNEXTLINE(concurrency-mt-unsafe): before any thread
-    if (const char* display = std::getenv("DISPLAY")) computer.display = display;
-    return computer;
+    if (const char* display = std::getenv("DISPLAY")) host.display = display;
+    return host;
 }
 
 Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& displays,
-                                                  const content::Computer& computer) {
+                                                  const content::DisplayHost& host) {
     std::vector<WallWindow> windows;
     for (std::size_t i = 0; i < displays.walls.size(); ++i) {
         const content::Wall& wall = displays.walls[i];
         const bool two = wall.right_output.has_value();
         const auto add = [&](const content::DisplayOutput& output, WallWindow::Shows shows) -> Status {
-            if (output.rank >= computer.processes)
-                return fail(missing_process(wall, output.rank, computer.processes));
-            if (output.rank != computer.rank) return {};
-            BOLT_TRY_ASSIGN(const auto area, area_of(wall, output, computer));
+            if (output.rank >= host.processes)
+                return fail(missing_process(wall, output.rank, host.processes));
+            if (output.rank != host.rank) return {};
+            BOLT_TRY_ASSIGN(const auto area, area_of(wall, output, host));
             windows.push_back({"Boltwright: " + wall.name, area, i, shows});
             return {};
         };
@@ -122,8 +122,8 @@ Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& di
         if (two) BOLT_TRY(add(*wall.right_output, WallWindow::Shows::right_output));
     }
     // The first process has the control window.
-    if (windows.empty() && computer.rank > 0)
-        return fail(ErrorCode::usage, fmt::format("process {} shows no wall", computer.rank),
+    if (windows.empty() && host.rank > 0)
+        return fail(ErrorCode::usage, fmt::format("process {} shows no wall", host.rank),
                     "as many processes as the display file has ranks");
     return windows;
 }
@@ -152,7 +152,7 @@ std::vector<EyeViewport> eye_viewports(const content::Wall& wall, WallWindow::Sh
 
 Result<std::unique_ptr<Walls>> Walls::open(const platform::Desktop& desktop, WallsOptions options) {
     BOLT_TRY_ASSIGN(const auto plan,
-                    plan_wall_windows(options.displays, this_computer(desktop, options.cluster)));
+                    plan_wall_windows(options.displays, this_host(desktop, options.cluster)));
     std::unique_ptr<Walls> walls(new Walls);
     for (const WallWindow& wanted : plan) {
         platform::WindowOptions window_options;

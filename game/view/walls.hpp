@@ -33,13 +33,13 @@ struct WallWindow {
     enum class Shows : std::uint8_t { all, left_output, right_output } shows = Shows::all;
 };
 
-// The computer that the process runs on. `cluster`: that of the process; null: it is the only one.
-content::Computer this_computer(const platform::Desktop& desktop, const cluster::Cluster* cluster = nullptr);
+// The monitors that this process can use, and its number. `cluster`: null: it is the only process.
+content::DisplayHost this_host(const platform::Desktop& desktop, const cluster::Cluster* cluster = nullptr);
 
 // The windows of the outputs of this process. Fails if one is on a monitor that is not connected or on
 // another X display, if an output is of a process that does not exist, or if this process has none.
 Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& displays,
-                                                  const content::Computer& computer);
+                                                  const content::DisplayHost& host);
 
 // The part of a window that shows an eye: 0 is the first eye of wall_eyes().
 struct EyeViewport {

@@ -15,8 +15,8 @@ using namespace displays_test;
 namespace {
 
 // Exactly one finding of the file, with this part.
-void check_one(const DisplayFile& displays, const std::string& part, const Computer& computer = {}) {
-    const auto found = texts(check_displays(displays, computer));
+void check_one(const DisplayFile& displays, const std::string& part, const DisplayHost& host = {}) {
+    const auto found = texts(check_displays(displays, host));
     REQUIRE_MESSAGE(found.size() == 1, part);
     CHECK_MESSAGE(has(found.front(), part), found.front());
 }
@@ -28,7 +28,7 @@ DisplayFile on_monitor(const std::string& name) {
     return file;
 }
 
-const Computer two_monitors{{{"DP-1", 0, 0, 1500, 1200}, {"DP-2", 1500, 0, 1920, 1080}}, 0, ":0"};
+const DisplayHost two_monitors{{{"DP-1", 0, 0, 1500, 1200}, {"DP-2", 1500, 0, 1920, 1080}}, 0, ":0"};
 
 }  // namespace
 

@@ -119,8 +119,8 @@ TEST_CASE("Walls: a point is on a wall if the line from the eye through it meets
 
 TEST_CASE("Walls: outputs become windows, and an output that is not here is refused by name") {
     content::DisplayFile file = test::small_cave();
-    const content::Computer computer{{{"DP-1", 0, 0, 1920, 1080}, {"DP-2", 1920, 0, 1280, 720}}, 0, ":0"};
-    const auto plan = view::plan_wall_windows(file, computer);
+    const content::DisplayHost host{{{"DP-1", 0, 0, 1920, 1080}, {"DP-2", 1920, 0, 1280, 720}}, 0, ":0"};
+    const auto plan = view::plan_wall_windows(file, host);
     REQUIRE(plan);
     REQUIRE(plan->size() == test::cave_walls);
     CHECK((*plan)[1].area.x == 240);
@@ -133,7 +133,7 @@ TEST_CASE("Walls: outputs become windows, and an output that is not here is refu
     wall.output.monitor = "DP-2";
     wall.right_output = content::DisplayOutput();
     wall.right_output->monitor_index = 0;
-    const auto two = view::plan_wall_windows(file, computer);
+    const auto two = view::plan_wall_windows(file, host);
     REQUIRE(two);
     REQUIRE(two->size() == test::cave_walls + 1);
     CHECK((*two)[1].area.x == 1920);
@@ -142,7 +142,7 @@ TEST_CASE("Walls: outputs become windows, and an output that is not here is refu
     CHECK((*two)[2].shows == view::WallWindow::Shows::right_output);
 
     const auto refused = [&](const char* part) {
-        const auto result = view::plan_wall_windows(file, computer);
+        const auto result = view::plan_wall_windows(file, host);
         REQUIRE_FALSE(result);
         CHECK(result.error().code == ErrorCode::no_device);
         CHECK(result.error().message().find("\"front\"") != std::string::npos);
@@ -160,27 +160,27 @@ TEST_CASE("Walls: each process opens the windows of its rank, and a rank without
     content::DisplayFile file = test::small_cave();
     file.walls[1].output.rank = 1;
     file.walls[3].output.rank = 1;
-    content::Computer computer{{{"DP-1", 0, 0, 1920, 1080}}, 0, ":0", 2};
-    const auto first = view::plan_wall_windows(file, computer);
+    content::DisplayHost host{{{"DP-1", 0, 0, 1920, 1080}}, 0, ":0", 2};
+    const auto first = view::plan_wall_windows(file, host);
     REQUIRE(first);
     CHECK(first->size() == test::cave_walls - 2);
-    computer.rank = 1;
-    const auto second = view::plan_wall_windows(file, computer);
+    host.rank = 1;
+    const auto second = view::plan_wall_windows(file, host);
     REQUIRE(second);
     REQUIRE(second->size() == 2);
     CHECK((*second)[0].wall == 1);
     CHECK((*second)[1].wall == 3);
 
     const auto refused = [&](const char* part) {
-        const auto result = view::plan_wall_windows(file, computer);
+        const auto result = view::plan_wall_windows(file, host);
         REQUIRE_FALSE(result);
         CHECK(result.error().code == ErrorCode::usage);
         CHECK(result.error().message().find(part) != std::string::npos);
     };
-    computer = {{}, 2, ":0", 3};
+    host = {{}, 2, ":0", 3};
     refused("process 2 shows no wall");
     file.walls[1].output.rank = 4;
     refused("wall \"front\": its output has rank 4, and there are 3 processes; expected mpirun -n 5");
-    computer = {{}, 0, ":0", 1};
+    host = {{}, 0, ":0", 1};
     refused("has rank 4, and the program was started alone");
 }
