@@ -47,7 +47,7 @@ std::vector<DisplayFinding> check_walls(const DisplayFile& displays);
 // one.
 struct DisplayHost {
     std::vector<HostMonitor> monitors;  // none: outputs are compared with one another only
-    int rank = 0;                       // of the process that shows its walls: DisplayOutput::rank
+    int process = 0;                    // number of the one that shows its walls, as DisplayOutput::process
     std::string display;                // X display of the program, such as ":0"; empty: unknown
     int processes = 1;                  // that show the walls together
 };

@@ -160,7 +160,7 @@ void check_pixels(const PlacedOutput& placed, Findings& findings) {
 // Returns true if both outputs name the same monitor, or rectangles of the same desktop that overlap.
 bool collide(const PlacedOutput& a, const PlacedOutput& b) {
     const DisplayOutput &one = *a.output, &other = *b.output;
-    if (one.rank != other.rank || !is_same_display(a.display, b.display)) return false;
+    if (one.process != other.process || !is_same_display(a.display, b.display)) return false;
     if (a.rect && b.rect) return has_pixels(common_part(*a.rect, *b.rect));
     return (!one.monitor.empty() && one.monitor == other.monitor) ||
            (one.monitor_index && one.monitor_index == other.monitor_index);
@@ -185,7 +185,7 @@ std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const Dis
     std::vector<PlacedOutput> outputs = outputs_of(displays);
     for (PlacedOutput& placed : outputs) {
         const DisplayOutput& output = *placed.output;
-        if (output.rank == host.rank) {
+        if (output.process == host.process) {
             if (placed.display.empty()) placed.display = host.display;
             if (!host.display.empty() && !is_same_display(placed.display, host.display))
                 report(findings, true, placed,

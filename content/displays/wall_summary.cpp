@@ -27,7 +27,7 @@ std::string describe_place(const DisplayOutput& output) {
     else
         text = "monitor " + output.monitor;
     if (!output.display.empty()) text += " on " + output.display;
-    if (output.rank != 0) text += fmt::format(" of rank {}", output.rank);
+    if (output.process != 0) text += fmt::format(" of process {}", output.process);
     return text;
 }
 
@@ -122,7 +122,7 @@ std::string list_walls(const DisplayFile& displays, const DisplayHost& host) {
     for (const Wall& wall : displays.walls) {
         std::optional<PixelSize> resolution = wall.output.resolution;
         const bool is_here =
-            wall.output.rank == host.rank &&
+            wall.output.process == host.process &&
             (wall.output.display.empty() || is_same_display(wall.output.display, host.display));
         if (const HostMonitor* monitor = is_here ? find_monitor(wall.output, host.monitors) : nullptr)
             resolution = PixelSize{monitor->width, monitor->height};

@@ -23,12 +23,13 @@ class Cluster {
     // Waits until all processes have left, unless lost() was called.
     ~Cluster();
 
-    [[nodiscard]] int rank() const { return transport_->rank(); }  // 0 … size() − 1
+    // Number of this process, 0 … size() − 1. MPI calls it the rank.
+    [[nodiscard]] int process() const { return transport_->process(); }
     [[nodiscard]] int size() const { return transport_->size(); }
     // Name of the computer that the process runs on.
-    [[nodiscard]] const std::string& host(int rank) const { return transport_->host(rank); }
+    [[nodiscard]] const std::string& host(int process) const { return transport_->host(process); }
     // "process 2 on wall-pc-2", for messages.
-    [[nodiscard]] std::string describe(int rank) const;
+    [[nodiscard]] std::string describe(int process) const;
 
     // Sends without waiting; messages from one process to another arrive in order.
     Status send(int to, std::span<const std::byte> message) { return transport_->send(to, message); }

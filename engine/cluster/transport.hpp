@@ -21,9 +21,10 @@ class Transport {
     Transport& operator=(const Transport&) = delete;
     virtual ~Transport() = default;
 
-    [[nodiscard]] virtual int rank() const = 0;
+    // As the functions of Cluster with these names.
+    [[nodiscard]] virtual int process() const = 0;
     [[nodiscard]] virtual int size() const = 0;
-    [[nodiscard]] virtual const std::string& host(int rank) const = 0;
+    [[nodiscard]] virtual const std::string& host(int process) const = 0;
     // Sends without waiting.
     virtual Status send(int to, std::span<const std::byte> message) = 0;
     // The next message from a process, if it has arrived.

@@ -32,7 +32,7 @@ struct DisplaysArguments {
     std::string file, pvx, kind = "cave", stereo = "mono", name;
     double scale = 1.0;     // import
     double seconds = 10.0;  // track
-    int rank = 0;
+    int process = 0;
     bool force = false, without_monitors = false;
 };
 
@@ -98,13 +98,13 @@ int check_display_file(const DisplaysArguments& options) {
         if (!poses) return print_error(poses.error());
     }
     content::DisplayHost host;
-    host.rank = options.rank;
+    host.process = options.process;
     std::string compared = "The outputs were not compared with monitors";
     if (!options.without_monitors) {
         const auto desktop = platform::Desktop::open();
         if (desktop) {
             host = view::this_host(*desktop);
-            host.rank = options.rank;
+            host.process = options.process;
             const std::size_t count = host.monitors.size();
             compared = fmt::format("The outputs were compared with {} of this computer",
                                    count == 1 ? "the monitor" : fmt::format("the {} monitors", count));
@@ -240,7 +240,10 @@ void add_displays_check(CLI::App& displays, const std::shared_ptr<DisplaysArgume
         add_displays_command(displays, *options, "check",
                              "List the walls and report every mistake: exit code 0 if there is none, 1 if "
                              "the walls do not fit the monitors of this computer, 3 if the file is wrong");
-    checked->add_option("--rank", options->rank, "Number of this computer in the file")
+    checked
+        ->add_option(
+            "--rank", options->process,
+            "Number of the process that shows the walls of this computer, as the file's outputs have it")
         ->check(CLI::Range(0, 63))
         ->capture_default_str();
     checked->add_flag(

@@ -66,7 +66,7 @@ Result<std::unique_ptr<view::Walls>> open_checked_walls(const std::string& file,
     const std::vector<content::DisplayFinding> findings =
         content::check_displays(loaded.displays, view::this_host(desktop, cluster));
     const bool unusable = !findings.empty() && findings.front().prevents_use;
-    const bool first = cluster == nullptr || cluster->rank() == 0;
+    const bool first = cluster == nullptr || cluster->process() == 0;
     if (!findings.empty() && (unusable || (first && !quiet)))
         (void)std::fputs(content::describe(findings, loaded).c_str(), stderr);
     if (unusable)
@@ -107,7 +107,7 @@ Result<OpenedWalls> open_walls(const std::string& file, const platform::Desktop&
     }
     catch_interruption();
     const view::StopWaiting stop = [] { return interrupted(); };
-    const bool first = cluster->rank() == 0;
+    const bool first = cluster->process() == 0;
     Status ready = walls ? Status{} : Status(fail(walls.error()));
     if (ready) {
         opened.walls = std::move(*walls);

@@ -1,5 +1,5 @@
 // Projection walls on several computers: the processes that mpirun started show one room in step. The first
-// process (rank 0) plays, and sends each frame to the others; when all have drawn it, all present it.
+// process (MPI's rank 0) plays, and sends each frame to the others; when all have drawn it, all present it.
 //
 //   first process:  send the frame, draw it, wait until all have drawn it, permit, present
 //   another:        receive the frame, draw it, tell so, wait for the permission, present
@@ -57,7 +57,7 @@ class WallLeader {
   private:
     WallLeader(cluster::Cluster& cluster, StopWaiting stop, std::function<void(const std::string&)> log)
         : cluster_(&cluster), stop_(std::move(stop)), log_(std::move(log)) {}
-    Result<std::optional<cluster::Message>> answer_of(int rank);
+    Result<std::optional<cluster::Message>> answer_of(int process);
 
     cluster::Cluster* cluster_;
     StopWaiting stop_;

@@ -23,12 +23,13 @@ Error output_error(const content::Wall& wall, std::string what, std::string expe
             std::move(expected)};
 }
 
-Error missing_process(const content::Wall& wall, int rank, int processes) {
+Error missing_process(const content::Wall& wall, int process, int processes) {
     Error error = output_error(
         wall,
-        processes == 1 ? fmt::format("its output has rank {}, and the program was started alone", rank)
-                       : fmt::format("its output has rank {}, and there are {} processes", rank, processes),
-        fmt::format("mpirun -n {} or more (docs/displays.md)", rank + 1));
+        processes == 1
+            ? fmt::format("its output has rank {}, and the program was started alone", process)
+            : fmt::format("its output has rank {}, and there are {} processes", process, processes),
+        fmt::format("mpirun -n {} or more (docs/displays.md)", process + 1));
     error.code = ErrorCode::usage;
     return error;
 }
@@ -93,7 +94,7 @@ bool on_a_wall(std::span<const content::Wall> walls, const Vec3& eye, const Vec3
 content::DisplayHost this_host(const platform::Desktop& desktop, const cluster::Cluster* cluster) {
     content::DisplayHost host;
     if (cluster != nullptr) {
-        host.rank = cluster->rank();
+        host.process = cluster->process();
         host.processes = cluster->size();
     }
     for (const platform::Monitor& monitor : platform::monitors(desktop))
@@ -111,9 +112,9 @@ Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& di
         const content::Wall& wall = displays.walls[i];
         const bool two = wall.right_output.has_value();
         const auto add = [&](const content::DisplayOutput& output, WallWindow::Shows shows) -> Status {
-            if (output.rank >= host.processes)
-                return fail(missing_process(wall, output.rank, host.processes));
-            if (output.rank != host.rank) return {};
+            if (output.process >= host.processes)
+                return fail(missing_process(wall, output.process, host.processes));
+            if (output.process != host.process) return {};
             BOLT_TRY_ASSIGN(const auto area, area_of(wall, output, host));
             windows.push_back({"Boltwright: " + wall.name, area, i, shows});
             return {};
@@ -122,8 +123,8 @@ Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& di
         if (two) BOLT_TRY(add(*wall.right_output, WallWindow::Shows::right_output));
     }
     // The first process has the control window.
-    if (windows.empty() && host.rank > 0)
-        return fail(ErrorCode::usage, fmt::format("process {} shows no wall", host.rank),
+    if (windows.empty() && host.process > 0)
+        return fail(ErrorCode::usage, fmt::format("process {} shows no wall", host.process),
                     "as many processes as the display file has ranks");
     return windows;
 }
@@ -175,7 +176,7 @@ Walls::~Walls() {
 }
 
 Status Walls::gather(std::uint64_t fingerprint, StopWaiting stop) {
-    if (cluster_ == nullptr || cluster_->rank() != 0) return {};
+    if (cluster_ == nullptr || cluster_->process() != 0) return {};
     BOLT_TRY_ASSIGN(auto leader, WallLeader::begin(*cluster_, fingerprint, std::move(stop), log_));
     leader_.emplace(std::move(leader));
     return {};

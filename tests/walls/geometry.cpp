@@ -156,15 +156,16 @@ TEST_CASE("Walls: outputs become windows, and an output that is not here is refu
     wall.output.display = {};
 }
 
-TEST_CASE("Walls: each process opens the windows of its rank, and a rank without a process is refused") {
+TEST_CASE(
+    "Walls: each process opens its windows, and the number of a process that does not exist is refused") {
     content::DisplayFile file = test::small_cave();
-    file.walls[1].output.rank = 1;
-    file.walls[3].output.rank = 1;
+    file.walls[1].output.process = 1;
+    file.walls[3].output.process = 1;
     content::DisplayHost host{{{"DP-1", 0, 0, 1920, 1080}}, 0, ":0", 2};
     const auto first = view::plan_wall_windows(file, host);
     REQUIRE(first);
     CHECK(first->size() == test::cave_walls - 2);
-    host.rank = 1;
+    host.process = 1;
     const auto second = view::plan_wall_windows(file, host);
     REQUIRE(second);
     REQUIRE(second->size() == 2);
@@ -179,7 +180,7 @@ TEST_CASE("Walls: each process opens the windows of its rank, and a rank without
     };
     host = {{}, 2, ":0", 3};
     refused("process 2 shows no wall");
-    file.walls[1].output.rank = 4;
+    file.walls[1].output.process = 4;
     refused("wall \"front\": its output has rank 4, and there are 3 processes; expected mpirun -n 5");
     host = {{}, 0, ":0", 1};
     refused("has rank 4, and the program was started alone");
