@@ -7,8 +7,8 @@
 #include "engine/cluster/message.hpp"
 #include "engine/platform/window.hpp"
 #include "game/view/camera.hpp"
+#include "game/view/gpu_context.hpp"
 #include "game/view/immersive_frame.hpp"
-#include "game/view/pictures.hpp"
 
 namespace bolt::view {
 

@@ -7,6 +7,7 @@
 
 #include "engine/gpu/resources.hpp"
 #include "game/session/session_file.hpp"
+#include "game/view/pictures.hpp"
 #include "tests/support/need.hpp"
 
 namespace bolt::test {
