@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/xr/controller_profiles.hpp"
 #include "engine/xr/openxr.hpp"
 
 namespace bolt::xr {
@@ -15,20 +16,9 @@ namespace {
 
 constexpr const char* headless_extension = XR_MND_HEADLESS_EXTENSION_NAME;
 constexpr const char* clock_extension = XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME;
-// Controllers that are also sold as trackers, or whose grip pose is easily fixed to glasses.
-constexpr std::array<const char*, 5> tracker_profiles{
-    "/interaction_profiles/khr/simple_controller", "/interaction_profiles/oculus/touch_controller",
-    "/interaction_profiles/valve/index_controller", "/interaction_profiles/htc/vive_controller",
-    "/interaction_profiles/microsoft/motion_controller"};
 constexpr XrSpaceLocationFlags fully_tracked =
     XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT |
     XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
-
-Result<XrPath> to_path(XrInstance instance, const std::string& text) {
-    XrPath path = XR_NULL_PATH;
-    BOLT_TRY(check(xrStringToPath(instance, text.c_str(), &path), "xrStringToPath"));
-    return path;
-}
 
 }  // namespace
 
@@ -118,7 +108,7 @@ Result<SpaceHandle> PoseTracker::Objects::grip_space(const char* hand) {
     XrActionSet raw_set = XR_NULL_HANDLE;
     BOLT_TRY(check(xrCreateActionSet(instance.get(), &set, &raw_set), "xrCreateActionSet"));
     actions = ActionSetHandle(raw_set);
-    BOLT_TRY_ASSIGN(XrPath side, to_path(instance.get(), hand));
+    BOLT_TRY_ASSIGN(XrPath side, path_of(instance.get(), hand));
     XrActionCreateInfo action{XR_TYPE_ACTION_CREATE_INFO};
     fmt::format_to_n(action.actionName, sizeof action.actionName - 1, "pose");
     fmt::format_to_n(action.localizedActionName, sizeof action.localizedActionName - 1, "Pose");
@@ -127,18 +117,11 @@ Result<SpaceHandle> PoseTracker::Objects::grip_space(const char* hand) {
     action.subactionPaths = &side;
     XrAction grip = XR_NULL_HANDLE;
     BOLT_TRY(check(xrCreateAction(raw_set, &action, &grip), "xrCreateAction"));
-    BOLT_TRY_ASSIGN(const auto pose, to_path(instance.get(), std::string(hand) + "/input/grip/pose"));
-    for (const char* name : tracker_profiles) {
-        BOLT_TRY_ASSIGN(const auto profile, to_path(instance.get(), name));
+    BOLT_TRY_ASSIGN(const auto pose, path_of(instance.get(), std::string(hand) + "/input/grip/pose"));
+    for (const ControllerProfile& profile : controller_profiles()) {
+        if (profile.needs_hand_interaction) continue;  // a hand is no tracker of the head
         const XrActionSuggestedBinding binding{grip, pose};
-        XrInteractionProfileSuggestedBinding suggested{XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING};
-        suggested.interactionProfile = profile;
-        suggested.countSuggestedBindings = 1;
-        suggested.suggestedBindings = &binding;
-        // A runtime rejects controllers that it does not know; the others still work.
-        const XrResult accepted = xrSuggestInteractionProfileBindings(instance.get(), &suggested);
-        if (accepted != XR_ERROR_PATH_UNSUPPORTED)
-            BOLT_TRY(check(accepted, "xrSuggestInteractionProfileBindings"));
+        BOLT_TRY(suggest_bindings_of(profile, {&binding, 1}, instance.get()));
     }
     XrSessionActionSetsAttachInfo attach{XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO};
     attach.countActionSets = 1;
@@ -166,8 +149,7 @@ Status PoseTracker::Objects::create_spaces(TrackedThing tracked) {
     if (tracked == TrackedThing::head) {
         BOLT_TRY_ASSIGN(thing, reference_space(XR_REFERENCE_SPACE_TYPE_VIEW));
     } else {
-        BOLT_TRY_ASSIGN(
-            thing, grip_space(tracked == TrackedThing::left_hand ? "/user/hand/left" : "/user/hand/right"));
+        BOLT_TRY_ASSIGN(thing, grip_space(hand_paths[tracked == TrackedThing::left_hand ? 0 : 1]));
     }
     return {};
 }
