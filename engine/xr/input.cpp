@@ -133,11 +133,11 @@ Status XrInput::attach() {
     return {};
 }
 
-Result<std::optional<TrackedPose>> XrInput::locate(XrSpace space, XrTime time) const {
+Result<std::optional<LocatedPose>> XrInput::locate(XrSpace space, XrTime time) const {
     XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
     BOLT_TRY(check(xrLocateSpace(space, session_->space(), time, &location), "xrLocateSpace"));
     if ((location.locationFlags & pose_valid) != pose_valid) return std::nullopt;
-    return TrackedPose{to_pose(location.pose), (location.locationFlags & pose_tracked) == pose_tracked};
+    return LocatedPose{to_pose(location.pose), (location.locationFlags & pose_tracked) == pose_tracked};
 }
 
 Result<float> XrInput::value(XrAction action, Side side) const {

@@ -27,14 +27,14 @@ struct PoseTracker::Objects {
     InstanceHandle instance;
     SessionHandle session;
     ActionSetHandle actions;
-    SpaceHandle base, thing;
+    SpaceHandle base, device;
     PFN_xrConvertTimespecTimeToTimeKHR to_time = nullptr;
     XrViewConfigurationType views = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
     bool running = false, focused = false, ended = false;
 
     Status create_instance();
     Status create_session();
-    Status create_spaces(TrackedThing tracked);
+    Status create_spaces(TrackedDevice tracked);
     Result<SpaceHandle> reference_space(XrReferenceSpaceType type) const;
     Result<SpaceHandle> grip_space(const char* hand);
     Status follow_events();
@@ -136,7 +136,7 @@ Result<SpaceHandle> PoseTracker::Objects::grip_space(const char* hand) {
     return SpaceHandle(raw);
 }
 
-Status PoseTracker::Objects::create_spaces(TrackedThing tracked) {
+Status PoseTracker::Objects::create_spaces(TrackedDevice tracked) {
     std::vector<XrReferenceSpaceType> types;
     BOLT_TRY(check(enumerate(types, XR_REFERENCE_SPACE_TYPE_VIEW,
                              [&](std::uint32_t capacity, std::uint32_t* count, XrReferenceSpaceType* values) {
@@ -146,10 +146,10 @@ Status PoseTracker::Objects::create_spaces(TrackedThing tracked) {
     const bool stage = std::find(types.begin(), types.end(), XR_REFERENCE_SPACE_TYPE_STAGE) != types.end();
     BOLT_TRY_ASSIGN(base,
                     reference_space(stage ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL));
-    if (tracked == TrackedThing::head) {
-        BOLT_TRY_ASSIGN(thing, reference_space(XR_REFERENCE_SPACE_TYPE_VIEW));
+    if (tracked == TrackedDevice::headset) {
+        BOLT_TRY_ASSIGN(device, reference_space(XR_REFERENCE_SPACE_TYPE_VIEW));
     } else {
-        BOLT_TRY_ASSIGN(thing, grip_space(hand_paths[tracked == TrackedThing::left_hand ? 0 : 1]));
+        BOLT_TRY_ASSIGN(device, grip_space(hand_paths[tracked == TrackedDevice::left_controller ? 0 : 1]));
     }
     return {};
 }
@@ -194,18 +194,18 @@ Result<std::optional<Pose>> PoseTracker::Objects::locate() const {
     XrTime time = 0;
     BOLT_TRY(check(to_time(instance.get(), &now, &time), "xrConvertTimespecTimeToTimeKHR"));
     XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
-    BOLT_TRY(check(xrLocateSpace(thing.get(), base.get(), time, &location), "xrLocateSpace"));
+    BOLT_TRY(check(xrLocateSpace(device.get(), base.get(), time, &location), "xrLocateSpace"));
     if ((location.locationFlags & fully_tracked) != fully_tracked) return std::optional<Pose>();
     const Pose pose = to_pose(location.pose);
     if (!finite(pose.position) || !std::isfinite(pose.orientation.w)) return std::optional<Pose>();
     return std::optional(pose);
 }
 
-Result<std::unique_ptr<PoseTracker>> PoseTracker::open(TrackedThing thing) {
+Result<std::unique_ptr<PoseTracker>> PoseTracker::open(TrackedDevice device) {
     auto objects = std::make_unique<Objects>();
     BOLT_TRY(objects->create_instance());
     BOLT_TRY(objects->create_session());
-    BOLT_TRY(objects->create_spaces(thing));
+    BOLT_TRY(objects->create_spaces(device));
     return std::unique_ptr<PoseTracker>(new PoseTracker(std::move(objects)));
 }
 

@@ -69,7 +69,7 @@ TEST_CASE("Room: the menu is a panel that the hand points at, and its buttons ar
         right.active = true;
         right.select = select;
         const Vec3 along = glm::normalize(target - hand);
-        right.aim = xr::TrackedPose{
+        right.aim = xr::LocatedPose{
             {hand, glm::normalize(Quat(1.0 - along.z, glm::cross(Vec3(0.0, 0.0, -1.0), along)))}, true};
         driver.frame();
     };
