@@ -1,5 +1,5 @@
-// The input of a lesson: which devices, and how mouse and keyboard move the hand without one. The menu and the
-// command line make it.
+// The devices that a user chooses for a lesson, in the menu or on the command line, and how mouse and
+// keyboard move the hand without one.
 #pragma once
 
 #include <filesystem>
