@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "game/view/pictures.hpp"
 #include "tests/room/immersive_driver.hpp"
 #include "tests/trainer/one_joint.hpp"
 
@@ -190,12 +191,12 @@ TEST_CASE("Room: the stick turns the workpiece by a step, once, and raises it as
         for (int i = 0; i < frames; ++i) (void)hand_events(room, hands, {}, 1.0 / frames);
         CHECK(room.height == doctest::Approx(0.2));
     }
-    // About the vertical through the middle of the machine.
-    render::BoundingBox machine;
-    machine.low = {-0.1F, 0.0F, -0.2F};
-    machine.high = {0.3F, 0.4F, 0.2F};
+    // About the vertical through the middle of the workpiece.
+    render::BoundingBox box;
+    box.low = {-0.1F, 0.0F, -0.2F};
+    box.high = {0.3F, 0.4F, 0.2F};
     const Vec3 middle(0.1, 0.2, 0.0);
-    const Pose turned = adjusted({}, machine, 3, 0.05);
+    const Pose turned = adjusted({}, box, 3, 0.05);
     CHECK(glm::distance(turned * middle, middle + Vec3(0.0, 0.05, 0.0)) < 1e-6);
     CHECK(glm::distance(turned * (middle + Vec3(1.0, 0.0, 0.0)), middle + Vec3(0.0, 0.05, -1.0)) < 1e-6);
 }
