@@ -77,7 +77,7 @@ Result<std::unique_ptr<Cluster>> Cluster::join() {
 Cluster::Cluster(std::unique_ptr<Transport> transport) : transport_(std::move(transport)) {}
 
 Cluster::~Cluster() {
-    if (!lost_) transport_->leave();
+    if (!abandoned_) transport_->leave();
 }
 
 std::string Cluster::describe(int process) const {

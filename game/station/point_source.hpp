@@ -49,7 +49,7 @@ struct TouchIo {
 };
 
 // The tip of an arm, in the frame of its samples: the user touches each point and presses a button of the arm
-// or Enter. The position is averaged; if the hand moved, the point is asked for again.
+// or Enter. The position is averaged; if the hand moved, the user must touch the point again.
 class ArmTip final : public PointSource {
   public:
     // `tip`: m, in the frame of the handle.
@@ -64,7 +64,7 @@ class ArmTip final : public PointSource {
     TouchIo io_;
     Vec3 tip_;
     TouchOptions options_;
-    std::uint32_t buttons_ = ~0U;  // pressed at the last look; a button that is held from before is no press
+    std::uint32_t buttons_ = ~0U;  // pressed at the last poll; a button that was held before is no press
     std::uint64_t sample_ = 0;     // number of the last sample
     double sample_time_ = 0.0;     // s, when it arrived
 };

@@ -1,5 +1,5 @@
-// A lesson in a window: its session, its world, and the state that the systems of a frame keep from frame to
-// frame.
+// A lesson in progress, in a window or in a room: its session, its world, and the state that the systems of a
+// frame keep from frame to frame.
 #pragma once
 
 #include <functional>
@@ -81,7 +81,7 @@ struct ActiveLesson {
     render::Scene scene;
 
     scene::Postures postures;
-    std::size_t handle_grip = 0;  // grip on the wrench's handle (Postures::on_handle)
+    std::size_t handle_grip = 0;  // index in Postures::on_handle
     Vec3 shoulder{0.0};           // m, the trainee's
     scene::Effort effort;         // of the hand
     view::Palette palette;

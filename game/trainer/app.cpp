@@ -88,7 +88,7 @@ void App::release() {
         scene::destroy_drawables(active_->workplace.world);
     }
     pictures_.release();
-    if (sharing_) sharing_->panel.release();
+    if (sender_) sender_->panel.release();
     gpu_.reset();
 }
 
@@ -387,7 +387,7 @@ Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& imme
 Status App::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
     if (in_room()) {
         BOLT_TRY(draw_panel(frame));
-        if (sharing_) BOLT_TRY(sharing_->panel.record(*gpu_->context->device, frame, *gpu_->panel));
+        if (sender_) BOLT_TRY(sender_->panel.record(*gpu_->context->device, frame, *gpu_->panel));
     } else if (window.size.width > 0 && window.size.height > 0) {
         BOLT_TRY(draw_pictures(frame, window.size, window.scale));
         BOLT_TRY(draw_interface(frame, gpu_->context->renderer->picture(0)));

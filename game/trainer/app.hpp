@@ -164,9 +164,9 @@ class App : public view::WindowContent {
 
     std::optional<RoomState> room_;  // since a display has surrounded the user
 
-    std::optional<LessonSharing> sharing_;  // since other processes show walls
-    std::uint32_t lesson_number_ = 0;       // counts the lessons of this program
-    SharedModels shared_models_;            // of the lesson
+    std::optional<LessonSender> sender_;  // since other processes show walls
+    std::uint32_t lesson_number_ = 0;     // counts the lessons of this program
+    SharedModels shared_models_;          // of the lesson
 
     std::unique_ptr<GpuResources> gpu_;
     AssemblyPictures pictures_;

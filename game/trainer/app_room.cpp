@@ -39,7 +39,7 @@ RoomInput App::room_input(const view::ImmersiveFrame& immersive) const {
 }
 
 Status App::share(cluster::MessageWriter& message) {
-    if (!sharing_) sharing_.emplace();
+    if (!sender_) sender_.emplace();
     SharedFrame frame;
     if (active_) {
         frame.models = &shared_models_;
@@ -49,7 +49,7 @@ Status App::share(cluster::MessageWriter& message) {
     }
     frame.scene_in_room = scene_in_room();
     if (in_room()) frame.panel = room_->panel;
-    sharing_->write(message, frame);
+    sender_->write(message, frame);
     return {};
 }
 
@@ -108,14 +108,13 @@ void App::place_in_room(const view::ImmersiveFrame& immersive) {
     if (!active_) room.workpiece.reset();
     find_arm(immersive);
     if (placed && active_ && !room.workpiece) {
-        const render::BoundingBox& machine = active_->workplace.workpiece;
+        const render::BoundingBox& box = active_->workplace.workpiece;
         room.workpiece = place_workpiece(
-            viewer, machine,
+            viewer, box,
             immersive.floor_known
                 ? std::nullopt
                 : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
-        if (immersive.shows)
-            room.workpiece = moved_into_view(*room.workpiece, machine, viewer, immersive.shows);
+        if (immersive.shows) room.workpiece = moved_into_view(*room.workpiece, box, viewer, immersive.shows);
     }
 }
 

@@ -140,7 +140,7 @@ LessonStartThread::LessonStartThread(LessonRequest request, std::unique_ptr<Less
     : before_(std::move(before)) {
     request.arm_dialog.permission = permission_;
     request.arm_dialog.on_preparation = [this](const device::Preparation& preparation) {
-        return show(preparation);
+        return store(preparation);
     };
     thread_ = std::jthread([this, request = std::move(request)] {
         before_.reset();
@@ -152,7 +152,7 @@ LessonStartThread::LessonStartThread(LessonRequest request, std::unique_ptr<Less
 
 LessonStartThread::~LessonStartThread() { give_up(); }
 
-bool LessonStartThread::show(const device::Preparation& preparation) {
+bool LessonStartThread::store(const device::Preparation& preparation) {
     const std::lock_guard lock(mutex_);
     preparation_ = preparation;
     return !given_up_;

@@ -69,15 +69,15 @@ Result<StartedLesson> start_lesson(const LessonRequest& request);
 // user's keys while the arm is opened.
 class LessonStartThread {
   public:
-    // Starts the thread. `before`: an earlier start that was given up and may still hold the devices; the
-    // thread waits for its end first.
+    // Starts the thread. `before`: an earlier start that was given up, or null. It may still hold the
+    // devices, so the thread first waits for its end.
     explicit LessonStartThread(LessonRequest request, std::unique_ptr<LessonStartThread> before = {});
     LessonStartThread(const LessonStartThread&) = delete;
     LessonStartThread& operator=(const LessonStartThread&) = delete;
-    // Gives up and waits for the thread: until the arm stands still, if it moves by itself.
+    // Gives up and waits for the thread. If the arm moves by itself, that takes until it stands still.
     ~LessonStartThread();
 
-    // The result, once, when it is there.
+    // The result of start_lesson(), once; none: it has not returned yet, or the result was taken.
     std::optional<Result<StartedLesson>> take();
 
     [[nodiscard]] device::ArmNeeds needs() const;
@@ -85,14 +85,15 @@ class LessonStartThread {
     void give_up();      // the devices are released as soon as possible
 
   private:
-    bool show(const device::Preparation& preparation);
+    // Stores the needs of the arm for needs(). Returns false to end its preparation.
+    bool store(const device::Preparation& preparation);
 
     std::unique_ptr<LessonStartThread> before_;
     std::shared_ptr<device::MovePermission> permission_ = std::make_shared<device::MovePermission>();
     std::atomic<bool> given_up_ = false, done_ = false;
     mutable std::mutex mutex_;
     device::Preparation preparation_;              // under the mutex
-    std::optional<Result<StartedLesson>> result_;  // of the thread until done_
+    std::optional<Result<StartedLesson>> result_;  // only the thread uses it until done_ is true
     std::jthread thread_;                          // last, so that it ends before the other members
 };
 

@@ -27,7 +27,7 @@ render::Scene empty_room() {
     return scene;
 }
 
-void LessonSharing::write(cluster::MessageWriter& message, const SharedFrame& frame) {
+void LessonSender::write(cluster::MessageWriter& message, const SharedFrame& frame) {
     const std::uint32_t lesson = frame.models != nullptr ? frame.lesson : 0;
     message.put(lesson);
     const bool news = lesson != lesson_;

@@ -67,7 +67,7 @@ std::vector<InputEvent> get_events(MessageReader& message) {
             case EventKind::key: {
                 platform::KeyEvent key;
                 key.key = kept.get<platform::Key>();
-                if (static_cast<std::size_t>(key.key) >= platform::key_count) kept.stop();
+                if (static_cast<std::size_t>(key.key) >= platform::key_count) kept.mark_damaged();
                 for (bool* state : {&key.down, &key.repeated, &key.modifiers.shift, &key.modifiers.control,
                                     &key.modifiers.alt, &key.modifiers.super})
                     *state = kept.get<bool>();
@@ -81,7 +81,7 @@ std::vector<InputEvent> get_events(MessageReader& message) {
                 events.emplace_back(platform::CloseEvent{});
                 break;
             default:
-                kept.stop();
+                kept.mark_damaged();
         }
     }
     if (!kept.ok()) events.clear();
@@ -89,7 +89,7 @@ std::vector<InputEvent> get_events(MessageReader& message) {
 }
 
 Error lost_process(Cluster& cluster, int process) {
-    cluster.lost();
+    cluster.abandon();
     Error error;
     error.what = fmt::format("{} has not answered for {:.0f} s", cluster.describe(process), longest_silence);
     error.expected = "all processes of the walls; restart them with mpirun";

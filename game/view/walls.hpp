@@ -80,17 +80,17 @@ class Walls {
     // The next frame: prepares the swapchains, and reads the pose of the head at a time on the steady clock.
     // Group i belongs to wall i; it is empty for a wall of another process.
     Result<ImmersiveFrame> begin_frame(double seconds);
-    // The same with a head that another process has read.
+    // As above, with a head that another process has read.
     Result<ImmersiveFrame> begin_frame(const Pose& head, bool tracked);
-    // Adds the pictures that the renderer has drawn for it.
+    // Adds the pictures that the renderer has drawn for the frame to `windows`.
     void add_pictures(const render::Renderer& renderer, const ImmersiveFrame& immersive,
                       std::vector<gpu::WindowPictures>& windows) const;
 
-    // The first one of several processes; null: the only one, or another one.
+    // Null: this is not the first of several processes.
     [[nodiscard]] WallLeader* leader() { return leader_ ? &*leader_ : nullptr; }
     // Sends the frame to the other processes. `content`: WindowContent::share.
     Status share(const ImmersiveFrame& immersive, const cluster::Message& content);
-    // Waits until they have drawn it, and permits all to present it.
+    // Waits until the other processes have drawn the frame, and permits all to present it.
     Status wait_for_others();
 
     [[nodiscard]] const content::DisplayFile& displays() const { return displays_; }
@@ -112,7 +112,7 @@ class Walls {
     std::optional<head_tracking::HeadSource> head_;
     cluster::Cluster* cluster_ = nullptr;
     std::optional<WallLeader> leader_;
-    std::uint64_t frame_ = 0;                             // that was sent last
+    std::uint64_t frame_ = 0;                             // number of the frame that was sent last
     std::vector<platform::InputEvent> events_of_others_;  // since the last call of poll_events()
     std::optional<tracking::HeadStatus> logged_status_;   // in the log
     std::function<void(const std::string&)> log_;
