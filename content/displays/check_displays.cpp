@@ -70,9 +70,9 @@ bool check_shape(const Wall& wall, Findings& findings) {
 }
 
 void check_viewer(const DisplayFile& displays, const Wall& wall, Findings& findings) {
-    const WallFrame frame = frame_of(wall);
+    const WallAxes axes = axes_of(wall);
     const Vec3& eye = displays.head.fixed_head.position;
-    const double distance = distance_in_front(frame, eye);
+    const double distance = distance_in_front(axes, eye);
     const std::string label = "wall " + in_quotes(wall.name);
     if (distance < 0.0)
         findings.push_back(
@@ -84,7 +84,7 @@ void check_viewer(const DisplayFile& displays, const Wall& wall, Findings& findi
             {true, fmt::format("{}: the fixed head {} is {:.3g} m in front of it; expected at least "
                                "{:g} m",
                                label, in_m(eye), distance, min_viewer_distance)});
-    if (distance > 0.0 && frame.up.y < -0.5)
+    if (distance > 0.0 && axes.up.y < -0.5)
         findings.push_back(
             {false, fmt::format("{}: its upper corner is below its lower corners: its picture stands "
                                 "on its head",
@@ -92,7 +92,7 @@ void check_viewer(const DisplayFile& displays, const Wall& wall, Findings& findi
 }
 
 void check_pair(const Wall& wall, const Wall& other, Findings& findings) {
-    const WallFrame a = frame_of(wall), b = frame_of(other);
+    const WallAxes a = axes_of(wall), b = axes_of(other);
     const std::string label = fmt::format("walls {} and {}", in_quotes(wall.name), in_quotes(other.name));
     if (walls_cross(a, b, wall_tolerance)) {
         findings.push_back({true, label + " cross; expected walls that meet at their edges"});
@@ -148,9 +148,9 @@ std::vector<DisplayFinding> check_walls(const DisplayFile& displays) {
     return findings;
 }
 
-std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const Computer& computer) {
+std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const DisplayHost& host) {
     Findings findings = check_walls(displays);
-    for (DisplayFinding& finding : check_outputs(displays, computer)) findings.push_back(std::move(finding));
+    for (DisplayFinding& finding : check_outputs(displays, host)) findings.push_back(std::move(finding));
     std::stable_partition(findings.begin(), findings.end(),
                           [](const DisplayFinding& finding) { return finding.prevents_use; });
     return findings;

@@ -18,15 +18,16 @@ struct DisplayFinding {
     std::optional<std::size_t> wall{};  // index of the wall, of two walls the later one; none: the whole file
 };
 
-// A monitor of a computer, and where it is on the desktop.
-struct Monitor {
+// A monitor of a DisplayHost, and where it is on the desktop. platform::Monitor, which this layer does not
+// see, is the connected monitor that it describes.
+struct HostMonitor {
     std::string name;
     int x = 0, y = 0, width = 0, height = 0;  // pixels, y down
-    bool operator==(const Monitor&) const = default;
+    bool operator==(const HostMonitor&) const = default;
 };
 
 // The monitor that an output fills; null: it is in a window, or there is no such monitor.
-const Monitor* find_monitor(const DisplayOutput& output, std::span<const Monitor> monitors);
+const HostMonitor* find_monitor(const DisplayOutput& output, std::span<const HostMonitor> monitors);
 
 // Tolerances of the checks.
 inline constexpr double right_angle_tolerance = to_radians(0.5);
@@ -42,12 +43,13 @@ inline constexpr double narrow_eyes = 0.05, wide_eyes = 0.08;  // m; nearly all 
 // Names, shapes, the fixed head in front of each wall, crossings, overlaps, seams, and the eye separation.
 std::vector<DisplayFinding> check_walls(const DisplayFile& displays);
 
-// One of the computers that show the walls: the one that a check is for.
-struct Computer {
-    std::vector<Monitor> monitors;  // none: outputs are compared with one another only
-    int rank = 0;                   // of the process that shows its walls: DisplayOutput::rank
-    std::string display;            // X display of the program, such as ":0"; empty: unknown
-    int processes = 1;              // that show the walls together
+// The computer, or the X display of one, that a check is for. Each process of the program shows the walls of
+// one.
+struct DisplayHost {
+    std::vector<HostMonitor> monitors;  // none: outputs are compared with one another only
+    int process = 0;                    // number of the one that shows its walls, as DisplayOutput::process
+    std::string display;                // X display of the program, such as ":0"; empty: unknown
+    int processes = 1;                  // that show the walls together
 };
 
 // Returns true for names of the same X screen: ":0" is ":0.0".
@@ -55,10 +57,10 @@ bool is_same_display(std::string_view a, std::string_view b);
 
 // Shapes of pixels; outputs that show on the same pixels; outputs of the computer that are not on its
 // monitors, or on another X display than the program.
-std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const Computer& computer = {});
+std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const DisplayHost& host = {});
 
 // The findings of check_walls() and check_outputs(); those that prevent the use come first.
-std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const Computer& computer = {});
+std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const DisplayHost& host = {});
 
 // A line each; it begins with file, line and column of the wall.
 std::string describe(std::span<const DisplayFinding> findings, const LoadedDisplays& loaded);

@@ -35,10 +35,10 @@ PixelRect common_part(const PixelRect& a, const PixelRect& b) {
 bool has_pixels(const PixelRect& rect) { return rect.width > 0 && rect.height > 0; }
 
 // Returns true if the monitors together cover every pixel of `rect`.
-bool is_covered(const PixelRect& rect, std::span<const Monitor> monitors) {
+bool is_covered(const PixelRect& rect, std::span<const HostMonitor> monitors) {
     if (!has_pixels(rect)) return true;
     if (monitors.empty()) return false;
-    const Monitor& m = monitors.front();
+    const HostMonitor& m = monitors.front();
     const PixelRect common = common_part(rect, {m.x, m.y, m.width, m.height});
     const auto rest = monitors.subspan(1);
     if (!has_pixels(common)) return is_covered(rect, rest);
@@ -82,18 +82,18 @@ std::string geometry(const PixelRect& rect) {
     return fmt::format("{}x{}+{}+{}", rect.width, rect.height, rect.x, rect.y);
 }
 
-std::string monitor_list(std::span<const Monitor> monitors) {
+std::string monitor_list(std::span<const HostMonitor> monitors) {
     std::string text;
-    for (const Monitor& m : monitors)
+    for (const HostMonitor& m : monitors)
         text +=
             fmt::format("{}{} {}", text.empty() ? "" : ", ", m.name, geometry({m.x, m.y, m.width, m.height}));
     return text;
 }
 
 // "did you mean "DP-1"?" or "expected one of DP-1, DP-2".
-std::string suggestion(const std::string& name, std::span<const Monitor> monitors) {
+std::string suggestion(const std::string& name, std::span<const HostMonitor> monitors) {
     std::vector<std::string> names;
-    for (const Monitor& monitor : monitors) names.push_back(monitor.name);
+    for (const HostMonitor& monitor : monitors) names.push_back(monitor.name);
     const std::string text = suggest(name, names);
     return (text.starts_with("did you mean") ? "" : "expected ") + text;
 }
@@ -103,7 +103,7 @@ void report(Findings& findings, bool prevents_use, const PlacedOutput& placed, c
 }
 
 // Finds the output's monitor, or reports why there is none.
-void assign_monitor(PlacedOutput& placed, std::span<const Monitor> monitors, Findings& findings) {
+void assign_monitor(PlacedOutput& placed, std::span<const HostMonitor> monitors, Findings& findings) {
     const DisplayOutput& output = *placed.output;
     if (placed.rect) {
         if (!is_covered(*placed.rect, monitors))
@@ -112,7 +112,7 @@ void assign_monitor(PlacedOutput& placed, std::span<const Monitor> monitors, Fin
                                geometry(*placed.rect), monitor_list(monitors)));
         return;
     }
-    const Monitor* found = find_monitor(output, monitors);
+    const HostMonitor* found = find_monitor(output, monitors);
     if (found == nullptr && output.monitor_index)
         report(findings, true, placed,
                fmt::format("there is no monitor with the index {}; expected 0 to {}", *output.monitor_index,
@@ -160,7 +160,7 @@ void check_pixels(const PlacedOutput& placed, Findings& findings) {
 // Returns true if both outputs name the same monitor, or rectangles of the same desktop that overlap.
 bool collide(const PlacedOutput& a, const PlacedOutput& b) {
     const DisplayOutput &one = *a.output, &other = *b.output;
-    if (one.rank != other.rank || !is_same_display(a.display, b.display)) return false;
+    if (one.process != other.process || !is_same_display(a.display, b.display)) return false;
     if (a.rect && b.rect) return has_pixels(common_part(*a.rect, *b.rect));
     return (!one.monitor.empty() && one.monitor == other.monitor) ||
            (one.monitor_index && one.monitor_index == other.monitor_index);
@@ -168,31 +168,31 @@ bool collide(const PlacedOutput& a, const PlacedOutput& b) {
 
 }  // namespace
 
-const Monitor* find_monitor(const DisplayOutput& output, std::span<const Monitor> monitors) {
+const HostMonitor* find_monitor(const DisplayOutput& output, std::span<const HostMonitor> monitors) {
     if (output.monitor_index) {
         const auto index = static_cast<std::size_t>(*output.monitor_index);
         return index < monitors.size() ? &monitors[index] : nullptr;
     }
-    for (const Monitor& monitor : monitors)
+    for (const HostMonitor& monitor : monitors)
         if (!output.monitor.empty() && monitor.name == output.monitor) return &monitor;
     return nullptr;
 }
 
 bool is_same_display(std::string_view a, std::string_view b) { return x_screen(a) == x_screen(b); }
 
-std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const Computer& computer) {
+std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const DisplayHost& host) {
     Findings findings;
     std::vector<PlacedOutput> outputs = outputs_of(displays);
     for (PlacedOutput& placed : outputs) {
         const DisplayOutput& output = *placed.output;
-        if (output.rank == computer.rank) {
-            if (placed.display.empty()) placed.display = computer.display;
-            if (!computer.display.empty() && !is_same_display(placed.display, computer.display))
+        if (output.process == host.process) {
+            if (placed.display.empty()) placed.display = host.display;
+            if (!host.display.empty() && !is_same_display(placed.display, host.display))
                 report(findings, true, placed,
                        fmt::format("its output is on the X display {}; expected {}, that of the program",
-                                   in_quotes(output.display), in_quotes(computer.display)));
-            else if (!computer.monitors.empty())
-                assign_monitor(placed, computer.monitors, findings);
+                                   in_quotes(output.display), in_quotes(host.display)));
+            else if (!host.monitors.empty())
+                assign_monitor(placed, host.monitors, findings);
         }
         check_pixels(placed, findings);
     }

@@ -30,7 +30,7 @@ ordered_json json_of(const DisplayOutput& output) {
     if (output.position) object["position_px"] = {output.position->x, output.position->y};
     if (output.resolution) object["resolution_px"] = {output.resolution->width, output.resolution->height};
     if (!output.display.empty()) object["display"] = output.display;
-    if (output.rank != 0) object["rank"] = output.rank;
+    if (output.process != 0) object["rank"] = output.process;
     return object;
 }
 

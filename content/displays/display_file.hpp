@@ -38,7 +38,8 @@ struct DisplayOutput {
     std::optional<PixelPosition> position;  // of a window without a border, on the desktop
     std::optional<PixelSize> resolution;    // a window has one; none: that of the monitor
     std::string display;                    // X display; empty: that of the program
-    int rank = 0;                           // number of the computer that shows it, ParaView's process rank
+    // Number of the process that shows it. The file's key is `rank`, as MPI and ParaView call the number.
+    int process = 0;
     bool operator==(const DisplayOutput&) const = default;
 };
 

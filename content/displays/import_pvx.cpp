@@ -35,7 +35,7 @@ class PvxImport {
     void read_eye_separation(pugi::xml_node node);
     void read_machine(pugi::xml_node node);
     void name_wall(PvxMachine& machine);
-    void assign_ranks();
+    void assign_processes();
     void assign_monitors();
     void drop_single_display();
     void join_stereo_pairs();
@@ -128,7 +128,7 @@ void PvxImport::read_machine(pugi::xml_node node) {
 
 // In ParaView every Machine is a process, and its Name may be that of the computer or of the wall. They are
 // computers if two of them would show on the same pixels.
-void PvxImport::assign_ranks() {
+void PvxImport::assign_processes() {
     const auto collide = [](const PvxMachine& a, const PvxMachine& b) {
         const DisplayOutput &one = a.wall.output, &other = b.wall.output;
         if (a.host == b.host || one.display != other.display) return false;
@@ -148,21 +148,22 @@ void PvxImport::assign_ranks() {
     std::vector<std::string> hosts;
     for (PvxMachine& machine : machines_) {
         const auto it = std::find(hosts.begin(), hosts.end(), machine.host);
-        machine.wall.output.rank = static_cast<int>(it - hosts.begin());
+        machine.wall.output.process = static_cast<int>(it - hosts.begin());
         if (it == hosts.end()) hosts.push_back(machine.host);
     }
     messages_.warn_at(
         machines_.front().node, nullptr,
-        fmt::format("windows of several machines are at the same place, so each Name is a computer: {} ranks",
-                    hosts.size()));
+        fmt::format(
+            "windows of several machines are at the same place, so each Name is a computer: {} processes",
+            hosts.size()));
 }
 
-// Walls without a Geometry: the first such wall of a rank on its first monitor, and so on.
+// Walls without a Geometry: the first such wall of a process on its first monitor, and so on.
 void PvxImport::assign_monitors() {
     std::vector<int> next(max_walls, 0);
     for (PvxMachine& machine : machines_) {
         DisplayOutput& output = machine.wall.output;
-        if (!output.position) output.monitor_index = next[static_cast<std::size_t>(output.rank)]++;
+        if (!output.position) output.monitor_index = next[static_cast<std::size_t>(output.process)]++;
     }
 }
 
@@ -220,14 +221,13 @@ void PvxImport::place_head() {
     Vec3 middle(0.0);
     for (const Wall& wall : displays_.walls) {
         const Vec3 center = 0.5 * (wall.lower_left + wall.upper_right);
-        middle +=
-            (center + 0.5 * width(wall) * frame_of(wall).normal) / static_cast<double>(machines_.size());
+        middle += (center + 0.5 * width(wall) * axes_of(wall).normal) / static_cast<double>(machines_.size());
     }
     Vec3& head = displays_.head.fixed_head.position;
     for (const Vec3& point : {head, Vec3(0.0), middle}) {
         head = point;
         const auto is_in_front = [&](const Wall& wall) {
-            return distance_in_front(frame_of(wall), point) > 0.05;
+            return distance_in_front(axes_of(wall), point) > 0.05;
         };
         if (std::all_of(displays_.walls.begin(), displays_.walls.end(), is_in_front)) break;
     }
@@ -277,7 +277,7 @@ ImportedDisplays PvxImport::run() {
     pugi::xml_document document;
     if (const pugi::xml_node root = parse(document)) read_root(root);
     if (!messages_.has_errors()) {
-        assign_ranks();
+        assign_processes();
         assign_monitors();
         drop_single_display();
         join_stereo_pairs();

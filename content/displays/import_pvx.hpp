@@ -18,8 +18,8 @@ struct ImportedDisplays {
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };
 
-// Each Machine becomes a wall with a window at its Geometry; machines of one Name become one rank. Two
-// machines with the same corners and the stereo types Left and Right become one wall with two outputs.
+// Each Machine becomes a wall with a window at its Geometry; machines of one Name are shown by one process.
+// Two machines with the same corners and the stereo types Left and Right become one wall with two outputs.
 // `scale`: metres per unit of the file's corners and eye separation.
 ImportedDisplays import_pvx(std::string_view text, const std::string& file, double scale = 1.0);
 ImportedDisplays load_pvx(const std::filesystem::path& path, double scale = 1.0);

@@ -123,7 +123,7 @@ DisplayOutput read_output(JsonReader& reader, const JsonNode& node) {
     if (const auto pair = read_pair(reader, position)) output.position = {(*pair)[0], (*pair)[1]};
     if (const auto pair = read_pair(reader, resolution)) output.resolution = {(*pair)[0], (*pair)[1]};
     output.display = reader.text(reader.member(node, "display")).value_or("");
-    output.rank = read_integer(reader, reader.member(node, "rank")).value_or(0);
+    output.process = read_integer(reader, reader.member(node, "rank")).value_or(0);
     if (!node) return output;
     // A member whose value is wrong counts as given: its mistake is reported already.
     const auto given = [&](const JsonNode& member) { return member || !reader.is_valid(member.pointer); };

@@ -85,7 +85,7 @@ TestPattern test_pattern(const Wall& wall, PatternEye eye, std::uint64_t frame) 
 }
 
 Vec3 pattern_point(const Wall& wall, const glm::dvec2& point) {
-    return in_room(frame_of(wall), point.x, point.y);
+    return in_room(axes_of(wall), point.x, point.y);
 }
 
 }  // namespace bolt::content

@@ -21,7 +21,7 @@ std::array<WallEdge, 4> edges_of(const std::array<Vec3, 4>& corners) {
 
 // The part of the line from + t·along that is inside the wall, `margin` from its edges, as t; the line must
 // lie in the wall's plane. Empty if first > second.
-std::pair<double, double> inside(const WallFrame& wall, const Vec3& from, const Vec3& along, double margin) {
+std::pair<double, double> inside(const WallAxes& wall, const Vec3& from, const Vec3& along, double margin) {
     std::pair range(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
     for (const auto& [axis, size] : {std::pair(wall.right, wall.width), std::pair(wall.up, wall.height)}) {
         const double at = glm::dot(axis, from - wall.origin), slope = glm::dot(axis, along);
@@ -70,26 +70,26 @@ std::optional<double> edge_gap(const WallEdge& a, const WallEdge& b) {
 
 }  // namespace
 
-WallFrame frame_of(const Wall& wall) {
-    WallFrame frame;
-    frame.origin = wall.lower_left;
-    frame.width = width(wall);
-    frame.height = height(wall);
-    if (frame.width == 0.0 || frame.height == 0.0) return frame;
-    frame.right = (wall.lower_right - wall.lower_left) / frame.width;
-    frame.up = (wall.upper_right - wall.lower_right) / frame.height;
-    const Vec3 normal = glm::cross(frame.right, frame.up);
-    if (glm::length(normal) > 0.0) frame.normal = glm::normalize(normal);
-    return frame;
+WallAxes axes_of(const Wall& wall) {
+    WallAxes axes;
+    axes.origin = wall.lower_left;
+    axes.width = width(wall);
+    axes.height = height(wall);
+    if (axes.width == 0.0 || axes.height == 0.0) return axes;
+    axes.right = (wall.lower_right - wall.lower_left) / axes.width;
+    axes.up = (wall.upper_right - wall.lower_right) / axes.height;
+    const Vec3 normal = glm::cross(axes.right, axes.up);
+    if (glm::length(normal) > 0.0) axes.normal = glm::normalize(normal);
+    return axes;
 }
 
-std::array<Vec3, 4> corners_of(const WallFrame& wall, double margin) {
+std::array<Vec3, 4> corners_of(const WallAxes& wall, double margin) {
     const double right = wall.width - margin, top = wall.height - margin;
     return {in_room(wall, margin, margin), in_room(wall, right, margin), in_room(wall, right, top),
             in_room(wall, margin, top)};
 }
 
-bool walls_cross(const WallFrame& a, const WallFrame& b, double margin) {
+bool walls_cross(const WallAxes& a, const WallAxes& b, double margin) {
     // The line that both planes have in common: its direction, and its point nearest to the origin of `a`.
     const Vec3 direction = glm::cross(a.normal, b.normal);
     const double sine = glm::length(direction);
@@ -101,7 +101,7 @@ bool walls_cross(const WallFrame& a, const WallFrame& b, double margin) {
     return std::min(a_last, b_last) > std::max(a_first, b_first);
 }
 
-std::optional<double> edge_inset(const WallFrame& a, const WallFrame& b, double tolerance) {
+std::optional<double> edge_inset(const WallAxes& a, const WallAxes& b, double tolerance) {
     if (glm::length(glm::cross(a.normal, b.normal)) < min_sine) return std::nullopt;
     std::optional<double> deepest;
     for (const WallEdge& edge : edges_of(corners_of(a))) {
@@ -119,7 +119,7 @@ std::optional<double> edge_inset(const WallFrame& a, const WallFrame& b, double 
     return deepest;
 }
 
-std::optional<double> coplanar_overlap(const WallFrame& a, const WallFrame& b, double tolerance) {
+std::optional<double> coplanar_overlap(const WallAxes& a, const WallAxes& b, double tolerance) {
     const std::array<Vec3, 4> corners = corners_of(a), others = corners_of(b);
     for (const Vec3& corner : others)
         if (std::abs(distance_in_front(a, corner)) > tolerance) return std::nullopt;
@@ -129,7 +129,7 @@ std::optional<double> coplanar_overlap(const WallFrame& a, const WallFrame& b, d
     return least > tolerance ? std::optional(least) : std::nullopt;
 }
 
-std::optional<double> seam_gap(const WallFrame& a, const WallFrame& b) {
+std::optional<double> seam_gap(const WallAxes& a, const WallAxes& b) {
     std::optional<double> least;
     for (const WallEdge& one : edges_of(corners_of(a)))
         for (const WallEdge& other : edges_of(corners_of(b)))

@@ -9,40 +9,40 @@
 namespace bolt::content {
 
 // The axes of a wall; meaningless for a wall without width or height.
-struct WallFrame {
+struct WallAxes {
     Vec3 origin{0.0};                       // the lower left corner
     Vec3 right{0.0}, up{0.0}, normal{0.0};  // unit vectors; the normal points towards the viewer
     double width = 0.0, height = 0.0;
 };
-WallFrame frame_of(const Wall& wall);
+WallAxes axes_of(const Wall& wall);
 
 // The point at `x` to the right of and `y` above the lower left corner.
-inline Vec3 in_room(const WallFrame& wall, double x, double y) {
+inline Vec3 in_room(const WallAxes& wall, double x, double y) {
     return wall.origin + x * wall.right + y * wall.up;
 }
 
 // Distance of the point in front of the wall's plane; negative behind it.
-inline double distance_in_front(const WallFrame& wall, const Vec3& point) {
+inline double distance_in_front(const WallAxes& wall, const Vec3& point) {
     return glm::dot(wall.normal, point - wall.origin);
 }
 
 // Lower left, lower right, upper right, upper left; each `margin` inside the edges.
-std::array<Vec3, 4> corners_of(const WallFrame& wall, double margin = 0.0);
+std::array<Vec3, 4> corners_of(const WallAxes& wall, double margin = 0.0);
 
 // Returns true if the walls have a line in common that is at least `margin` inside the edges of both.
 // Parallel walls do not cross.
-bool walls_cross(const WallFrame& a, const WallFrame& b, double margin);
+bool walls_cross(const WallAxes& a, const WallAxes& b, double margin);
 
 // Returns how far an edge of `a` that lies in the plane of `b` is inside the outline of `b`, m; none if at
 // most `tolerance`. The part of `b` behind `a` cannot be seen.
-std::optional<double> edge_inset(const WallFrame& a, const WallFrame& b, double tolerance);
+std::optional<double> edge_inset(const WallAxes& a, const WallAxes& b, double tolerance);
 
 // The width of the strip that two walls in the same plane (to `tolerance`) have in common; none if there is
 // none.
-std::optional<double> coplanar_overlap(const WallFrame& a, const WallFrame& b, double tolerance);
+std::optional<double> coplanar_overlap(const WallAxes& a, const WallAxes& b, double tolerance);
 
 // The largest distance along the pair of nearly parallel edges that are nearest to each other; none if no
 // such pair runs side by side.
-std::optional<double> seam_gap(const WallFrame& a, const WallFrame& b);
+std::optional<double> seam_gap(const WallAxes& a, const WallAxes& b);
 
 }  // namespace bolt::content

@@ -27,7 +27,7 @@ std::string describe_place(const DisplayOutput& output) {
     else
         text = "monitor " + output.monitor;
     if (!output.display.empty()) text += " on " + output.display;
-    if (output.rank != 0) text += fmt::format(" of rank {}", output.rank);
+    if (output.process != 0) text += fmt::format(" of process {}", output.process);
     return text;
 }
 
@@ -78,7 +78,7 @@ std::string describe_seams(const DisplayFile& displays) {
     std::string text;
     for (std::size_t i = 0; i < displays.walls.size(); ++i)
         for (std::size_t j = i + 1; j < displays.walls.size(); ++j) {
-            const WallFrame a = frame_of(displays.walls[i]), b = frame_of(displays.walls[j]);
+            const WallAxes a = axes_of(displays.walls[i]), b = axes_of(displays.walls[j]);
             const auto gap = seam_gap(a, b);
             if (!gap || *gap > seam_width) continue;
             const double between = pi - std::acos(std::clamp(glm::dot(a.normal, b.normal), -1.0, 1.0));
@@ -91,29 +91,29 @@ std::string describe_seams(const DisplayFile& displays) {
 }  // namespace
 
 WallSummary summarize(const Wall& wall, const Vec3& fixed_head, const std::optional<PixelSize>& resolution) {
-    const WallFrame frame = frame_of(wall);
+    const WallAxes axes = axes_of(wall);
     WallSummary s;
-    s.width = frame.width;
-    s.height = frame.height;
-    const Vec3& normal = frame.normal;
+    s.width = axes.width;
+    s.height = axes.height;
+    const Vec3& normal = axes.normal;
     const double level = std::hypot(normal.x, normal.z);
     s.turn = level > 1e-3 ? std::atan2(normal.x, normal.z) : 0.0;
     s.tilt = std::atan2(normal.y, level) + 0.0;  // no negative zero
-    s.distance = distance_in_front(frame, fixed_head);
-    const Vec3 across = 0.5 * frame.width * frame.right, upwards = 0.5 * frame.height * frame.up;
-    const Vec3 center = frame.origin + across + upwards;
+    s.distance = distance_in_front(axes, fixed_head);
+    const Vec3 across = 0.5 * axes.width * axes.right, upwards = 0.5 * axes.height * axes.up;
+    const Vec3 center = axes.origin + across + upwards;
     s.seen_width = angle_between(fixed_head, center - across, center + across);
     s.seen_height = angle_between(fixed_head, center - upwards, center + upwards);
     if (!resolution) return s;
     s.resolution = resolution;
     if (wall.stereo == StereoMode::side_by_side) s.resolution->width /= 2;
     if (wall.stereo == StereoMode::top_bottom) s.resolution->height /= 2;
-    s.pixel_width = frame.width / s.resolution->width;
-    s.pixel_height = frame.height / s.resolution->height;
+    s.pixel_width = axes.width / s.resolution->width;
+    s.pixel_height = axes.height / s.resolution->height;
     return s;
 }
 
-std::string list_walls(const DisplayFile& displays, const Computer& computer) {
+std::string list_walls(const DisplayFile& displays, const DisplayHost& host) {
     std::string text = displays.name.empty() ? "" : displays.name + "\n";
     text += describe_head(displays);
     text +=
@@ -122,9 +122,9 @@ std::string list_walls(const DisplayFile& displays, const Computer& computer) {
     for (const Wall& wall : displays.walls) {
         std::optional<PixelSize> resolution = wall.output.resolution;
         const bool is_here =
-            wall.output.rank == computer.rank &&
-            (wall.output.display.empty() || is_same_display(wall.output.display, computer.display));
-        if (const Monitor* monitor = is_here ? find_monitor(wall.output, computer.monitors) : nullptr)
+            wall.output.process == host.process &&
+            (wall.output.display.empty() || is_same_display(wall.output.display, host.display));
+        if (const HostMonitor* monitor = is_here ? find_monitor(wall.output, host.monitors) : nullptr)
             resolution = PixelSize{monitor->width, monitor->height};
         text += describe_wall(wall, summarize(wall, displays.head.fixed_head.position, resolution));
     }

@@ -23,7 +23,7 @@ struct WallSummary {
 WallSummary summarize(const Wall& wall, const Vec3& fixed_head, const std::optional<PixelSize>& resolution);
 
 // The head's tracker, a line for each wall, and one for each pair of walls that meet, with their angle and
-// the gap. The resolution of an output that fills a monitor is that of the monitor in `computer`.
-std::string list_walls(const DisplayFile& displays, const Computer& computer = {});
+// the gap. The resolution of an output that fills a monitor is that of the monitor in `host`.
+std::string list_walls(const DisplayFile& displays, const DisplayHost& host = {});
 
 }  // namespace bolt::content

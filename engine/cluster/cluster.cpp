@@ -77,10 +77,12 @@ Result<std::unique_ptr<Cluster>> Cluster::join() {
 Cluster::Cluster(std::unique_ptr<Transport> transport) : transport_(std::move(transport)) {}
 
 Cluster::~Cluster() {
-    if (!lost_) transport_->leave();
+    if (!abandoned_) transport_->leave();
 }
 
-std::string Cluster::describe(int rank) const { return fmt::format("process {} on {}", rank, host(rank)); }
+std::string Cluster::describe(int process) const {
+    return fmt::format("process {} on {}", process, host(process));
+}
 
 Result<std::optional<Message>> Cluster::receive(int from, double seconds, FunctionRef<bool()> stop) {
     const double begun = steady_seconds();

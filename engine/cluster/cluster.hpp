@@ -20,29 +20,31 @@ class Cluster {
 
     Cluster(const Cluster&) = delete;
     Cluster& operator=(const Cluster&) = delete;
-    // Waits until all processes have left, unless lost() was called.
+    // Waits until all processes have left, unless abandon() was called.
     ~Cluster();
 
-    [[nodiscard]] int rank() const { return transport_->rank(); }  // 0 … size() − 1
+    // Number of this process, 0 … size() − 1. MPI calls it the rank.
+    [[nodiscard]] int process() const { return transport_->process(); }
     [[nodiscard]] int size() const { return transport_->size(); }
     // Name of the computer that the process runs on.
-    [[nodiscard]] const std::string& host(int rank) const { return transport_->host(rank); }
+    [[nodiscard]] const std::string& host(int process) const { return transport_->host(process); }
     // "process 2 on wall-pc-2", for messages.
-    [[nodiscard]] std::string describe(int rank) const;
+    [[nodiscard]] std::string describe(int process) const;
 
-    // Sends without waiting; messages from one process to another arrive in order.
+    // Sends to process `to` without waiting. Messages from one process to another arrive in order.
     Status send(int to, std::span<const std::byte> message) { return transport_->send(to, message); }
-    // The next message from a process; none after `seconds`, or when `stop` returns true. `stop` is called at
-    // least 1000 times a second.
+    // The next message from process `from`; none after `seconds`, or when `stop` returns true. `stop` is
+    // polled at least 1000 times a second.
     Result<std::optional<Message>> receive(int from, double seconds, FunctionRef<bool()> stop);
 
-    // Another process does not answer: the destructor does not wait for it. mpirun then ends all others.
-    void lost() { lost_ = true; }
+    // Call it if another process does not answer: the destructor then does not wait for the others, and
+    // mpirun ends them.
+    void abandon() { abandoned_ = true; }
 
   private:
     explicit Cluster(std::unique_ptr<Transport> transport);
     std::unique_ptr<Transport> transport_;
-    bool lost_ = false;
+    bool abandoned_ = false;
 };
 
 }  // namespace bolt::cluster

@@ -57,7 +57,7 @@ class MessageReader {
     T get() {
         T value{};
         if (rest_.size() < sizeof(T)) {
-            stop();
+            mark_damaged();
         } else if constexpr (std::is_same_v<T, bool>) {
             value = rest_.front() != std::byte{0};
             rest_ = rest_.subspan(1);
@@ -71,7 +71,7 @@ class MessageReader {
     std::vector<T> get_all() {
         const std::size_t count = get<std::uint32_t>();
         if (count > rest_.size() / sizeof(T)) {
-            stop();
+            mark_damaged();
             return {};
         }
         std::vector<T> values(count);
@@ -92,7 +92,8 @@ class MessageReader {
 
     [[nodiscard]] bool ok() const { return ok_; }
     [[nodiscard]] std::size_t size() const { return rest_.size(); }  // bytes that are left
-    void stop() {
+    // As after a value that is not there. For readers of a value that is out of its range.
+    void mark_damaged() {
         ok_ = false;
         rest_ = {};
     }

@@ -32,7 +32,8 @@ class MpiTransport final : public Transport {
         int provided = 0;
         BOLT_TRY(check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "joining"));
         (void)MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
-        BOLT_TRY(check_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &rank_), "joining"));
+        // MPI calls the number of a process its rank.
+        BOLT_TRY(check_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &process_), "joining"));
         BOLT_TRY(check_mpi(MPI_Comm_size(MPI_COMM_WORLD, &size_), "joining"));
         std::array<char, MPI_MAX_PROCESSOR_NAME> name{};
         int length = 0;
@@ -46,10 +47,10 @@ class MpiTransport final : public Transport {
         return {};
     }
 
-    [[nodiscard]] int rank() const override { return rank_; }
+    [[nodiscard]] int process() const override { return process_; }
     [[nodiscard]] int size() const override { return size_; }
-    [[nodiscard]] const std::string& host(int rank) const override {
-        return hosts_[static_cast<std::size_t>(rank)];
+    [[nodiscard]] const std::string& host(int process) const override {
+        return hosts_[static_cast<std::size_t>(process)];
     }
 
     Status send(int to, std::span<const std::byte> message) override {
@@ -100,7 +101,7 @@ class MpiTransport final : public Transport {
         return {};
     }
 
-    int rank_ = 0, size_ = 1;
+    int process_ = 0, size_ = 1;  // number of this process, and how many there are
     std::vector<std::string> hosts_;
     std::deque<Sent> sent_;  // not yet on their way; a deque, because MPI holds their addresses
 };

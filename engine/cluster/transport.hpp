@@ -21,10 +21,11 @@ class Transport {
     Transport& operator=(const Transport&) = delete;
     virtual ~Transport() = default;
 
-    [[nodiscard]] virtual int rank() const = 0;
+    // As the functions of Cluster with these names.
+    [[nodiscard]] virtual int process() const = 0;
     [[nodiscard]] virtual int size() const = 0;
-    [[nodiscard]] virtual const std::string& host(int rank) const = 0;
-    // Sends without waiting.
+    [[nodiscard]] virtual const std::string& host(int process) const = 0;
+    // Sends without waiting until the message has arrived.
     virtual Status send(int to, std::span<const std::byte> message) = 0;
     // The next message from a process, if it has arrived.
     virtual Result<std::optional<Message>> try_receive(int from) = 0;
@@ -32,7 +33,7 @@ class Transport {
     virtual void leave() = 0;
 };
 
-// The function of the module. Sets one of the two.
+// The function that the module exports. Sets either the transport or the error.
 using JoinFunction = void (*)(std::unique_ptr<Transport>& transport, Error& error);
 inline constexpr const char* join_function_name = "boltwright_join_cluster";
 

@@ -37,11 +37,11 @@ class Headset {
     Headset& operator=(const Headset&) = delete;
     ~Headset() { end(); }
 
-    // Looks for a headset if there is none, at most once a second, and less often if its session could not be
-    // started. Returns true if one was found. Then destroy all Vulkan objects, create them with creator(),
+    // Searches for a headset if there is none, at most once a second, and less often if its session could not
+    // be started. Returns true if one was found. Then destroy all Vulkan objects, create them with creator(),
     // and call begin().
     bool find(double now);
-    // Why there is no headset; none: there is one.
+    // The reason why there is no headset; none: there is one.
     [[nodiscard]] const std::optional<Error>& absence() const { return absence_; }
     // Creates Vulkan's instance and device for the headset; null: none was found.
     [[nodiscard]] gpu::VulkanCreator* creator() const { return runtime_.get(); }

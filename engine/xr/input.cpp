@@ -4,64 +4,11 @@
 
 #include <cstring>
 
+#include "engine/xr/controller_profiles.hpp"
+
 namespace bolt::xr {
 
 namespace {
-
-constexpr std::array<const char*, 2> hand_paths{"/user/hand/left", "/user/hand/right"};
-
-// The input of a controller for each intent, below the path of the hand; null: it has none.
-struct Profile {
-    const char* path;
-    const char* select;
-    const char* grasp;
-    const char* stick;
-    std::array<const char*, 2> menu, secondary;  // left, right
-    bool vibrates = true;
-    bool needs_hand_interaction = false;
-};
-
-constexpr Profile controller_profiles[] = {
-    // Select and grasp share one button: its target, under the hand, determines which of them applies.
-    {"/interaction_profiles/khr/simple_controller",
-     "input/select/click",
-     "input/select/click",
-     nullptr,
-     {"input/menu/click", "input/menu/click"},
-     {nullptr, nullptr}},
-    {"/interaction_profiles/oculus/touch_controller",
-     "input/trigger/value",
-     "input/squeeze/value",
-     "input/thumbstick",
-     {"input/menu/click", "input/b/click"},
-     {"input/x/click", "input/a/click"}},
-    {"/interaction_profiles/valve/index_controller",
-     "input/trigger/value",
-     "input/squeeze/value",
-     "input/thumbstick",
-     {"input/b/click", "input/b/click"},
-     {"input/a/click", "input/a/click"}},
-    {"/interaction_profiles/htc/vive_controller",
-     "input/trigger/value",
-     "input/squeeze/click",
-     "input/trackpad",
-     {"input/menu/click", "input/menu/click"},
-     {"input/trackpad/click", "input/trackpad/click"}},
-    {"/interaction_profiles/microsoft/motion_controller",
-     "input/trigger/value",
-     "input/squeeze/click",
-     "input/thumbstick",
-     {"input/menu/click", "input/menu/click"},
-     {"input/thumbstick/click", "input/thumbstick/click"}},
-    {"/interaction_profiles/ext/hand_interaction_ext",
-     "input/pinch_ext/value",
-     "input/grasp_ext/value",
-     nullptr,
-     {nullptr, nullptr},
-     {nullptr, nullptr},
-     false,
-     true},
-};
 
 constexpr XrSpaceLocationFlags pose_valid =
     XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
@@ -76,13 +23,6 @@ void set_text(char (&target)[size], const std::string& text) {
         --length;
     std::memcpy(target, text.data(), length);
     target[length] = '\0';
-}
-
-Result<XrPath> path_of(XrInstance instance, const std::string& text) {
-    XrPath path = XR_NULL_PATH;
-    BOLT_TRY(
-        check(xrStringToPath(instance, text.c_str(), &path), fmt::format("xrStringToPath(\"{}\")", text)));
-    return path;
 }
 
 }  // namespace
@@ -134,7 +74,7 @@ Status XrInput::create_actions(const ActionNames& names) {
 
 Status XrInput::suggest_bindings() {
     const XrInstance instance = session_->runtime().instance();
-    for (const Profile& profile : controller_profiles) {
+    for (const ControllerProfile& profile : controller_profiles()) {
         if (profile.needs_hand_interaction && !session_->runtime().extensions().hand_interaction) continue;
         std::vector<XrActionSuggestedBinding> bindings;
         for (std::size_t side = 0; side < 2; ++side) {
@@ -154,17 +94,8 @@ Status XrInput::suggest_bindings() {
             BOLT_TRY(bind(secondary_, profile.secondary[side]));
             BOLT_TRY(bind(vibrate_, profile.vibrates ? "output/haptic" : nullptr));
         }
-        BOLT_TRY_ASSIGN(const auto path, path_of(instance, profile.path));
-        XrInteractionProfileSuggestedBinding suggested{XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING};
-        suggested.interactionProfile = path;
-        suggested.countSuggestedBindings = static_cast<std::uint32_t>(bindings.size());
-        suggested.suggestedBindings = bindings.data();
-        const XrResult accepted = xrSuggestInteractionProfileBindings(instance, &suggested);
-        if (accepted == XR_SUCCESS) profiles_.emplace_back(profile.path);
-        // A runtime rejects controllers that it does not know; the others still work.
-        if (accepted != XR_ERROR_PATH_UNSUPPORTED)
-            BOLT_TRY(
-                check(accepted, fmt::format("xrSuggestInteractionProfileBindings(\"{}\")", profile.path)));
+        BOLT_TRY_ASSIGN(const bool accepted, suggest_bindings_of(profile, bindings, instance));
+        if (accepted) profiles_.emplace_back(profile.path);
     }
     return {};
 }
@@ -202,11 +133,11 @@ Status XrInput::attach() {
     return {};
 }
 
-Result<std::optional<TrackedPose>> XrInput::locate(XrSpace space, XrTime time) const {
+Result<std::optional<LocatedPose>> XrInput::locate(XrSpace space, XrTime time) const {
     XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
     BOLT_TRY(check(xrLocateSpace(space, session_->space(), time, &location), "xrLocateSpace"));
     if ((location.locationFlags & pose_valid) != pose_valid) return std::nullopt;
-    return TrackedPose{to_pose(location.pose), (location.locationFlags & pose_tracked) == pose_tracked};
+    return LocatedPose{to_pose(location.pose), (location.locationFlags & pose_tracked) == pose_tracked};
 }
 
 Result<float> XrInput::value(XrAction action, Side side) const {

@@ -16,7 +16,7 @@ namespace bolt::xr {
 
 using bolt::Side;
 
-struct TrackedPose {
+struct LocatedPose {
     Pose pose;             // in the session's base space
     bool tracked = false;  // false: estimated, for example because the controller is hidden from the cameras
 };
@@ -33,9 +33,9 @@ using HandJoints = std::array<HandJoint, hand_joint_count>;
 // One hand in one frame. Without focus, or without a controller or tracked hand, `active` is false.
 struct HandInput {
     bool active = false;
-    std::optional<TrackedPose> grip;  // origin in the palm; −Z to the thumb's side of a closed fist, X out of
+    std::optional<LocatedPose> grip;  // origin in the palm; −Z to the thumb's side of a closed fist, X out of
                                       // the palm of the left hand and into that of the right one
-    std::optional<TrackedPose> aim;  // −Z is the direction in which the hand points
+    std::optional<LocatedPose> aim;  // −Z is the direction in which the hand points
     float select = 0.0F;             // 0 … 1: trigger, pinch
     float grasp = 0.0F;              // 0 … 1: squeeze; of a controller with one button: that button
     glm::vec2 stick{0.0F};           // −1 … 1, y away from the user
@@ -90,7 +90,7 @@ class XrInput {
     Status attach();
     Status read_hand(const FrameTiming& frame, Side side, HandInput& hand);
     Status read_joints(const FrameTiming& frame, Side side, HandInput& hand);
-    Result<std::optional<TrackedPose>> locate(XrSpace space, XrTime time) const;
+    Result<std::optional<LocatedPose>> locate(XrSpace space, XrTime time) const;
     Result<float> value(XrAction action, Side side) const;
     Result<bool> pressed(XrAction action, Side side) const;
 

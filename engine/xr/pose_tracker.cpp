@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/xr/controller_profiles.hpp"
 #include "engine/xr/openxr.hpp"
 
 namespace bolt::xr {
@@ -15,26 +16,9 @@ namespace {
 
 constexpr const char* headless_extension = XR_MND_HEADLESS_EXTENSION_NAME;
 constexpr const char* clock_extension = XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME;
-struct TrackerProfile {
-    const char* path;
-    const char* button;  // below the path of the hand
-};
-// Controllers that are also sold as trackers, or whose grip pose is easily fixed to glasses.
-constexpr std::array<TrackerProfile, 5> tracker_profiles{
-    {{"/interaction_profiles/khr/simple_controller", "/input/select/click"},
-     {"/interaction_profiles/oculus/touch_controller", "/input/trigger/value"},
-     {"/interaction_profiles/valve/index_controller", "/input/trigger/click"},
-     {"/interaction_profiles/htc/vive_controller", "/input/trigger/click"},
-     {"/interaction_profiles/microsoft/motion_controller", "/input/trigger/value"}}};
 constexpr XrSpaceLocationFlags fully_tracked =
     XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT |
     XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
-
-Result<XrPath> to_path(XrInstance instance, const std::string& text) {
-    XrPath path = XR_NULL_PATH;
-    BOLT_TRY(check(xrStringToPath(instance, text.c_str(), &path), "xrStringToPath"));
-    return path;
-}
 
 }  // namespace
 
@@ -43,7 +27,7 @@ struct PoseTracker::Objects {
     InstanceHandle instance;
     SessionHandle session;
     ActionSetHandle actions;
-    SpaceHandle base, thing;
+    SpaceHandle base, device;
     XrPath side = XR_NULL_PATH;       // of the controller
     XrAction press = XR_NULL_HANDLE;  // its button
     bool stage = false, pressed = false;
@@ -53,7 +37,7 @@ struct PoseTracker::Objects {
 
     Status create_instance();
     Status create_session();
-    Status create_spaces(TrackedThing tracked);
+    Status create_spaces(TrackedDevice tracked);
     Result<SpaceHandle> reference_space(XrReferenceSpaceType type) const;
     Result<XrAction> make_action(const char* name, const char* shown, XrActionType type);
     Status suggest_bindings(const std::string& hand, XrAction grip);
@@ -136,19 +120,12 @@ Result<XrAction> PoseTracker::Objects::make_action(const char* name, const char*
 }
 
 Status PoseTracker::Objects::suggest_bindings(const std::string& hand, XrAction grip) {
-    BOLT_TRY_ASSIGN(const auto pose, to_path(instance.get(), hand + "/input/grip/pose"));
-    for (const TrackerProfile& known : tracker_profiles) {
-        BOLT_TRY_ASSIGN(const auto profile, to_path(instance.get(), known.path));
-        BOLT_TRY_ASSIGN(const auto button, to_path(instance.get(), hand + known.button));
+    BOLT_TRY_ASSIGN(const auto pose, path_of(instance.get(), hand + "/input/grip/pose"));
+    for (const ControllerProfile& profile : controller_profiles()) {
+        if (profile.needs_hand_interaction) continue;  // a hand is no tracker of the head
+        BOLT_TRY_ASSIGN(const auto button, path_of(instance.get(), hand + "/" + profile.select));
         const std::array<XrActionSuggestedBinding, 2> bindings{{{grip, pose}, {press, button}}};
-        XrInteractionProfileSuggestedBinding suggested{XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING};
-        suggested.interactionProfile = profile;
-        suggested.countSuggestedBindings = static_cast<std::uint32_t>(bindings.size());
-        suggested.suggestedBindings = bindings.data();
-        // A runtime rejects controllers that it does not know; the others still work.
-        const XrResult accepted = xrSuggestInteractionProfileBindings(instance.get(), &suggested);
-        if (accepted != XR_ERROR_PATH_UNSUPPORTED)
-            BOLT_TRY(check(accepted, "xrSuggestInteractionProfileBindings"));
+        BOLT_TRY(suggest_bindings_of(profile, bindings, instance.get()));
     }
     return {};
 }
@@ -160,7 +137,7 @@ Result<SpaceHandle> PoseTracker::Objects::grip_space(const char* hand) {
     XrActionSet raw_set = XR_NULL_HANDLE;
     BOLT_TRY(check(xrCreateActionSet(instance.get(), &set, &raw_set), "xrCreateActionSet"));
     actions = ActionSetHandle(raw_set);
-    BOLT_TRY_ASSIGN(side, to_path(instance.get(), hand));
+    BOLT_TRY_ASSIGN(side, path_of(instance.get(), hand));
     BOLT_TRY_ASSIGN(const XrAction grip, make_action("pose", "Pose", XR_ACTION_TYPE_POSE_INPUT));
     BOLT_TRY_ASSIGN(press, make_action("press", "Press", XR_ACTION_TYPE_BOOLEAN_INPUT));
     BOLT_TRY(suggest_bindings(hand, grip));
@@ -177,7 +154,7 @@ Result<SpaceHandle> PoseTracker::Objects::grip_space(const char* hand) {
     return SpaceHandle(raw);
 }
 
-Status PoseTracker::Objects::create_spaces(TrackedThing tracked) {
+Status PoseTracker::Objects::create_spaces(TrackedDevice tracked) {
     std::vector<XrReferenceSpaceType> types;
     BOLT_TRY(check(enumerate(types, XR_REFERENCE_SPACE_TYPE_VIEW,
                              [&](std::uint32_t capacity, std::uint32_t* count, XrReferenceSpaceType* values) {
@@ -187,11 +164,10 @@ Status PoseTracker::Objects::create_spaces(TrackedThing tracked) {
     stage = std::find(types.begin(), types.end(), XR_REFERENCE_SPACE_TYPE_STAGE) != types.end();
     BOLT_TRY_ASSIGN(base,
                     reference_space(stage ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL));
-    if (tracked == TrackedThing::head) {
-        BOLT_TRY_ASSIGN(thing, reference_space(XR_REFERENCE_SPACE_TYPE_VIEW));
+    if (tracked == TrackedDevice::headset) {
+        BOLT_TRY_ASSIGN(device, reference_space(XR_REFERENCE_SPACE_TYPE_VIEW));
     } else {
-        BOLT_TRY_ASSIGN(
-            thing, grip_space(tracked == TrackedThing::left_hand ? "/user/hand/left" : "/user/hand/right"));
+        BOLT_TRY_ASSIGN(device, grip_space(hand_paths[tracked == TrackedDevice::left_controller ? 0 : 1]));
     }
     return {};
 }
@@ -247,18 +223,18 @@ Result<std::optional<Pose>> PoseTracker::Objects::locate() const {
     XrTime time = 0;
     BOLT_TRY(check(to_time(instance.get(), &now, &time), "xrConvertTimespecTimeToTimeKHR"));
     XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
-    BOLT_TRY(check(xrLocateSpace(thing.get(), base.get(), time, &location), "xrLocateSpace"));
+    BOLT_TRY(check(xrLocateSpace(device.get(), base.get(), time, &location), "xrLocateSpace"));
     if ((location.locationFlags & fully_tracked) != fully_tracked) return std::optional<Pose>();
     const Pose pose = to_pose(location.pose);
     if (!finite(pose.position) || !std::isfinite(pose.orientation.w)) return std::optional<Pose>();
     return std::optional(pose);
 }
 
-Result<std::unique_ptr<PoseTracker>> PoseTracker::open(TrackedThing thing) {
+Result<std::unique_ptr<PoseTracker>> PoseTracker::open(TrackedDevice device) {
     auto objects = std::make_unique<Objects>();
     BOLT_TRY(objects->create_instance());
     BOLT_TRY(objects->create_session());
-    BOLT_TRY(objects->create_spaces(thing));
+    BOLT_TRY(objects->create_spaces(device));
     return std::unique_ptr<PoseTracker>(new PoseTracker(std::move(objects)));
 }
 

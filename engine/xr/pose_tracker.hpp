@@ -1,5 +1,5 @@
-// The pose of something that the OpenXR runtime tracks, without pictures in a headset (XR_MND_headless): the
-// head of a viewer of projection walls, or the controller that touches the points of a registration.
+// The pose of a headset or a controller, without pictures in a headset (XR_MND_headless): the head of a
+// viewer of projection walls, or the controller that touches the points of a registration.
 #pragma once
 
 #include <memory>
@@ -11,13 +11,13 @@
 namespace bolt::xr {
 
 // The headset, or a controller, such as one that is fixed to the viewer's glasses: its grip pose.
-enum class TrackedThing : std::uint8_t { head, left_hand, right_hand };
+enum class TrackedDevice : std::uint8_t { headset, left_controller, right_controller };
 
 class PoseTracker {
   public:
     // Fails with ErrorCode::no_device if there is no runtime, it cannot track without pictures, or nothing is
     // connected; trying again later may then succeed.
-    static Result<std::unique_ptr<PoseTracker>> open(TrackedThing thing);
+    static Result<std::unique_ptr<PoseTracker>> open(TrackedDevice device);
     PoseTracker(const PoseTracker&) = delete;
     PoseTracker& operator=(const PoseTracker&) = delete;
     ~PoseTracker();

@@ -21,7 +21,7 @@
 #include "engine/platform/window.hpp"
 #include "engine/tracking/recorded_poses.hpp"
 #include "game/cli/commands.hpp"
-#include "game/displays/head_source.hpp"
+#include "game/head_tracking/head_source.hpp"
 #include "game/view/walls.hpp"
 
 namespace bolt::cli {
@@ -32,7 +32,7 @@ struct DisplaysArguments {
     std::string file, pvx, kind = "cave", stereo = "mono", name;
     double scale = 1.0;     // import
     double seconds = 10.0;  // track
-    int rank = 0;
+    int process = 0;
     bool force = false, without_monitors = false;
 };
 
@@ -80,8 +80,8 @@ bool any_prevents_use(const std::vector<content::DisplayFinding>& findings) {
 
 // Prints all findings. Returns the exit code: bad_content if the file is wrong on any computer, failed if it
 // does not fit this one.
-int report_findings(const content::LoadedDisplays& loaded, const content::Computer& computer) {
-    const auto findings = content::check_displays(loaded.displays, computer);
+int report_findings(const content::LoadedDisplays& loaded, const content::DisplayHost& host) {
+    const auto findings = content::check_displays(loaded.displays, host);
     print_to_stderr(content::describe(findings, loaded));
     if (any_prevents_use(content::check_displays(loaded.displays)))
         return static_cast<int>(ErrorCode::bad_content);
@@ -97,24 +97,24 @@ int check_display_file(const DisplaysArguments& options) {
         const auto poses = tracking::load_recorded_poses(folder / head.recording);
         if (!poses) return print_error(poses.error());
     }
-    content::Computer computer;
-    computer.rank = options.rank;
+    content::DisplayHost host;
+    host.process = options.process;
     std::string compared = "The outputs were not compared with monitors";
     if (!options.without_monitors) {
         const auto desktop = platform::Desktop::open();
         if (desktop) {
-            computer = view::this_computer(*desktop);
-            computer.rank = options.rank;
-            const std::size_t count = computer.monitors.size();
+            host = view::this_host(*desktop);
+            host.process = options.process;
+            const std::size_t count = host.monitors.size();
             compared = fmt::format("The outputs were compared with {} of this computer",
                                    count == 1 ? "the monitor" : fmt::format("the {} monitors", count));
         } else {
             compared += ": " + desktop.error().message();
         }
     }
-    const Status listed = print(content::list_walls(loaded.displays, computer) + compared + "\n");
+    const Status listed = print(content::list_walls(loaded.displays, host) + compared + "\n");
     if (!listed) return print_error(listed.error());
-    const int exit_code = report_findings(loaded, computer);
+    const int exit_code = report_findings(loaded, host);
     const Status printed =
         print(exit_code == 0 ? "The file is right\n" : "These walls cannot be used as the file says\n");
     return printed ? exit_code : print_error(printed.error());
@@ -139,7 +139,7 @@ int import_displays(const DisplaysArguments& options) {
 std::string describe_walls_behind(const content::DisplayFile& displays, const Vec3& head) {
     std::vector<std::string> names;
     for (const content::Wall& wall : displays.walls)
-        if (content::distance_in_front(content::frame_of(wall), head) <= 0.0) names.push_back(wall.name);
+        if (content::distance_in_front(content::axes_of(wall), head) <= 0.0) names.push_back(wall.name);
     return names.empty() ? "" : fmt::format("   behind {}", fmt::join(names, ", "));
 }
 
@@ -156,7 +156,7 @@ std::string describe_shown_head(const content::DisplayFile& displays, const trac
         describe_walls_behind(displays, at));
 }
 
-std::string describe_tracker_counts(const displays::TrackerCounts& counts,
+std::string describe_tracker_counts(const head_tracking::TrackerCounts& counts,
                                     const content::HeadTracking& head) {
     std::string text = fmt::format("{} poses of the head", counts.samples);
     if (head.tracker != content::HeadTracker::dtrack) return text + "\n";
@@ -186,7 +186,7 @@ int track_head(const DisplaysArguments& options) {
             {ErrorCode::usage,
              fmt::format("the tracker of {} is \"{}\"", options.file, content::name(head.tracker)),
              "\"dtrack\", \"openxr\" or \"file\""});
-    auto source = displays::HeadSource::open(head, std::filesystem::path(options.file).parent_path());
+    auto source = head_tracking::HeadSource::open(head, std::filesystem::path(options.file).parent_path());
     if (!source) return print_error(source.error());
     catch_interruption();
     const double start = steady_seconds();
@@ -240,7 +240,10 @@ void add_displays_check(CLI::App& displays, const std::shared_ptr<DisplaysArgume
         add_displays_command(displays, *options, "check",
                              "List the walls and report every mistake: exit code 0 if there is none, 1 if "
                              "the walls do not fit the monitors of this computer, 3 if the file is wrong");
-    checked->add_option("--rank", options->rank, "Number of this computer in the file")
+    checked
+        ->add_option(
+            "--rank", options->process,
+            "Number of the process that shows the walls of this computer, as the file's outputs have it")
         ->check(CLI::Range(0, 63))
         ->capture_default_str();
     checked->add_flag(

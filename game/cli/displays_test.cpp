@@ -8,7 +8,7 @@
 #include "engine/base/hash.hpp"
 #include "game/cli/commands.hpp"
 #include "game/cli/opened_walls.hpp"
-#include "game/displays/head_source.hpp"
+#include "game/head_tracking/head_source.hpp"
 #include "game/view/pictures.hpp"
 #include "game/view/wall_pattern.hpp"
 
@@ -64,9 +64,9 @@ Result<std::unique_ptr<view::Walls>> open_checked_walls(const std::string& file,
         return fail(loaded.errors.back());
     }
     const std::vector<content::DisplayFinding> findings =
-        content::check_displays(loaded.displays, view::this_computer(desktop, cluster));
+        content::check_displays(loaded.displays, view::this_host(desktop, cluster));
     const bool unusable = !findings.empty() && findings.front().prevents_use;
-    const bool first = cluster == nullptr || cluster->rank() == 0;
+    const bool first = cluster == nullptr || cluster->process() == 0;
     if (!findings.empty() && (unusable || (first && !quiet)))
         (void)std::fputs(content::describe(findings, loaded).c_str(), stderr);
     if (unusable)
@@ -74,8 +74,8 @@ Result<std::unique_ptr<view::Walls>> open_checked_walls(const std::string& file,
                     "a display file without mistakes for these monitors");
     view::WallsOptions options;
     if (first) {
-        BOLT_TRY_ASSIGN(auto head, displays::HeadSource::open(loaded.displays.head,
-                                                              std::filesystem::path(file).parent_path()));
+        BOLT_TRY_ASSIGN(auto head, head_tracking::HeadSource::open(
+                                       loaded.displays.head, std::filesystem::path(file).parent_path()));
         options.head.emplace(std::move(head));
     }
     options.displays = std::move(loaded.displays);
@@ -107,7 +107,7 @@ Result<OpenedWalls> open_walls(const std::string& file, const platform::Desktop&
     }
     catch_interruption();
     const view::StopWaiting stop = [] { return interrupted(); };
-    const bool first = cluster->rank() == 0;
+    const bool first = cluster->process() == 0;
     Status ready = walls ? Status{} : Status(fail(walls.error()));
     if (ready) {
         opened.walls = std::move(*walls);

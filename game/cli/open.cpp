@@ -6,6 +6,7 @@
 
 #include "engine/base/process.hpp"
 #include "game/cli/commands.hpp"
+#include "game/view/pictures.hpp"
 #include "game/viewer/viewer.hpp"
 
 namespace bolt::cli {

@@ -19,6 +19,7 @@
 #include "game/cli/commands.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/lesson_session.hpp"
+#include "game/view/gpu_context.hpp"
 #include "game/view/labels.hpp"
 #include "game/view/pictures.hpp"
 #include "game/view/shown_model.hpp"

@@ -126,8 +126,9 @@ Result<std::vector<PointPair>> touch(const RegisterArguments& options, const con
 
 // Opens the tracker of the controller. Only the stage is fixed in the room.
 Result<std::unique_ptr<xr::PoseTracker>> open_controller(const std::string& side) {
-    BOLT_TRY_ASSIGN(auto tracker, xr::PoseTracker::open(side == "left" ? xr::TrackedThing::left_hand
-                                                                       : xr::TrackedThing::right_hand));
+    BOLT_TRY_ASSIGN(auto tracker,
+                    xr::PoseTracker::open(side == "left" ? xr::TrackedDevice::left_controller
+                                                         : xr::TrackedDevice::right_controller));
     if (!tracker->in_stage())
         return fail(ErrorCode::no_device, "the headset has no stage, so its poses are not fixed in the room",
                     "one whose room is set up");

@@ -8,7 +8,7 @@
 
 #include "engine/base/result.hpp"
 #include "game/trainees/trainee.hpp"
-#include "game/trainer/station_client.hpp"
+#include "game/trainer/equipment.hpp"
 
 namespace CLI {
 class App;

@@ -5,6 +5,7 @@
 #include "game/scene/annotations.hpp"
 #include "game/scene/postures.hpp"
 #include "game/scene/workplace.hpp"
+#include "game/view/gpu_context.hpp"
 #include "game/view/pictures.hpp"
 #include "game/world/world.hpp"
 

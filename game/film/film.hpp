@@ -7,7 +7,6 @@
 #include "game/scene/systems.hpp"
 #include "game/session/replay.hpp"
 #include "game/view/camera.hpp"
-#include "game/view/pictures.hpp"
 
 namespace bolt::film {
 

@@ -1,6 +1,6 @@
 #include "game/station/lesson_station.hpp"
 
-#include <deque>
+#include "game/station/stepped_station.hpp"
 
 namespace bolt::station_setup {
 
@@ -50,7 +50,8 @@ class ThreadedStation final : public LessonStation {
     station::Station station_;
 };
 
-class FrameSteppedStation final : public LessonStation {
+// The simulated arm moves in the time of the frames.
+class FrameSteppedStation final : public SteppedStation {
   public:
     explicit FrameSteppedStation(const device::Description& arm)
         : arm_(arm, device::simulated_arm_parameters(), device::virtual_timer(time_)) {}
@@ -70,63 +71,31 @@ class FrameSteppedStation final : public LessonStation {
         return {};
     }
 
-    void set_controls(const station::StationControls& controls) override { controls_ = controls; }
-    Status send(const station::StationCommand& command) override {
-        commands_.push_back(command);
-        return {};
-    }
     void set_hand_motion(const device::HandMotion& motion) override { arm_.set_motion(motion); }
-    void step(double seconds) override {
-        for (owed_ += seconds; owed_ >= setup_.dt; owed_ -= setup_.dt) tick();
-    }
-    bool next_tick(station::StationTick& tick) override {
-        if (ticks_.empty()) return false;
-        tick = ticks_.front();
-        ticks_.pop_front();
-        return true;
-    }
-    const station::StationTick& latest_tick() override { return latest_; }
+    void step(double seconds) override { run_ticks(seconds); }
     [[nodiscard]] std::uint64_t lost_ticks() const override { return 0; }
     const station::DisplayedHand* hand() override { return nullptr; }
     std::vector<std::string> fault_messages() override { return {}; }
-    [[nodiscard]] const station::DeviceLayout& layout() const override { return layout_; }
-    [[nodiscard]] const servo::Setup& setup() const override { return setup_; }
     const servo::Timing* stop() override { return nullptr; }
 
   private:
-    void tick() {
-        now_ += setup_.dt;
-        while (time_.now < now_)
-            if (auto sample = driver_->read(now_ - time_.now); sample && *sample) {
+    void read_devices(double now, station::StationInputs& inputs) override {
+        while (time_.now < now)
+            if (auto sample = driver_->read(now - time_.now); sample && *sample) {
                 snapshot_.sample = **sample;
                 ++snapshot_.number;
             }
-        station::StationInputs inputs;
         inputs.mover = snapshot_;
-        inputs.controls = controls_;
-        inputs.commands = commands_;
-        const station::StationStep done = station::step(layout_, setup_, state_, servo_, inputs, ++number_);
-        commands_.clear();
+    }
+    void write_devices(station::StationStep& done) override {
         // The simulated arm takes every command.
         (void)driver_->write(done.commands.mover);
-        latest_ = done.tick;
-        if (!done.paused) ticks_.push_back(latest_);
     }
 
     device::VirtualTime time_;
     device::SimulatedArm arm_;
     std::unique_ptr<device::DeviceDriver> driver_;
     device::DeviceSnapshot snapshot_;
-    station::DeviceLayout layout_;
-    servo::Setup setup_;
-    servo::State servo_;
-    station::StationState state_;
-    station::StationControls controls_;
-    std::vector<station::StationCommand> commands_;  // of the next tick
-    std::deque<station::StationTick> ticks_;
-    station::StationTick latest_;
-    double now_ = 0.0, owed_ = 0.0;  // s
-    std::uint64_t number_ = 0;
 };
 
 }  // namespace

@@ -61,9 +61,8 @@ Result<std::unique_ptr<LessonStation>> start_threaded_station(
     station::StationOptions options, VirtualMover mover,
     std::shared_ptr<device::MovePermission> permission = {});
 
-// Starts a station without threads, whose simulated arm moves in the time of the frames: no tick is missed
-// on a busy computer, and the same input gives the same lesson. `arm`: device::simulated_arm_description() or
-// device::tracked_hand_description().
+// Starts a SteppedStation whose simulated arm moves in the time of the frames. `arm`:
+// device::simulated_arm_description() or device::tracked_hand_description().
 Result<std::unique_ptr<LessonStation>> start_frame_stepped_station(const station::StationOptions& options,
                                                                    const device::Description& arm);
 

@@ -49,7 +49,7 @@ struct TouchIo {
 };
 
 // The tip of an arm, in the frame of its samples: the user touches each point and presses a button of the arm
-// or Enter. The position is averaged; if the hand moved, the point is asked for again.
+// or Enter. The position is averaged; if the hand moved, the user must touch the point again.
 class ArmTip final : public PointSource {
   public:
     // `tip`: m, in the frame of the handle.

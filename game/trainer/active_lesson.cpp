@@ -122,7 +122,8 @@ void update_pointer(const scene::SceneWorld& world, ActiveLesson& active, const 
 }
 
 // The hand of a station: a device, or a simulated arm that the mouse drags, moves it.
-void handle_station_input(const scene::SceneWorld& world, const Frame& frame, const Projection& projection) {
+void handle_station_input(const scene::SceneWorld& world, const LessonFrame& frame,
+                          const Projection& projection) {
     ActiveLesson& active = frame.active;
     const FrameInput& input = frame.input;
     StationClient& client = *active.station;
@@ -157,7 +158,7 @@ void handle_mouse_input(ActiveLesson& active, const FrameInput& input, const Pro
 
 }  // namespace
 
-void handle_input(const scene::SceneWorld& world, Frame& frame) {
+void handle_input(const scene::SceneWorld& world, LessonFrame& frame) {
     ActiveLesson& active = frame.active;
     const FrameInput& input = frame.input;
     enter_room(active, frame.room);
@@ -224,7 +225,7 @@ void write_glove(scene::SceneWorld& world, const StationClient& client) {
         world.remove<world::GloveHand>(hand);
 }
 
-void step_ticks(scene::SceneWorld& world, Frame& frame) {
+void step_ticks(scene::SceneWorld& world, LessonFrame& frame) {
     ActiveLesson& active = frame.active;
     session::LessonSession& session = *active.session;
     if (!active.clock.paused && !active.clock.finished) active.clock.pending += frame.seconds;
@@ -253,7 +254,7 @@ void step_ticks(scene::SceneWorld& world, Frame& frame) {
 }
 
 // Repeats the station's ticks since the last frame with the lesson's own servo.
-void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
+void repeat_station_ticks(scene::SceneWorld& world, LessonFrame& frame) {
     ActiveLesson& active = frame.active;
     StationClient& client = *active.station;
     const bool had_wrench = hand_of(active).wrench;
@@ -284,7 +285,7 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
     write_glove(world, client);
 }
 
-void vibrate_controller(ActiveLesson& active, const Frame& frame) {
+void vibrate_controller(ActiveLesson& active, const LessonFrame& frame) {
     if (!frame.room || !frame.room->vibrate || !active.station || !active.station->tracked) return;
     const auto command = servo::next_vibration(active.vibration.state, active.vibration.options);
     if (!command) return;
@@ -295,7 +296,7 @@ void vibrate_controller(ActiveLesson& active, const Frame& frame) {
 
 }  // namespace
 
-void tick_system(scene::SceneWorld& world, Frame& frame) {
+void tick_system(scene::SceneWorld& world, LessonFrame& frame) {
     ActiveLesson& active = frame.active;
     if (active.station)
         repeat_station_ticks(world, frame);
@@ -305,7 +306,7 @@ void tick_system(scene::SceneWorld& world, Frame& frame) {
     vibrate_controller(active, frame);
 }
 
-void placement_system(scene::SceneWorld& world, Frame& frame) {
+void placement_system(scene::SceneWorld& world, LessonFrame& frame) {
     const ActiveLesson& active = frame.active;
     const servo::State& state = active.session->state();
     scene::placement_system(
@@ -340,7 +341,7 @@ void show_force(scene::SceneWorld& world, ActiveLesson& active, double seconds) 
 
 }  // namespace
 
-void guidance_system(scene::SceneWorld& world, Frame& frame) {
+void guidance_system(scene::SceneWorld& world, LessonFrame& frame) {
     ActiveLesson& active = frame.active;
     const lesson::Lesson& lesson = active.session->lesson();
     update(active.undo, frame.seconds);

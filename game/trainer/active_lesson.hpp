@@ -1,5 +1,5 @@
-// A lesson in a window: its session, its world, and the state that the systems of a frame keep from frame to
-// frame.
+// A lesson in progress, in a window or in a room: its session, its world, and the state that the systems of a
+// frame keep from frame to frame.
 #pragma once
 
 #include <functional>
@@ -81,7 +81,7 @@ struct ActiveLesson {
     render::Scene scene;
 
     scene::Postures postures;
-    std::size_t handle_grip = 0;  // grip on the wrench's handle (Postures::on_handle)
+    std::size_t handle_grip = 0;  // index in Postures::on_handle
     Vec3 shoulder{0.0};           // m, the trainee's
     scene::Effort effort;         // of the hand
     view::Palette palette;
@@ -121,7 +121,7 @@ struct RoomInput {
 };
 
 // Input and result of the systems of one frame.
-struct Frame {
+struct LessonFrame {
     ActiveLesson& active;
     const words::Words& words;
     double seconds = 0.0;  // since the previous frame; limited, so that nothing jumps after a long frame
@@ -135,24 +135,24 @@ struct Frame {
 
 // Call before the systems. Applies mouse and keys to the hand and the view, based on the world of the
 // previous frame.
-void handle_input(const scene::SceneWorld& world, Frame& frame);
+void handle_input(const scene::SceneWorld& world, LessonFrame& frame);
 
 // The systems of a frame follow, in the order in which they run.
 
 // Steps the ticks that are due; after each of them runs session::tick_systems.
-void tick_system(scene::SceneWorld& world, Frame& frame);
+void tick_system(scene::SceneWorld& world, LessonFrame& frame);
 // Sets the poses of nuts, wrench and hand from the components.
-void placement_system(scene::SceneWorld& world, Frame& frame);
+void placement_system(scene::SceneWorld& world, LessonFrame& frame);
 // Updates hints, mistakes, captions, outlines and the arrow of the force.
-void guidance_system(scene::SceneWorld& world, Frame& frame);
+void guidance_system(scene::SceneWorld& world, LessonFrame& frame);
 // Updates the camera, the close-up and the cut-away in front of the nut.
-void view_system(scene::SceneWorld& world, Frame& frame);
+void view_system(scene::SceneWorld& world, LessonFrame& frame);
 // Updates the labels at the wrench and at the joints.
-void label_system(scene::SceneWorld& world, Frame& frame);
+void label_system(scene::SceneWorld& world, LessonFrame& frame);
 // Collects what the renderer draws into ActiveLesson::scene.
-void collect_system(scene::SceneWorld& world, Frame& frame);
+void collect_system(scene::SceneWorld& world, LessonFrame& frame);
 
-inline constexpr ecs::System<scene::SceneWorld, Frame> frame_systems[] = {
+inline constexpr ecs::System<scene::SceneWorld, LessonFrame> frame_systems[] = {
     {"ticks", tick_system}, {"placement", placement_system}, {"guidance", guidance_system},
     {"view", view_system},  {"labels", label_system},        {"collect", collect_system}};
 

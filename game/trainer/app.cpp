@@ -88,7 +88,7 @@ void App::release() {
         scene::destroy_drawables(active_->workplace.world);
     }
     pictures_.release();
-    if (sharing_) sharing_->panel.release();
+    if (sender_) sender_->panel.release();
     gpu_.reset();
 }
 
@@ -197,7 +197,7 @@ void App::perform(ScreenAction action) {
         case ScreenAction::close_page:
             return show_page(MenuPage::choices);
         case ScreenAction::permit_move:
-            if (starter_) starter_->permit_move();
+            if (start_thread_) start_thread_->permit_move();
             if (active_ && active_->station) active_->station->link->permit_move();
             return;
         case ScreenAction::cancel_start:
@@ -223,16 +223,16 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
     const bool has_keys = screen_ != ShownScreen::menu && !settings_;
     const InputFocus focus{has_keys && !in_room() && !gpu_->ui->wants_pointer(), has_keys};
     const double shown = std::min(window.seconds, max_frame_time);
-    Frame frame{active,
-                words_,
-                shown,
-                window.seconds - shown,
-                glm::dvec2(picture.size.width, picture.size.height),
-                apply_events(active.input, picture.events, focus),
-                &*gpu_->fonts,
-                {},
-                {}};
-    if (in_room()) frame.room = room_input(*window.immersion);
+    LessonFrame frame{active,
+                      words_,
+                      shown,
+                      window.seconds - shown,
+                      glm::dvec2(picture.size.width, picture.size.height),
+                      apply_events(active.input, picture.events, focus),
+                      &*gpu_->fonts,
+                      {},
+                      {}};
+    if (in_room()) frame.room = room_input(*window.immersive);
     const bool waits = (active.station && active.station->waits_for_arm) || (room_ && room_->touch);
     if (frame.input.triggered(Action::pause) && in_lesson && !waits)
         active.clock.paused = !active.clock.paused;
@@ -272,7 +272,7 @@ void App::draw_screen(const ScreenContext& context) {
         const ScreenAction action = settings_->draw(context, preferences_, active_ && in_lesson);
         apply_preferences();
         perform(action);
-    } else if (starter_ || arm_screen_.needs.any()) {
+    } else if (start_thread_ || arm_screen_.needs.any()) {
         perform(draw_arm(context, arm_screen_));
     } else if (in_lesson && room_ && room_->touch) {
         perform(draw_touch_check(context, *room_->touch));
@@ -336,15 +336,15 @@ Status App::update(const view::WindowFrame& window) {
     const glm::dvec2 extent(picture.size.width, picture.size.height);
     if (const auto code = std::exchange(selected_language_, std::nullopt)) BOLT_TRY(select_language(*code));
     const auto aspect = static_cast<float>(extent.x / extent.y);
-    if (std::exchange(start_requested_, false) && !starter_) {
+    if (std::exchange(start_requested_, false) && !start_thread_) {
         menu_.start_error.reset();
         BOLT_TRY(report_start(begin_lesson(aspect)));
     }
-    if (std::optional<Result<StartedLesson>> started = starter_ ? starter_->take() : std::nullopt) {
-        starter_.reset();
+    if (std::optional<Result<StartedLesson>> started = start_thread_ ? start_thread_->take() : std::nullopt) {
+        start_thread_.reset();
         BOLT_TRY(report_start(enter_lesson(std::move(*started), aspect)));
     }
-    if (window.immersion != nullptr) place_in_room(*window.immersion);  // a lesson that has just begun
+    if (window.immersive != nullptr) place_in_room(*window.immersive);  // a lesson that has just begun
     if (screen_ == ShownScreen::menu && active_) BOLT_TRY(close_lesson());
     const bool chooses = screen_ == ShownScreen::menu || screen_ == ShownScreen::result;
     const bool can_start = chooses && !settings_ && menu_.page == MenuPage::choices;
@@ -383,23 +383,23 @@ Status App::draw_panel(gpu::FrameContext& frame) {
     return draw_interface(frame, gpu_->panel->layer());
 }
 
-Status App::draw_room(gpu::FrameContext& frame, const view::Immersion& immersion) {
+Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& immersive) {
     const Pose place = scene_in_room();
     render::Scene scene = active_ ? active_->scene : empty_room();
     if (in_room() && room_->panel)
         scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
-    return draw_in_room(*gpu_->context->renderer, frame, scene, place, immersion);
+    return draw_in_room(*gpu_->context->renderer, frame, scene, place, immersive);
 }
 
 Status App::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
     if (in_room()) {
         BOLT_TRY(draw_panel(frame));
-        if (sharing_) BOLT_TRY(sharing_->panel.record(*gpu_->context->device, frame, *gpu_->panel));
+        if (sender_) BOLT_TRY(sender_->panel.record(*gpu_->context->device, frame, *gpu_->panel));
     } else if (window.size.width > 0 && window.size.height > 0) {
         BOLT_TRY(draw_pictures(frame, window.size, window.scale));
         BOLT_TRY(draw_interface(frame, gpu_->context->renderer->picture(0)));
     }
-    if (window.immersion != nullptr) BOLT_TRY(draw_room(frame, *window.immersion));
+    if (window.immersive != nullptr) BOLT_TRY(draw_room(frame, *window.immersive));
     return std::exchange(end_requested_, false) ? end_lesson() : Status{};
 }
 

@@ -6,9 +6,9 @@
 
 #include "engine/ui/ui.hpp"
 #include "game/trainer/arm_screen.hpp"
-#include "game/trainer/immersive.hpp"
-#include "game/trainer/lesson_starter.hpp"
+#include "game/trainer/lesson_start.hpp"
 #include "game/trainer/menu.hpp"
+#include "game/trainer/room_state.hpp"
 #include "game/trainer/settings_screen.hpp"
 #include "game/trainer/shared_lesson.hpp"
 #include "game/trainer/tour.hpp"
@@ -26,7 +26,7 @@ struct AppOptions {
     std::filesystem::path settings_folder, settings_file;  // Preferences::folder and ::file
     bool first_start = false;                              // the menu offers the tour first
     ComputerCheck::GatherFacts gather_facts = computer::gather_facts;  // tests replace it
-    StartStation start_station = trainer::start_station;
+    StationFactory start_station = trainer::start_station;
 
     // Called with the folder of a lesson when it starts. Removes the files of an earlier lesson that would
     // describe another session.
@@ -90,7 +90,7 @@ class App : public view::WindowContent {
     [[nodiscard]] bool shows_settings() const { return settings_.has_value(); }
     [[nodiscard]] const std::optional<Error>& start_error() const { return menu_.start_error; }
     [[nodiscard]] const ArmScreen& arm_screen() const { return arm_screen_; }
-    [[nodiscard]] const std::optional<Room>& room() const { return room_; }
+    [[nodiscard]] const std::optional<RoomState>& room() const { return room_; }
 
   private:
     struct GpuResources {
@@ -117,17 +117,17 @@ class App : public view::WindowContent {
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
     [[nodiscard]] bool in_room() const { return room_ && room_->shown; }
     void pause_unseen(bool seen);
-    void place_in_room(const view::Immersion& immersion);
-    void find_arm(const view::Immersion& immersion);
+    void place_in_room(const view::ImmersiveFrame& immersive);
+    void find_arm(const view::ImmersiveFrame& immersive);
     void follow_touch_check(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);
     void end_touch_check();
-    [[nodiscard]] RoomInput room_input(const view::Immersion& immersion) const;
+    [[nodiscard]] RoomInput room_input(const view::ImmersiveFrame& immersive) const;
     void follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events);
     [[nodiscard]] Pose scene_in_room() const;
     Status draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale);
     Status draw_interface(gpu::FrameContext& frame, const render::ImageLayer& picture);
     Status draw_panel(gpu::FrameContext& frame);
-    Status draw_room(gpu::FrameContext& frame, const view::Immersion& immersion);
+    Status draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& immersive);
     void draw_screen(const ScreenContext& context);
     void press_start();
     void show_page(MenuPage page);
@@ -154,8 +154,8 @@ class App : public view::WindowContent {
     bool start_requested_ = false, end_requested_ = false;
     bool tour_requested_ = false;  // the next lesson is the tour
 
-    std::unique_ptr<LessonStarter> starter_;   // of a lesson with devices, while it starts
-    std::unique_ptr<LessonStarter> given_up_;  // an earlier one, which may still hold the devices
+    std::unique_ptr<LessonStartThread> start_thread_;  // of a lesson with devices, while it starts
+    std::unique_ptr<LessonStartThread> given_up_;      // an earlier one, which may still hold the devices
     ArmScreen arm_screen_;
     std::optional<LessonContext> context_;  // of the last lesson that started
     std::filesystem::path folder_;          // of its session
@@ -164,11 +164,11 @@ class App : public view::WindowContent {
     std::optional<session::LessonOutcome> outcome_;
     std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson
 
-    std::optional<Room> room_;  // since a display has surrounded the user
+    std::optional<RoomState> room_;  // since a display has surrounded the user
 
-    std::optional<LessonSharing> sharing_;  // since other processes show walls
-    std::uint32_t lesson_number_ = 0;       // counts the lessons of this program
-    SharedModels shared_models_;            // of the lesson
+    std::optional<LessonSender> sender_;  // since other processes show walls
+    std::uint32_t lesson_number_ = 0;     // counts the lessons of this program
+    SharedModels shared_models_;          // of the lesson
 
     std::unique_ptr<GpuResources> gpu_;
     AssemblyPictures pictures_;

@@ -50,10 +50,10 @@ Status App::begin_lesson(float aspect) {
     if (active_ && options_.choice.equipment.needs_station())
         active_->station.reset();  // it holds the devices
     BOLT_TRY_ASSIGN(folder_, make_lesson_folder(options_.out, options_.folder_per_lesson, choice.assembly));
-    LessonStart start{choice, preferences_.settings, options_.lesson, folder_, options_.start_station};
-    if (!choice.equipment.has_hardware()) return enter_lesson(start_lesson(start), aspect);
+    LessonRequest request{choice, preferences_.settings, options_.lesson, folder_, options_.start_station};
+    if (!choice.equipment.has_hardware()) return enter_lesson(start_lesson(request), aspect);
     if (active_) BOLT_TRY(close_lesson());
-    starter_ = std::make_unique<LessonStarter>(std::move(start), std::move(given_up_));
+    start_thread_ = std::make_unique<LessonStartThread>(std::move(request), std::move(given_up_));
     arm_screen_ = {};
     screen_ = ShownScreen::starting;
     return {};
@@ -103,9 +103,9 @@ Status App::report_start(Status begun) {
 }
 
 void App::cancel_start() {
-    if (!starter_) return;
-    starter_->give_up();
-    given_up_ = std::move(starter_);
+    if (!start_thread_) return;
+    start_thread_->give_up();
+    given_up_ = std::move(start_thread_);
     screen_ = ShownScreen::menu;
     closed_ = closed_ || !options_.menu;
 }
@@ -114,7 +114,7 @@ void App::cancel_start() {
 void App::follow_arm(std::span<const platform::InputEvent> events, double seconds, bool enter_answers) {
     StationClient* client = screen_ == ShownScreen::lesson && active_->station ? &*active_->station : nullptr;
     if (client != nullptr) pause_for_arm(*client, active_->clock);
-    const device::ArmNeeds needs = starter_            ? starter_->needs()
+    const device::ArmNeeds needs = start_thread_       ? start_thread_->needs()
                                    : client != nullptr ? client->needs
                                                        : device::ArmNeeds{};
     const std::string before = describe(arm_screen_.needs);

@@ -24,13 +24,13 @@ Pose App::scene_in_room() const {
 }
 
 // Returns the room as the systems of a lesson read it.
-RoomInput App::room_input(const view::Immersion& immersion) const {
+RoomInput App::room_input(const view::ImmersiveFrame& immersive) const {
     const Pose scene = scene_in_room();
     RoomInput input;
     input.room_in_assembly = inverse(scene);
-    input.head = immersion.head;
-    input.hands = &immersion.hands;
-    input.vibrate = immersion.vibrate;
+    input.head = immersive.head;
+    input.hands = &immersive.hands;
+    input.vibrate = immersive.vibrate;
     // A registered arm moves in the assembly as it moves in the room. Else right is the user's right, also
     // after the workpiece was turned.
     if (!room_->arm && room_->workpiece)
@@ -39,7 +39,7 @@ RoomInput App::room_input(const view::Immersion& immersion) const {
 }
 
 Status App::share(cluster::MessageWriter& message) {
-    if (!sharing_) sharing_.emplace();
+    if (!sender_) sender_.emplace();
     SharedFrame frame;
     if (active_) {
         frame.models = &shared_models_;
@@ -49,7 +49,7 @@ Status App::share(cluster::MessageWriter& message) {
     }
     frame.scene_in_room = scene_in_room();
     if (in_room()) frame.panel = room_->panel;
-    sharing_->write(message, frame);
+    sender_->write(message, frame);
     return {};
 }
 
@@ -66,8 +66,8 @@ void App::pause_unseen(bool seen) {
 }
 
 // The arm's frame in the room; none: the picture does not depend on where the arm is. Logs the reason once.
-void App::find_arm(const view::Immersion& immersion) {
-    Room& room = *room_;
+void App::find_arm(const view::ImmersiveFrame& immersive) {
+    RoomState& room = *room_;
     if (!active_ || !active_->station) {
         room.arm.reset();
         room.touch.reset();
@@ -85,7 +85,7 @@ void App::find_arm(const view::Immersion& immersion) {
     if (found == nullptr || !context_->choice.equipment.station.arm || client.dragged || client.tracked)
         return;
     const double scale = client.link->layout().workspace.scale;
-    if (scale != 1.0 || !immersion.floor_known) {
+    if (scale != 1.0 || !immersive.floor_known) {
         log(fmt::format(
             "the picture is not where the arm feels: {}",
             scale != 1.0
@@ -133,51 +133,50 @@ void App::end_touch_check() {
 }
 
 // Places panel and workpiece if they have no place yet.
-void App::place_in_room(const view::Immersion& immersion) {
-    Room& room = *room_;
-    const Pose& viewer = immersion.expected_head ? *immersion.expected_head : immersion.head;
-    const bool placed = immersion.tracked || immersion.expected_head || room.panel;
+void App::place_in_room(const view::ImmersiveFrame& immersive) {
+    RoomState& room = *room_;
+    const Pose& viewer = immersive.expected_head ? *immersive.expected_head : immersive.head;
+    const bool placed = immersive.tracked || immersive.expected_head || room.panel;
     if (placed && !room.panel) room.panel = place_panel(viewer);
     if (!active_) room.workpiece.reset();
-    find_arm(immersion);
+    find_arm(immersive);
     if (placed && active_ && !room.workpiece) {
-        const render::BoundingBox& machine = active_->workplace.workpiece;
+        const render::BoundingBox& box = active_->workplace.workpiece;
         room.workpiece = place_workpiece(
-            viewer, machine,
-            immersion.floor_known
+            viewer, box,
+            immersive.floor_known
                 ? std::nullopt
                 : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
-        if (immersion.shows)
-            room.workpiece = moved_into_view(*room.workpiece, machine, viewer, immersion.shows);
+        if (immersive.shows) room.workpiece = moved_into_view(*room.workpiece, box, viewer, immersive.shows);
     }
 }
 
 // Places workpiece and panel, and adds the input of the hands as events.
 void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
-    const view::Immersion* immersion = window.immersion;
-    pause_unseen(immersion != nullptr && immersion->attentive);
+    const view::ImmersiveFrame* immersive = window.immersive;
+    pause_unseen(immersive != nullptr && immersive->attentive);
     if (room_) room_->shown = false;
-    if (immersion == nullptr) return;
+    if (immersive == nullptr) return;
     if (!room_) room_.emplace();
-    Room& room = *room_;
+    RoomState& room = *room_;
     // On walls a lesson by mouse is played in the window, and the walls show it.
-    room.shown = immersion->tracks_hands || !active_ || options_.choice.equipment.has_hardware();
-    room.seen = immersion->attentive;
-    if (immersion->tracks_hands) offer_tracked_hand(menu_.devices);
-    if (immersion->recentred) {
+    room.shown = immersive->tracks_hands || !active_ || options_.choice.equipment.has_hardware();
+    room.seen = immersive->attentive;
+    if (immersive->tracks_hands) offer_tracked_hand(menu_.devices);
+    if (immersive->recentred) {
         room.panel = room.workpiece = std::nullopt;
         room.touch_asked = false;  // the registration may be wrong from now on
     }
-    place_in_room(*immersion);
+    place_in_room(*immersive);
     if (!room.shown) return;
-    if (immersion->tracks_hands) {
+    if (immersive->tracks_hands) {
         // The window's pointer would compete with the hands'.
         std::erase_if(events, [](platform::InputEvent& event) { return pointer_position(event) != nullptr; });
     } else {
         move_to_panel(events, view::fitted(panel_extent, window.size));
     }
     const HandKeys keys{platform::Key::escape, preferences_.keys.of(Action::tool)};
-    const std::vector<platform::InputEvent> hands = hand_events(room, immersion->hands, keys, window.seconds);
+    const std::vector<platform::InputEvent> hands = hand_events(room, immersive->hands, keys, window.seconds);
     events.insert(events.end(), hands.begin(), hands.end());
 }
 

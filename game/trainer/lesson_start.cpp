@@ -2,10 +2,12 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <ctime>
+#include <utility>
 
+#include "game/station/station_setup.hpp"
+#include "haptics/device/device.hpp"
 #include "haptics/force/output_limits.hpp"
 
 namespace bolt::trainer {
@@ -13,13 +15,13 @@ namespace bolt::trainer {
 namespace {
 
 // Starts the station, if the choice needs one, and takes its limits and rate over into the lesson.
-Status start_station_of(const LessonStart& start, StartedLesson& lesson, session::SessionSetup& setup) {
-    if (!start.choice.equipment.needs_station()) return {};
+Status start_station_of(const LessonRequest& request, StartedLesson& lesson, session::SessionSetup& setup) {
+    if (!request.choice.equipment.needs_station()) return {};
     session::LessonOptions& options = lesson.context.options;
-    Equipment equipment = start.choice.equipment;
-    equipment.force_scale = start.settings.force_scale;
-    BOLT_TRY_ASSIGN(auto station, start.start_station(lesson.context.assembly, options, equipment,
-                                                      start.choice.trainee, start.arm_dialog));
+    Equipment equipment = request.choice.equipment;
+    equipment.force_scale = request.settings.force_scale;
+    BOLT_TRY_ASSIGN(auto station, request.start_station(lesson.context.assembly, options, equipment,
+                                                        request.choice.trainee, request.arm_dialog));
     lesson.active.station.emplace();
     lesson.active.station->link = std::move(station);
     const bool dragged = equipment.hand == HandMode::free || equipment.hand == HandMode::simulated_arm;
@@ -59,28 +61,52 @@ view::Orbit first_view(const ActiveLesson& active, const LessonContext& context,
 
 }  // namespace
 
-Result<std::string> tool_of_station(const content::StationFile& station,
-                                    std::span<const content::Tool> tools) {
-    if (!station.arm || station.arm->tool.empty()) return std::string();
-    const std::string& name = station.arm->tool;
-    std::vector<std::string> names;
-    for (const content::Tool& tool : tools) {
-        if (tool.name == name) return names.empty() ? std::string() : name;
-        names.push_back(tool.name);
+Result<std::unique_ptr<station_setup::LessonStation>> start_station(const content::Assembly& assembly,
+                                                                    const session::LessonOptions& options,
+                                                                    const Equipment& equipment,
+                                                                    const std::string& trainee,
+                                                                    const device::ArmDialog& dialog) {
+    const device::Timer timer = device::steady_timer();
+    const bool arm = equipment.hand == HandMode::simulated_arm;
+    device::VirtualPuck puck({}, timer);
+    device::SimulatedArm simulated_arm(device::simulated_arm_description(),
+                                       device::simulated_arm_parameters(), timer);
+    station_setup::StationRequest request;
+    request.devices = equipment.devices;
+    request.station = equipment.station;
+    request.wheel_config_file = equipment.wheel_config_file;
+    request.fallback_mover = arm ? simulated_arm.factory() : puck.factory();
+    request.glove = equipment.glove;
+    request.trainee = trainee;
+    request.force_scale = equipment.force_scale;
+    request.arm_dialog = dialog;
+    if (!equipment.glove.empty() && trainee.empty())
+        return fail(ErrorCode::no_device, "the wearer of the glove is not named",
+                    "the trainee's name given to boltwright glove calibrate");
+    Result<station_setup::PlannedStation> planned =
+        station_setup::plan_lesson_station(assembly, options, request, {});
+    if (!planned) return fail(planned.error());
+    station::StationOptions& station_options = planned->options;
+    station_options.controls.pause = true;
+    station_setup::VirtualMover mover;
+    if (!planned->devices.mover) station_options.mover_buttons = {1, 0, 0, 0};
+    if (!planned->devices.mover && equipment.hand == HandMode::free)
+        return station_setup::start_frame_stepped_station(station_options,
+                                                          device::simulated_arm_description());
+    if (!planned->devices.mover && equipment.hand == HandMode::tracked) {
+        station_options.workspace.absolute = true;
+        station_options.workspace.scale = 1.0;
+        return station_setup::start_frame_stepped_station(station_options,
+                                                          device::tracked_hand_description());
     }
-    return fail(ErrorCode::bad_content,
-                fmt::format("the assembly does not have the tool of the station's arm, \"{}\"", name),
-                fmt::format("one of its tools: {}", fmt::join(names, ", ")));
+    if (!planned->devices.mover && arm) mover = std::move(simulated_arm);
+    if (!planned->devices.mover && !arm) mover = std::move(puck);
+    return station_setup::start_threaded_station(std::move(station_options), std::move(mover),
+                                                 dialog.permission);
 }
 
-joint::Law effective_law(const LessonChoice& choice, const content::TraineeSettings& settings,
-                         joint::Law assembly_law) {
-    if (choice.law) return *choice.law;
-    return joint::law_named(settings.law).value_or(assembly_law);
-}
-
-Result<StartedLesson> start_lesson(const LessonStart& start) {
-    const LessonChoice& choice = start.choice;
+Result<StartedLesson> start_lesson(const LessonRequest& request) {
+    const LessonChoice& choice = request.choice;
     content::LoadedAssembly loaded = content::load_assembly(choice.assembly, choice.variant);
     if (!loaded.ok()) return fail(loaded.errors.front());
     BOLT_TRY(content::choose_tool(loaded.assembly, choice.tool));
@@ -89,26 +115,61 @@ Result<StartedLesson> start_lesson(const LessonStart& start) {
     LessonContext& context = lesson.context;
     context.choice = choice;
     session::LessonOptions& options = context.options;
-    options = start.options;
-    options.law = effective_law(choice, start.settings, loaded.assembly.law);
+    options = request.options;
+    options.law = effective_law(choice, request.settings, loaded.assembly.law);
     options.mode = choice.mode;
     options.task = choice.task;
     options.trainee_profile = "person";
     options.trainee = choice.trainee;
-    options.device_limits = force::scaled(start.options.device_limits, start.settings.force_scale);
+    options.device_limits = force::scaled(request.options.device_limits, request.settings.force_scale);
     context.assembly = lesson::apply_law(std::move(loaded.assembly), options.law);
 
     BOLT_TRY_ASSIGN(auto setup, session::prepare_session(context.assembly, options));
-    BOLT_TRY(start_station_of(start, lesson, setup));
-    context.worker = {working_side(lesson.active, start.settings), start.settings.seated_eye_height};
+    BOLT_TRY(start_station_of(request, lesson, setup));
+    context.worker = {working_side(lesson.active, request.settings), request.settings.seated_eye_height};
     options.hand = context.worker.side;
     BOLT_TRY_ASSIGN(auto models, scene::load_lesson_models(context.assembly, context.worker.side));
     context.models = std::move(models);
     BOLT_TRY_ASSIGN(auto session, session::LessonSession::begin(std::move(setup), options,
-                                                                start.folder / "session.boltwright"));
+                                                                request.folder / "session.boltwright"));
     lesson.active.session = std::move(session);
     return lesson;
 }
+
+LessonStartThread::LessonStartThread(LessonRequest request, std::unique_ptr<LessonStartThread> before)
+    : before_(std::move(before)) {
+    request.arm_dialog.permission = permission_;
+    request.arm_dialog.on_preparation = [this](const device::Preparation& preparation) {
+        return store(preparation);
+    };
+    thread_ = std::jthread([this, request = std::move(request)] {
+        before_.reset();
+        result_.emplace(given_up_ ? fail(ErrorCode::failed, "the start was cancelled")
+                                  : start_lesson(request));
+        done_ = true;
+    });
+}
+
+LessonStartThread::~LessonStartThread() { give_up(); }
+
+bool LessonStartThread::store(const device::Preparation& preparation) {
+    const std::lock_guard lock(mutex_);
+    preparation_ = preparation;
+    return !given_up_;
+}
+
+std::optional<Result<StartedLesson>> LessonStartThread::take() {
+    if (!done_ || !result_) return {};
+    return std::exchange(result_, std::nullopt);
+}
+
+device::ArmNeeds LessonStartThread::needs() const {
+    const std::lock_guard lock(mutex_);
+    return {preparation_, permission_->active()};
+}
+
+void LessonStartThread::permit_move() { permission_->grant(); }
+void LessonStartThread::give_up() { given_up_ = true; }
 
 void place_trainee(ActiveLesson& active, const LessonContext& context, float aspect) {
     const servo::Setup& setup = active.session->setup();

@@ -2,53 +2,42 @@
 // the session.
 #pragma once
 
+#include <atomic>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
+#include <thread>
 
 #include "content/format/assembly.hpp"
-#include "content/trainee/settings.hpp"
 #include "game/scene/workplace.hpp"
+#include "game/station/lesson_station.hpp"
 #include "game/trainer/active_lesson.hpp"
-#include "game/trainer/station_client.hpp"
+#include "game/trainer/lesson_choice.hpp"
 
 namespace bolt::trainer {
 
-// The user's choice in the menu or on the command line.
-struct LessonChoice {
-    std::string assembly = "zq350";
-    std::string variant;  // empty: the assembly's default
-    lesson::Mode mode = lesson::Mode::guided;
-    lesson::Task task = lesson::Task::tighten;
-    std::string trainee;   // empty: no name
-    std::string language;  // empty: the desktop's, if its texts exist
-    std::string tool;      // empty: the assembly's first
-    Equipment equipment;
-    std::optional<joint::Law> law;  // from the command line; a choice in the menu resets it
-};
+// Starts a station for the lesson, paused. `trainee` is the wearer of the glove. Fails if a device cannot be
+// opened, or if there is a glove but no trainee's name. `dialog`: for an arm that must be prepared.
+Result<std::unique_ptr<station_setup::LessonStation>> start_station(const content::Assembly& assembly,
+                                                                    const session::LessonOptions& options,
+                                                                    const Equipment& equipment,
+                                                                    const std::string& trainee,
+                                                                    const device::ArmDialog& dialog);
 
-// The tool of the station's arm among those of an assembly, as LessonChoice::tool: empty if it is the first
-// or the station has none. Fails if the assembly does not have it.
-Result<std::string> tool_of_station(const content::StationFile& station,
-                                    std::span<const content::Tool> tools);
-
-// The law of a lesson: the command line's, else the trainee's, else the assembly's.
-joint::Law effective_law(const LessonChoice& choice, const content::TraineeSettings& settings,
-                         joint::Law assembly_law);
-
-// trainer::start_station; tests replace it.
-using StartStation = std::function<Result<std::unique_ptr<station_setup::LessonStation>>(
+// The signature of start_station(), which tests replace.
+using StationFactory = std::function<Result<std::unique_ptr<station_setup::LessonStation>>(
     const content::Assembly&, const session::LessonOptions&, const Equipment&, const std::string& trainee,
     const device::ArmDialog&)>;
 
-struct LessonStart {
+// The request that start_lesson() carries out.
+struct LessonRequest {
     LessonChoice choice;
     content::TraineeSettings settings;
     session::LessonOptions options;  // those that neither choice nor settings determine
     std::filesystem::path folder;    // receives session.boltwright
-    StartStation start_station;
+    StationFactory start_station;
     device::ArmDialog arm_dialog{};
 };
 
@@ -61,6 +50,7 @@ struct LessonContext {
     scene::Worker worker;
 };
 
+// The result of start_lesson().
 struct StartedLesson {
     LessonContext context;
     ActiveLesson active;  // with session and station; its workplace is made when the models are on the GPU
@@ -73,7 +63,39 @@ Result<std::filesystem::path> make_lesson_folder(const std::filesystem::path& ou
 
 // Fails if the assembly cannot be loaded, a chosen device cannot be used, a model is damaged, or the session
 // file cannot be created. Close the station of an earlier lesson before, because it holds the devices.
-Result<StartedLesson> start_lesson(const LessonStart& start);
+Result<StartedLesson> start_lesson(const LessonRequest& request);
+
+// Calls start_lesson() on a thread of its own, so that the window shows what an arm needs and takes the
+// user's keys while the arm is opened.
+class LessonStartThread {
+  public:
+    // Starts the thread. `before`: an earlier start that was given up, or null. It may still hold the
+    // devices, so the thread first waits for its end.
+    explicit LessonStartThread(LessonRequest request, std::unique_ptr<LessonStartThread> before = {});
+    LessonStartThread(const LessonStartThread&) = delete;
+    LessonStartThread& operator=(const LessonStartThread&) = delete;
+    // Gives up and waits for the thread. If the arm moves by itself, that takes until it stands still.
+    ~LessonStartThread();
+
+    // The result of start_lesson(), once; none: it has not returned yet, or the result was taken.
+    std::optional<Result<StartedLesson>> take();
+
+    [[nodiscard]] device::ArmNeeds needs() const;
+    void permit_move();  // the arm may move by itself in its next attempt
+    void give_up();      // the devices are released as soon as possible
+
+  private:
+    // Stores the needs of the arm for needs(). Returns false to end its preparation.
+    bool store(const device::Preparation& preparation);
+
+    std::unique_ptr<LessonStartThread> before_;
+    std::shared_ptr<device::MovePermission> permission_ = std::make_shared<device::MovePermission>();
+    std::atomic<bool> given_up_ = false, done_ = false;
+    mutable std::mutex mutex_;
+    device::Preparation preparation_;              // under the mutex
+    std::optional<Result<StartedLesson>> result_;  // only the thread uses it until done_ is true
+    std::jthread thread_;                          // last, so that it ends before the other members
+};
 
 // Places the hand, the wrench and the first view, once the workplace of `active` exists. `aspect`: width /
 // height of the picture.

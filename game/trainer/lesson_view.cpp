@@ -204,7 +204,7 @@ void show_due_joint(ActiveLesson& active, const glm::dvec2& picture) {
 
 // Returns true if joint_to_show() has been out of the picture or hidden for too long. Always false in an
 // assessment, which gives no help.
-bool joint_out_of_view(ActiveLesson& active, const Frame& frame) {
+bool joint_out_of_view(ActiveLesson& active, const LessonFrame& frame) {
     const auto joint = joint_to_show(active);
     if (!joint || active.session->lesson().mode == lesson::Mode::assessment || active.clock.finished ||
         active.clock.paused)
@@ -236,7 +236,7 @@ Projection projection_of(const ActiveLesson& active, const glm::dvec2& size) {
             size};
 }
 
-void view_system(scene::SceneWorld& world, Frame& frame) {
+void view_system(scene::SceneWorld& world, LessonFrame& frame) {
     ActiveLesson& active = frame.active;
     if (frame.input.triggered(Action::whole_view) && !active.view.head)
         active.view.camera.glide_to(view::fit_to_box(active.view.camera.goal, active.workplace.workpiece,
@@ -303,7 +303,7 @@ void size_for_room(std::vector<render::Label>& labels, const Pose& head) {
 
 }  // namespace
 
-void label_system(scene::SceneWorld& world, Frame& frame) {
+void label_system(scene::SceneWorld& world, LessonFrame& frame) {
     ActiveLesson& active = frame.active;
     const session::LessonSession& session = *active.session;
     const servo::Setup& setup = session.setup();
@@ -339,7 +339,7 @@ void label_system(scene::SceneWorld& world, Frame& frame) {
     view::separate_labels(*frame.fonts, active.scene.labels, projection.eye, glm::vec2(frame.size), occupied);
 }
 
-void collect_system(scene::SceneWorld& world, Frame& frame) {
+void collect_system(scene::SceneWorld& world, LessonFrame& frame) {
     scene::appearance_system(world);
     view::collect_objects(world, frame.active.scene);
 }

@@ -10,7 +10,7 @@
 #include "engine/ui/ui.hpp"
 #include "game/trainer/assembly_entry.hpp"
 #include "game/trainer/assembly_pictures.hpp"
-#include "game/trainer/lesson_start.hpp"
+#include "game/trainer/lesson_choice.hpp"
 #include "game/trainer/menu_choices.hpp"
 #include "game/trainer/menu_pages.hpp"
 #include "game/trainer/preferences.hpp"

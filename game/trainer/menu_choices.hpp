@@ -5,7 +5,7 @@
 #include <span>
 
 #include "game/trainer/assembly_entry.hpp"
-#include "game/trainer/lesson_start.hpp"
+#include "game/trainer/lesson_choice.hpp"
 #include "game/trainer/preferences.hpp"
 #include "game/trainer/screens.hpp"
 

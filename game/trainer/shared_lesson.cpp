@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "content/format/assembly.hpp"
-#include "game/trainer/immersive.hpp"
+#include "game/trainer/room_state.hpp"
 
 namespace bolt::trainer {
 
@@ -27,7 +27,7 @@ render::Scene empty_room() {
     return scene;
 }
 
-void LessonSharing::write(cluster::MessageWriter& message, const SharedFrame& frame) {
+void LessonSender::write(cluster::MessageWriter& message, const SharedFrame& frame) {
     const std::uint32_t lesson = frame.models != nullptr ? frame.lesson : 0;
     message.put(lesson);
     const bool news = lesson != lesson_;
@@ -110,7 +110,7 @@ Status FollowedLesson::draw(gpu::FrameContext& frame, const view::WindowFrame& w
     scene_.panels.clear();
     if (panel_pose_ && panel_.picture() != nullptr)
         scene_.panels.push_back(panel_in_scene(*panel_pose_, scene_in_room_, panel_.picture()->image()));
-    return draw_in_room(*gpu_->renderer, frame, scene_, scene_in_room_, *window.immersion);
+    return draw_in_room(*gpu_->renderer, frame, scene_, scene_in_room_, *window.immersive);
 }
 
 }  // namespace bolt::trainer

@@ -19,18 +19,18 @@ struct SharedModels {
     hand::Side side = hand::Side::right;
 };
 
-// A frame of the first process.
+// The values of a frame that the first process sends.
 struct SharedFrame {
     const SharedModels* models = nullptr;  // null: there is no lesson
-    std::uint32_t lesson = 0;              // grows with every lesson; its models are loaded once
+    std::uint32_t lesson = 0;              // number of the lesson; a new one has its models loaded
     const scene::GpuLessonModels* on_gpu = nullptr;
     const render::Scene* scene = nullptr;
     Pose scene_in_room;
     std::optional<Pose> panel;  // of its centre in the room; none: the room does not show it
 };
 
-// The part of the first process.
-class LessonSharing {
+// Writes the frames of the first process for the others.
+class LessonSender {
   public:
     void write(cluster::MessageWriter& message, const SharedFrame& frame);
     view::PanelSender panel;

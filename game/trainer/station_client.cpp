@@ -7,10 +7,6 @@
 #include <utility>
 #include <variant>
 
-#include "game/station/station_setup.hpp"
-#include "haptics/device/device.hpp"
-#include "haptics/hand/glove_driver.hpp"
-
 namespace bolt::trainer {
 
 namespace {
@@ -58,99 +54,6 @@ device::PuckInput KeyboardPuck::input() const {
 
 bool KeyboardPuck::button_down() const { return down_.test(static_cast<std::size_t>(Key::space)); }
 bool KeyboardPuck::shift_down() const { return down_.test(static_cast<std::size_t>(Key::shift)); }
-
-namespace {
-
-std::string name_of(const station_setup::DeviceSelection& selection) {
-    std::string name = selection.mover ? selection.mover->name : std::string();
-    if (selection.wheel) name += (name.empty() ? "" : " + ") + selection.wheel->name;
-    return name;
-}
-
-}  // namespace
-
-std::vector<DeviceOption> device_options(const Equipment& chosen) {
-    Equipment free;
-    free.hand = HandMode::free;
-    std::vector<DeviceOption> options{{{}, {}}, {{}, free}};
-    const std::vector<device::ListedDevice> connected = device::list_devices();
-    const station_setup::DeviceSelection all = station_setup::select_any_devices(connected);
-    const auto add = [&](const station_setup::DeviceSelection& selection) {
-        Equipment equipment;
-        equipment.devices = station_setup::ids_of(selection);
-        const bool listed = std::any_of(options.begin(), options.end(), [&](const DeviceOption& option) {
-            return option.equipment.devices == equipment.devices;
-        });
-        if (!listed) options.push_back({name_of(selection), equipment});
-    };
-    if (all.mover) add({all.mover, std::nullopt});
-    if (all.wheel) add({std::nullopt, all.wheel});
-    if (all.mover && all.wheel) add(all);
-    if (const auto selection = station_setup::select_devices(connected, chosen.devices)) add(*selection);
-    if (chosen.hand == HandMode::tracked) offer_tracked_hand(options);
-    return options;
-}
-
-void offer_tracked_hand(std::vector<DeviceOption>& options) {
-    const bool offered = std::any_of(options.begin(), options.end(), [](const DeviceOption& option) {
-        return option.equipment.hand == HandMode::tracked;
-    });
-    if (offered) return;
-    Equipment tracked;
-    tracked.hand = HandMode::tracked;
-    options.push_back({{}, tracked});
-}
-
-Equipment default_equipment() {
-    Equipment equipment;
-    const station_setup::DeviceSelection all = station_setup::select_any_devices(device::list_devices());
-    if (all.mover) equipment.devices = station_setup::ids_of(all);
-    return equipment;
-}
-
-Result<std::unique_ptr<station_setup::LessonStation>> start_station(const content::Assembly& assembly,
-                                                                    const session::LessonOptions& options,
-                                                                    const Equipment& equipment,
-                                                                    const std::string& trainee,
-                                                                    const device::ArmDialog& dialog) {
-    const device::Timer timer = device::steady_timer();
-    const bool arm = equipment.hand == HandMode::simulated_arm;
-    device::VirtualPuck puck({}, timer);
-    device::SimulatedArm simulated_arm(device::simulated_arm_description(),
-                                       device::simulated_arm_parameters(), timer);
-    station_setup::StationRequest request;
-    request.devices = equipment.devices;
-    request.station = equipment.station;
-    request.wheel_config_file = equipment.wheel_config_file;
-    request.fallback_mover = arm ? simulated_arm.factory() : puck.factory();
-    request.glove = equipment.glove;
-    request.trainee = trainee;
-    request.force_scale = equipment.force_scale;
-    request.arm_dialog = dialog;
-    if (!equipment.glove.empty() && trainee.empty())
-        return fail(ErrorCode::no_device, "the wearer of the glove is not named",
-                    "the trainee's name given to boltwright glove calibrate");
-    Result<station_setup::PlannedStation> planned =
-        station_setup::plan_lesson_station(assembly, options, request, {});
-    if (!planned) return fail(planned.error());
-    station::StationOptions& station_options = planned->options;
-    station_options.controls.pause = true;
-    station_setup::VirtualMover mover;
-    if (!planned->devices.mover) station_options.mover_buttons = {1, 0, 0, 0};
-    if (!planned->devices.mover && equipment.hand == HandMode::free)
-        return station_setup::start_frame_stepped_station(station_options,
-                                                          device::simulated_arm_description());
-    if (!planned->devices.mover && equipment.hand == HandMode::tracked) {
-        station_options.workspace.absolute = true;
-        station_options.workspace.scale = 1.0;
-        return station_setup::start_frame_stepped_station(station_options,
-                                                          device::tracked_hand_description());
-    }
-    if (!planned->devices.mover && arm) mover = std::move(simulated_arm);
-    if (!planned->devices.mover && !arm) mover = std::move(puck);
-    return station_setup::start_threaded_station(std::move(station_options), std::move(mover),
-                                                 dialog.permission);
-}
 
 namespace {
 

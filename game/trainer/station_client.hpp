@@ -1,23 +1,21 @@
-// Client of a haptic station in a lesson: the choice of devices, the keyboard as a device, and the exchange
-// of ticks, controls and commands.
+// Client of a haptic station in a lesson: the keyboard as a device, and the exchange of ticks, controls and
+// commands.
 #pragma once
 
 #include <bitset>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "content/station/station_file.hpp"
 #include "engine/base/math.hpp"
 #include "engine/platform/input.hpp"
 #include "game/lesson/hints.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/station/lesson_station.hpp"
-#include "game/station/station_setup.hpp"
 #include "game/trainer/controls.hpp"
 #include "game/trainer/dragged_hand.hpp"
+#include "game/trainer/equipment.hpp"
 #include "game/trainer/mouse_hand.hpp"
 #include "game/trainer/tracked_hand.hpp"
 #include "haptics/device/virtual_devices.hpp"
@@ -38,52 +36,6 @@ class KeyboardPuck {
   private:
     std::bitset<256> down_;
 };
-
-// How mouse and keyboard move the hand if no device does.
-enum class HandMode : std::uint8_t {
-    helped,    // the mouse chooses a nut, and the hand goes there automatically (--hand helped)
-    free,      // the mouse moves the hand, which feels the forces of a simulated arm; runs with the frames
-    keyboard,  // keys move the tool like a puck
-    simulated_arm,  // as `free`, on the threads of a station like a real arm
-    tracked,        // a headset measures the hand; runs with the frames
-};
-
-// The input of a lesson: mouse and keyboard, or a station with devices.
-struct Equipment {
-    std::vector<std::string> devices;  // ids, as boltwright devices lists them
-    content::StationFile station;  // settings of its devices, where `devices` has them; its glove is not used
-    std::filesystem::path wheel_config_file;  // empty: the station's, or the defaults of device::WheelConfig
-    std::filesystem::path glove;              // serial port; empty: no glove
-    double force_scale = 1.0;                 // 0 … 1 of the devices' maximum force
-    HandMode hand = HandMode::helped;         // if none of the devices moves the hand
-
-    // True if its start may take seconds, or last until the user has prepared an arm.
-    [[nodiscard]] bool has_hardware() const { return !devices.empty() || !glove.empty(); }
-    [[nodiscard]] bool needs_station() const { return has_hardware() || hand != HandMode::helped; }
-    bool operator==(const Equipment&) const = default;
-};
-
-// An entry in the menu of devices.
-struct DeviceOption {
-    std::string name;  // names of the devices; empty: mouse and keyboard, as Equipment::hand says
-    Equipment equipment;
-};
-// Mouse and keyboard with a helped and with a free hand, the combinations of the devices that are connected
-// now, and the devices of `chosen`, such as those of a station file.
-std::vector<DeviceOption> device_options(const Equipment& chosen);
-// Adds the hands of a headset to the menu, if they are not in it.
-void offer_tracked_hand(std::vector<DeviceOption>& options);
-// The default: the connected device that moves the tool, together with a wheel if there is one; else the
-// mouse.
-Equipment default_equipment();
-
-// Starts a station for the lesson, paused. `trainee` is the wearer of the glove. Fails if a device cannot be
-// opened, or if there is a glove but no trainee's name. `dialog`: for an arm that must be prepared.
-Result<std::unique_ptr<station_setup::LessonStation>> start_station(const content::Assembly& assembly,
-                                                                    const session::LessonOptions& options,
-                                                                    const Equipment& equipment,
-                                                                    const std::string& trainee,
-                                                                    const device::ArmDialog& dialog);
 
 // The lesson's side of a station. The station's servo thread steps the ticks and serves the devices. The
 // lesson repeats every tick with its own servo, and sends its controls with every frame.

@@ -17,7 +17,7 @@ std::string motion(const lesson::ControlNames& controls, lesson::HintMotion moti
 }
 
 // The angle by which a drag of this frame turns the view, rad; the speed is that of view::turn.
-double view_drag(const Frame& frame) {
+double view_drag(const LessonFrame& frame) {
     const FrameInput& input = frame.input;
     glm::dvec2 drag = input.right_drag;
     if (input.left_down && !frame.active.pointer.drags_hand) drag += input.left_drag;
@@ -39,7 +39,7 @@ std::size_t Tour::due_task() const {
     return static_cast<std::size_t>(std::find(done.begin(), done.end(), false) - done.begin());
 }
 
-void update(Tour& tour, const Frame& frame) {
+void update(Tour& tour, const LessonFrame& frame) {
     const FrameInput& input = frame.input;
     const lesson::Lesson& lesson = frame.active.session->lesson();
     tour.turned += view_drag(frame);

@@ -7,7 +7,7 @@
 #include "content/words/words.hpp"
 #include "game/lesson/hints.hpp"
 #include "game/trainer/active_lesson.hpp"
-#include "game/trainer/lesson_start.hpp"
+#include "game/trainer/lesson_choice.hpp"
 
 namespace bolt::trainer {
 
@@ -40,7 +40,7 @@ struct Tour {
 };
 
 // Call once a frame, after the systems: ticks off the tasks that the trainee has done in this frame.
-void update(Tour& tour, const Frame& frame);
+void update(Tour& tour, const LessonFrame& frame);
 
 // The text of a task, with the controls of the trainee's hand.
 std::string tour_text(const words::Words& words, TourTask task, const ActiveLesson& active,

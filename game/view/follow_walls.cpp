@@ -11,14 +11,14 @@ Status draw_followed(WindowContent& content, Walls& walls, const GpuContext& gpu
                      WallFollower& follower, bool& ended) {
     cluster::MessageReader message(shared.content);
     BOLT_TRY(content.follow(message));
-    BOLT_TRY_ASSIGN(const Immersion immersion, walls.begin_frame(shared.head, shared.tracked));
+    BOLT_TRY_ASSIGN(const ImmersiveFrame immersive, walls.begin_frame(shared.head, shared.tracked));
     WindowFrame window;
-    window.immersion = &immersion;
+    window.immersive = &immersive;
     BOLT_TRY(content.update(window));
     BOLT_TRY_ASSIGN(const auto recorded, gpu.frames->begin());
     BOLT_TRY(content.draw(*recorded, window));
     std::vector<gpu::WindowPictures> windows;
-    walls.add_pictures(*gpu.renderer, immersion, windows);
+    walls.add_pictures(*gpu.renderer, immersive, windows);
     const std::vector<platform::InputEvent> events = walls.poll_events();
     BOLT_TRY(gpu::present(*gpu.frames, *recorded, windows, [&]() -> Status {
         BOLT_TRY(gpu.device->idle());

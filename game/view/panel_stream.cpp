@@ -103,7 +103,7 @@ Result<std::vector<PanelTile>> get_tiles(cluster::MessageReader& message, VkExte
         tile.texels = plain.get_all<std::byte>();
         if (tile.column >= grid.columns() || tile.row >= grid.rows() ||
             tile.texels.size() != bytes_of(grid.place(tile.column, tile.row).extent))
-            plain.stop();
+            plain.mark_damaged();
     }
     if (!plain.ok()) return fail(damaged_panel());
     return tiles;

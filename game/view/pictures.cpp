@@ -4,13 +4,13 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <glm/common.hpp>
 
 #include "engine/assets/image.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
 #include "engine/render/renderer.hpp"
+#include "game/view/gpu_context.hpp"
 #include "game/view/labels.hpp"
 #include "game/view/shown_model.hpp"
 
@@ -24,32 +24,6 @@ Result<VkExtent2D> parse_size(const std::string& text) {
         return fail(ErrorCode::usage, fmt::format("--size: \"{}\" is not a size", text),
                     "WIDTHxHEIGHT, up to 8192x8192");
     return VkExtent2D{width, height};
-}
-
-std::filesystem::path pipeline_file() {
-    const auto folder = [](const char* variable) {
-        const char* value = std::getenv(variable);
-        return std::filesystem::path(value != nullptr ? value : "");
-    };
-    if (const auto cache = folder("XDG_CACHE_HOME"); cache.is_absolute())
-        return cache / "boltwright" / "pipelines";
-    if (const auto home = folder("HOME"); home.is_absolute())
-        return home / ".cache" / "boltwright" / "pipelines";
-    return {};
-}
-
-Result<GpuContext> make_gpu_context(const gpu::Instance& instance, const gpu::DeviceOptions& device_options,
-                                    const render::RendererOptions& options) {
-    GpuContext gpu_context;
-    BOLT_TRY_ASSIGN(auto device, gpu::Device::create(instance, device_options));
-    gpu_context.device = std::move(device);
-    BOLT_TRY_ASSIGN(auto frames, gpu::Frames::create(*gpu_context.device));
-    gpu_context.frames = std::move(frames);
-    render::RendererOptions with_cache = options;
-    if (with_cache.pipeline_cache.empty()) with_cache.pipeline_cache = pipeline_file();
-    BOLT_TRY_ASSIGN(auto renderer, render::Renderer::create(*gpu_context.device, with_cache));
-    gpu_context.renderer = std::move(renderer);
-    return gpu_context;
 }
 
 std::vector<float> eye_offsets(bool stereo) {

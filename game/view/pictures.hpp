@@ -1,5 +1,4 @@
-// Drawing to pictures without a window: the GPU context, stereo pairs, PNG files and pictures of a lesson's
-// result.
+// Drawing to pictures without a window: stereo pairs, PNG files and pictures of a lesson's result.
 #pragma once
 
 #include <filesystem>
@@ -8,32 +7,15 @@
 #include <vector>
 
 #include "content/format/assembly.hpp"
-#include "engine/gpu/frames.hpp"
 #include "engine/gpu/vk.hpp"
 #include "engine/render/camera.hpp"
 #include "engine/render/renderer.hpp"
 #include "game/lesson/result.hpp"
-#include "game/view/shown_model.hpp"
 
 namespace bolt::view {
 
 // Parses WIDTHxHEIGHT of a command line, in pixels.
 Result<VkExtent2D> parse_size(const std::string& text);
-
-// A GPU with its frames and renderer. The order of the members is that of their dependencies.
-struct GpuContext {
-    std::unique_ptr<gpu::Device> device;
-    std::unique_ptr<gpu::Frames> frames;
-    std::unique_ptr<render::Renderer> renderer;
-};
-
-// The cache file of compiled pipelines: boltwright/pipelines in $XDG_CACHE_HOME or ~/.cache; empty if neither
-// is set.
-std::filesystem::path pipeline_file();
-
-// Loads the pipelines from pipeline_file() unless the options name another file.
-Result<GpuContext> make_gpu_context(const gpu::Instance& instance, const gpu::DeviceOptions& device_options,
-                                    const render::RendererOptions& options = {});
 
 // m, mean of adults (Dodgson 2004: 63 mm). Display files have a default of their own, that of ParaView.
 inline constexpr float mean_eye_separation = 0.063F;

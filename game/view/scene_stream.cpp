@@ -96,7 +96,7 @@ std::shared_ptr<const render::Deformation> get_deformation(MessageReader& messag
     if (!message.get<bool>()) return nullptr;
     const auto count = message.get<std::uint32_t>();
     if (count > message.size() / (3 * sizeof(glm::vec4))) {
-        message.stop();
+        message.mark_damaged();
         return nullptr;
     }
     render::Deformation deformation;
@@ -158,12 +158,12 @@ render::Label get_label(MessageReader& message) {
     label.text = message.get_text();
     label.position = message.get<glm::vec3>();
     label.placement = message.get<render::LabelPlacement>();
-    if (label.placement > render::LabelPlacement::on_screen) message.stop();
+    if (label.placement > render::LabelPlacement::on_screen) message.mark_damaged();
     label.orientation = message.get<glm::quat>();
     for (float* value :
          {&label.height, &label.outline_width, &label.occluded_visibility, &label.occlusion_margin}) {
         *value = message.get<float>();
-        if (!std::isfinite(*value)) message.stop();
+        if (!std::isfinite(*value)) message.mark_damaged();
     }
     label.anchor = message.get<glm::vec2>();
     label.offset_px = message.get<glm::vec2>();
@@ -183,7 +183,7 @@ void put_lights(MessageWriter& message, const render::Scene& scene) {
 
 void get_lights(MessageReader& message, render::Scene& scene) {
     const auto count = message.get<std::uint32_t>();
-    if (count > MAX_LIGHTS) message.stop();
+    if (count > MAX_LIGHTS) message.mark_damaged();
     scene.lights.clear();
     for (std::uint32_t i = 0; i < count && message.ok(); ++i) {
         render::SceneLight light;
@@ -211,7 +211,7 @@ void get_surroundings(MessageReader& message, render::Scene& scene, const Stream
          {&scene.environment_intensity, &scene.environment_turn, &scene.exposure, &scene.occlusion_radius,
           &scene.outline_px, &scene.cut_away.radius, &scene.cut_away.strength}) {
         *value = message.get<float>();
-        if (!std::isfinite(*value)) message.stop();
+        if (!std::isfinite(*value)) message.mark_damaged();
     }
     scene.background = message.get<glm::vec4>();
     scene.cut_away.focus = message.get<glm::vec3>();
@@ -219,32 +219,32 @@ void get_surroundings(MessageReader& message, render::Scene& scene, const Stream
 
 void get_objects(MessageReader& message, const StreamedModels& models, render::Scene& scene) {
     const auto count = message.get<std::uint32_t>();
-    if (count > scene.objects.size() + message.size() / smallest_object) message.stop();
+    if (count > scene.objects.size() + message.size() / smallest_object) message.mark_damaged();
     if (!message.ok()) return;
     scene.objects.resize(count);
     for (;;) {
         const auto index = message.get<std::uint32_t>();
         if (!message.ok() || index == no_more) break;
-        if (index >= count) return message.stop();
+        if (index >= count) return message.mark_damaged();
         const auto parts = message.get<std::uint8_t>();
         get_object(message, scene.objects[index], parts, models);
-        if (parts > all_parts || !can_be_drawn(scene.objects[index])) return message.stop();
+        if (parts > all_parts || !can_be_drawn(scene.objects[index])) return message.mark_damaged();
     }
     // A new object that was not described has no model.
     if (std::any_of(scene.objects.begin(), scene.objects.end(),
                     [](const render::Object& object) { return object.model == nullptr; }))
-        message.stop();
+        message.mark_damaged();
 }
 
 void get_labels(MessageReader& message, render::Scene& scene) {
     const auto count = message.get<std::uint32_t>();
-    if (count > scene.labels.size() + message.size() / smallest_label) message.stop();
+    if (count > scene.labels.size() + message.size() / smallest_label) message.mark_damaged();
     if (!message.ok()) return;
     scene.labels.resize(count);
     for (;;) {
         const auto index = message.get<std::uint32_t>();
         if (!message.ok() || index == no_more) return;
-        if (index >= count) return message.stop();
+        if (index >= count) return message.mark_damaged();
         scene.labels[index] = get_label(message);
     }
 }

@@ -20,7 +20,7 @@ struct StreamedModels {
 class SceneSender {
   public:
     void write(cluster::MessageWriter& message, const render::Scene& scene, const StreamedModels& models);
-    // The next scene is written whole, for receivers that have none yet.
+    // Writes the next scene whole, for receivers that have none yet.
     void restart();
 
   private:

@@ -67,7 +67,7 @@ std::vector<InputEvent> get_events(MessageReader& message) {
             case EventKind::key: {
                 platform::KeyEvent key;
                 key.key = kept.get<platform::Key>();
-                if (static_cast<std::size_t>(key.key) >= platform::key_count) kept.stop();
+                if (static_cast<std::size_t>(key.key) >= platform::key_count) kept.mark_damaged();
                 for (bool* state : {&key.down, &key.repeated, &key.modifiers.shift, &key.modifiers.control,
                                     &key.modifiers.alt, &key.modifiers.super})
                     *state = kept.get<bool>();
@@ -81,23 +81,23 @@ std::vector<InputEvent> get_events(MessageReader& message) {
                 events.emplace_back(platform::CloseEvent{});
                 break;
             default:
-                kept.stop();
+                kept.mark_damaged();
         }
     }
     if (!kept.ok()) events.clear();
     return events;
 }
 
-Error lost_process(Cluster& cluster, int rank) {
-    cluster.lost();
+Error lost_process(Cluster& cluster, int process) {
+    cluster.abandon();
     Error error;
-    error.what = fmt::format("{} has not answered for {:.0f} s", cluster.describe(rank), longest_silence);
+    error.what = fmt::format("{} has not answered for {:.0f} s", cluster.describe(process), longest_silence);
     error.expected = "all processes of the walls; restart them with mpirun";
     return error;
 }
 
-Error strange_message(const Cluster& cluster, int rank) {
-    return {ErrorCode::failed, fmt::format("{} sent a message that does not fit", cluster.describe(rank)),
+Error strange_message(const Cluster& cluster, int process) {
+    return {ErrorCode::failed, fmt::format("{} sent a message that does not fit", cluster.describe(process)),
             "the same program in all processes"};
 }
 
@@ -117,10 +117,10 @@ std::optional<Error> reason_of_end(const Cluster& cluster, MessageReader& messag
 }
 
 // The error of another process, which begins with where it happened.
-Error reported_error(const Cluster& cluster, int rank, MessageReader& message) {
+Error reported_error(const Cluster& cluster, int process, MessageReader& message) {
     Error error;
     error.code = get_code(message);
-    error.what = fmt::format("{}: {}", cluster.describe(rank), message.get_text());
+    error.what = fmt::format("{}: {}", cluster.describe(process), message.get_text());
     error.expected = message.get_text();
     return error;
 }
@@ -135,33 +135,33 @@ double median(std::vector<float> values) {
 }  // namespace
 
 // The next message of a process; none if the program was asked to end.
-Result<std::optional<Message>> WallLeader::answer_of(int rank) {
-    BOLT_TRY_ASSIGN(auto soon, cluster_->receive(rank, noticed_silence, stop_));
+Result<std::optional<Message>> WallLeader::answer_of(int process) {
+    BOLT_TRY_ASSIGN(auto soon, cluster_->receive(process, noticed_silence, stop_));
     if (soon || stop_()) return soon;  // mpirun asks to end when a process has died
-    if (log_) log_(fmt::format("walls: {} does not answer; waiting", cluster_->describe(rank)));
-    BOLT_TRY_ASSIGN(auto late, cluster_->receive(rank, longest_silence - noticed_silence, stop_));
+    if (log_) log_(fmt::format("walls: {} does not answer; waiting", cluster_->describe(process)));
+    BOLT_TRY_ASSIGN(auto late, cluster_->receive(process, longest_silence - noticed_silence, stop_));
     if (late || stop_()) return late;
-    return fail(lost_process(*cluster_, rank));
+    return fail(lost_process(*cluster_, process));
 }
 
 Result<WallLeader> WallLeader::begin(Cluster& cluster, std::uint64_t fingerprint, StopWaiting stop,
                                      std::function<void(const std::string&)> log) {
     WallLeader leader(cluster, std::move(stop), std::move(log));
     leader.delays_.resize(static_cast<std::size_t>(cluster.size()), 0.0);
-    for (int rank = 1; rank < cluster.size(); ++rank) {
-        BOLT_TRY_ASSIGN(const auto answer, leader.answer_of(rank));
+    for (int process = 1; process < cluster.size(); ++process) {
+        BOLT_TRY_ASSIGN(const auto answer, leader.answer_of(process));
         if (!answer) continue;  // the program ends
         MessageReader message(*answer);
         const auto kind = message.get<MessageKind>();
         Error error;
         if (kind == MessageKind::failed)
-            error = reported_error(cluster, rank, message);
+            error = reported_error(cluster, process, message);
         else if (kind != MessageKind::hello)
-            error = strange_message(cluster, rank);
+            error = strange_message(cluster, process);
         else if (message.get<std::uint64_t>() != fingerprint)
             error = {ErrorCode::bad_content,
                      fmt::format("{} has another display file or another version of the program",
-                                 cluster.describe(rank)),
+                                 cluster.describe(process)),
                      "the same on all computers"};
         else
             continue;
@@ -178,25 +178,26 @@ Status WallLeader::send(const ClusterFrame& frame) {
     message.put(frame.tracked);
     message.put_all(std::span<const std::byte>(frame.content));
     sizes_.push_back(static_cast<std::uint32_t>(message.size()));
-    for (int rank = 1; rank < cluster_->size(); ++rank) BOLT_TRY(cluster_->send(rank, message.message()));
+    for (int process = 1; process < cluster_->size(); ++process)
+        BOLT_TRY(cluster_->send(process, message.message()));
     return {};
 }
 
 Result<std::vector<InputEvent>> WallLeader::wait_until_drawn() {
     std::vector<InputEvent> events;
     double first = own_delay_, last = own_delay_;
-    for (int rank = 1; rank < cluster_->size(); ++rank) {
-        BOLT_TRY_ASSIGN(const auto answer, answer_of(rank));
+    for (int process = 1; process < cluster_->size(); ++process) {
+        BOLT_TRY_ASSIGN(const auto answer, answer_of(process));
         if (!answer) return events;
         MessageReader message(*answer);
         const auto kind = message.get<MessageKind>();
-        if (kind == MessageKind::failed) return fail(reported_error(*cluster_, rank, message));
-        if (kind != MessageKind::drawn) return fail(strange_message(*cluster_, rank));
+        if (kind == MessageKind::failed) return fail(reported_error(*cluster_, process, message));
+        if (kind != MessageKind::drawn) return fail(strange_message(*cluster_, process));
         const auto delay = message.get<double>();
         first = std::min(first, delay);
         last = std::max(last, delay);
         for (InputEvent& event : get_events(message)) events.push_back(event);
-        if (!message.ok()) return fail(strange_message(*cluster_, rank));
+        if (!message.ok()) return fail(strange_message(*cluster_, process));
     }
     if (permitted_ > 0.0) skews_.push_back(static_cast<float>(last - first));
     return events;
@@ -206,7 +207,8 @@ Status WallLeader::permit() {
     MessageWriter message;
     message.put(MessageKind::present);
     permitted_ = steady_seconds();
-    for (int rank = 1; rank < cluster_->size(); ++rank) BOLT_TRY(cluster_->send(rank, message.message()));
+    for (int process = 1; process < cluster_->size(); ++process)
+        BOLT_TRY(cluster_->send(process, message.message()));
     return {};
 }
 
@@ -222,7 +224,7 @@ void WallLeader::dismiss(Cluster& cluster, const std::optional<Error>& error) {
     message.put(static_cast<std::uint8_t>(error ? error->code : ErrorCode::failed));
     message.put_text(error ? error->message() : "");
     // A process that has ended already needs no message.
-    for (int rank = 1; rank < cluster.size(); ++rank) (void)cluster.send(rank, message.message());
+    for (int process = 1; process < cluster.size(); ++process) (void)cluster.send(process, message.message());
 }
 
 std::string WallLeader::summary() const {

@@ -1,8 +1,9 @@
 // Projection walls on several computers: the processes that mpirun started show one room in step. The first
-// process (rank 0) plays, and sends each frame to the others; when all have drawn it, all present it.
+// process (MPI's rank 0) runs the lesson and sends each frame to the others. When all have drawn it, all
+// present it.
 //
 //   first process:  send the frame, draw it, wait until all have drawn it, permit, present
-//   another:        receive the frame, draw it, tell so, wait for the permission, present
+//   another:        receive the frame, draw it, report that, wait for the permission, present
 #pragma once
 
 #include <cstdint>
@@ -22,11 +23,12 @@ namespace bolt::view {
 struct ClusterFrame {
     std::uint64_t number = 0;
     Pose head;                 // of the viewer, in the room
-    bool tracked = false;      // Immersion::tracked
+    bool tracked = false;      // ImmersiveFrame::tracked
     cluster::Message content;  // WindowContent::share
 };
 
-// Where a cluster's waiting ends early: returns true when the program was asked to end.
+// Polled while a process waits for another one. Returns true once the program was asked to end, which ends
+// the wait.
 using StopWaiting = std::function<bool()>;
 
 // The part of the first process.
@@ -42,13 +44,12 @@ class WallLeader {
     // Waits until the other processes have drawn the frame, and returns the input of their windows: keys,
     // text and requests to close. Fails if a process has ended, or does not answer for a minute.
     Result<std::vector<platform::InputEvent>> wait_until_drawn();
-    // All present now. Call presented() afterwards.
+    // Permits all processes to present the frame. Present it, then call presented().
     Status permit();
     void presented();
-    // Ends the other processes, once. They fail with the error too, with its exit code; none: they end
-    // without one.
+    // Ends the other processes; a second call does nothing. With an error they fail too, with its exit code.
     void end(const std::optional<Error>& error);
-    // The same before begin() has succeeded.
+    // As end(), for a start that fails before begin() has succeeded.
     static void dismiss(cluster::Cluster& cluster, const std::optional<Error>& error);
 
     // One line for the log: frames, bytes of a frame, and how far apart the processes presented.
@@ -57,14 +58,14 @@ class WallLeader {
   private:
     WallLeader(cluster::Cluster& cluster, StopWaiting stop, std::function<void(const std::string&)> log)
         : cluster_(&cluster), stop_(std::move(stop)), log_(std::move(log)) {}
-    Result<std::optional<cluster::Message>> answer_of(int rank);
+    Result<std::optional<cluster::Message>> answer_of(int process);
 
     cluster::Cluster* cluster_;
     StopWaiting stop_;
     std::function<void(const std::string&)> log_;
     double permitted_ = 0.0;      // s, when the last frame was permitted
-    double own_delay_ = 0.0;      // s, from there until this process had presented
-    std::vector<double> delays_;  // s, the same of each other process, for the frame before
+    double own_delay_ = 0.0;      // s, from there until this process had presented it
+    std::vector<double> delays_;  // s, likewise of each other process, for the frame before
     bool ended_ = false;
     std::vector<float> skews_;          // s, of each frame: from the first process that presented to the last
     std::vector<std::uint32_t> sizes_;  // bytes of each frame
@@ -78,12 +79,12 @@ class WallFollower {
     // Waits for the next frame. None: the first process has ended, or the program was asked to end. Fails
     // with the reason that the first process gave for its end.
     Result<std::optional<ClusterFrame>> next_frame();
-    // Tells that the frame is drawn and what was entered, and waits for the permission to present it. False:
-    // there is none, because the program ends.
+    // Reports that the frame is drawn, with the input of this process's windows, and waits for the permission
+    // to present it. Returns false if the program ends instead. After presenting, call presented().
     Result<bool> wait_for_permission(std::span<const platform::InputEvent> events);
     void presented();
 
-    // Tells the first process why this one cannot go on. Also instead of begin().
+    // Reports the error that ends this process to the first one. May also be called instead of begin().
     static void report(cluster::Cluster& cluster, const Error& error);
 
   private:

@@ -153,10 +153,10 @@ Status WallPattern::draw_window(gpu::FrameContext& frame, const WindowFrame& win
     input.size = {static_cast<float>(window.size.width), static_cast<float>(window.size.height)};
     input.scale = window.scale;
     BOLT_TRY(gpu_->uis.back()->begin(frame, input));
-    const Vec3& head = window.immersion->head.position;
+    const Vec3& head = window.immersive->head.position;
     const std::string text =
         fmt::format("Head {:.3f} {:.3f} {:.3f} m, {}\nFrame {}\nEscape ends", head.x, head.y, head.z,
-                    window.immersion->tracked ? "tracked" : "not tracked", frame_number_);
+                    window.immersive->tracked ? "tracked" : "not tracked", frame_number_);
     ImGui::GetBackgroundDrawList()->AddText({10.0F * window.scale, 10.0F * window.scale}, IM_COL32_WHITE,
                                             text.c_str());
     const render::Overlay overlay = gpu_->uis.back()->end();
@@ -164,10 +164,10 @@ Status WallPattern::draw_window(gpu::FrameContext& frame, const WindowFrame& win
 }
 
 Status WallPattern::draw(gpu::FrameContext& frame, const WindowFrame& window) {
-    if (window.immersion == nullptr) return {};
-    for (std::size_t wall = 0; wall < window.immersion->groups.size(); ++wall)
-        if (!window.immersion->groups[wall].eyes.empty())
-            BOLT_TRY(draw_wall(frame, wall, window.immersion->groups[wall]));
+    if (window.immersive == nullptr) return {};
+    for (std::size_t wall = 0; wall < window.immersive->groups.size(); ++wall)
+        if (!window.immersive->groups[wall].eyes.empty())
+            BOLT_TRY(draw_wall(frame, wall, window.immersive->groups[wall]));
     return window.size.width > 0 && window.size.height > 0 ? draw_window(frame, window) : Status{};
 }
 

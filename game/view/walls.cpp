@@ -23,39 +23,40 @@ Error output_error(const content::Wall& wall, std::string what, std::string expe
             std::move(expected)};
 }
 
-Error missing_process(const content::Wall& wall, int rank, int processes) {
+Error missing_process(const content::Wall& wall, int process, int processes) {
     Error error = output_error(
         wall,
-        processes == 1 ? fmt::format("its output has rank {}, and the program was started alone", rank)
-                       : fmt::format("its output has rank {}, and there are {} processes", rank, processes),
-        fmt::format("mpirun -n {} or more (docs/displays.md)", rank + 1));
+        processes == 1
+            ? fmt::format("its output has rank {}, and the program was started alone", process)
+            : fmt::format("its output has rank {}, and there are {} processes", process, processes),
+        fmt::format("mpirun -n {} or more (docs/displays.md)", process + 1));
     error.code = ErrorCode::usage;
     return error;
 }
 
-std::string monitor_names(std::span<const content::Monitor> monitors) {
+std::string monitor_names(std::span<const content::HostMonitor> monitors) {
     std::string all;
-    for (const content::Monitor& monitor : monitors)
+    for (const content::HostMonitor& monitor : monitors)
         all += (all.empty() ? "" : ", ") + fmt::format("\"{}\"", monitor.name);
     return all.empty() ? "a connected monitor" : all;
 }
 
 Result<platform::DesktopArea> area_of(const content::Wall& wall, const content::DisplayOutput& output,
-                                      const content::Computer& computer) {
-    if (!output.display.empty() && !content::is_same_display(output.display, computer.display))
+                                      const content::DisplayHost& host) {
+    if (!output.display.empty() && !content::is_same_display(output.display, host.display))
         return fail(output_error(wall, fmt::format("its output is on X display \"{}\"", output.display),
-                                 fmt::format("\"{}\", which DISPLAY names", computer.display)));
+                                 fmt::format("\"{}\", which DISPLAY names", host.display)));
     if (output.position) {
         const content::PixelSize size = output.resolution.value_or(content::PixelSize{});
         return platform::DesktopArea{output.position->x, output.position->y, size.width, size.height};
     }
-    const content::Monitor* named = content::find_monitor(output, computer.monitors);
+    const content::HostMonitor* named = content::find_monitor(output, host.monitors);
     if (named == nullptr)
         return fail(output_error(wall,
                                  output.monitor_index
                                      ? fmt::format("there is no monitor {}", *output.monitor_index)
                                      : fmt::format("there is no monitor \"{}\"", output.monitor),
-                                 monitor_names(computer.monitors)));
+                                 monitor_names(host.monitors)));
     return platform::DesktopArea{named->x, named->y, named->width, named->height};
 }
 
@@ -80,41 +81,41 @@ EyeGroup wall_eyes(const content::Wall& wall, const Pose& head, double eye_separ
 
 bool on_a_wall(std::span<const content::Wall> walls, const Vec3& eye, const Vec3& point) {
     return std::any_of(walls.begin(), walls.end(), [&](const content::Wall& wall) {
-        const content::WallFrame frame = content::frame_of(wall);
-        const double from = content::distance_in_front(frame, eye),
-                     towards = from - content::distance_in_front(frame, point);
+        const content::WallAxes axes = content::axes_of(wall);
+        const double from = content::distance_in_front(axes, eye),
+                     towards = from - content::distance_in_front(axes, point);
         if (from <= 0.0 || towards <= 0.0) return false;
-        const Vec3 seen = eye + from / towards * (point - eye) - frame.origin;
-        const double x = glm::dot(seen, frame.right), y = glm::dot(seen, frame.up);
-        return x >= 0.0 && x <= frame.width && y >= 0.0 && y <= frame.height;
+        const Vec3 seen = eye + from / towards * (point - eye) - axes.origin;
+        const double x = glm::dot(seen, axes.right), y = glm::dot(seen, axes.up);
+        return x >= 0.0 && x <= axes.width && y >= 0.0 && y <= axes.height;
     });
 }
 
-content::Computer this_computer(const platform::Desktop& desktop, const cluster::Cluster* cluster) {
-    content::Computer computer;
+content::DisplayHost this_host(const platform::Desktop& desktop, const cluster::Cluster* cluster) {
+    content::DisplayHost host;
     if (cluster != nullptr) {
-        computer.rank = cluster->rank();
-        computer.processes = cluster->size();
+        host.process = cluster->process();
+        host.processes = cluster->size();
     }
     for (const platform::Monitor& monitor : platform::monitors(desktop))
-        computer.monitors.push_back(
+        host.monitors.push_back(
             {monitor.name, monitor.area.x, monitor.area.y, monitor.area.width, monitor.area.height});
     // NOLINTNEXTLINE(concurrency-mt-unsafe): before any thread
-    if (const char* display = std::getenv("DISPLAY")) computer.display = display;
-    return computer;
+    if (const char* display = std::getenv("DISPLAY")) host.display = display;
+    return host;
 }
 
 Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& displays,
-                                                  const content::Computer& computer) {
+                                                  const content::DisplayHost& host) {
     std::vector<WallWindow> windows;
     for (std::size_t i = 0; i < displays.walls.size(); ++i) {
         const content::Wall& wall = displays.walls[i];
         const bool two = wall.right_output.has_value();
         const auto add = [&](const content::DisplayOutput& output, WallWindow::Shows shows) -> Status {
-            if (output.rank >= computer.processes)
-                return fail(missing_process(wall, output.rank, computer.processes));
-            if (output.rank != computer.rank) return {};
-            BOLT_TRY_ASSIGN(const auto area, area_of(wall, output, computer));
+            if (output.process >= host.processes)
+                return fail(missing_process(wall, output.process, host.processes));
+            if (output.process != host.process) return {};
+            BOLT_TRY_ASSIGN(const auto area, area_of(wall, output, host));
             windows.push_back({"Boltwright: " + wall.name, area, i, shows});
             return {};
         };
@@ -122,13 +123,14 @@ Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& di
         if (two) BOLT_TRY(add(*wall.right_output, WallWindow::Shows::right_output));
     }
     // The first process has the control window.
-    if (windows.empty() && computer.rank > 0)
-        return fail(ErrorCode::usage, fmt::format("process {} shows no wall", computer.rank),
+    if (windows.empty() && host.process > 0)
+        return fail(ErrorCode::usage, fmt::format("process {} shows no wall", host.process),
                     "as many processes as the display file has ranks");
     return windows;
 }
 
-std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows shows, VkExtent2D window) {
+std::vector<EyeViewport> eye_viewports(const content::Wall& wall, WallWindow::Shows shows,
+                                       VkExtent2D window) {
     const std::uint32_t first = wall.swap_eyes ? 1 : 0, second = 1 - first;
     const auto offset = [](std::uint32_t x, std::uint32_t y) {
         return VkOffset2D{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
@@ -151,7 +153,7 @@ std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows sh
 
 Result<std::unique_ptr<Walls>> Walls::open(const platform::Desktop& desktop, WallsOptions options) {
     BOLT_TRY_ASSIGN(const auto plan,
-                    plan_wall_windows(options.displays, this_computer(desktop, options.cluster)));
+                    plan_wall_windows(options.displays, this_host(desktop, options.cluster)));
     std::unique_ptr<Walls> walls(new Walls);
     for (const WallWindow& wanted : plan) {
         platform::WindowOptions window_options;
@@ -174,7 +176,7 @@ Walls::~Walls() {
 }
 
 Status Walls::gather(std::uint64_t fingerprint, StopWaiting stop) {
-    if (cluster_ == nullptr || cluster_->rank() != 0) return {};
+    if (cluster_ == nullptr || cluster_->process() != 0) return {};
     BOLT_TRY_ASSIGN(auto leader, WallLeader::begin(*cluster_, fingerprint, std::move(stop), log_));
     leader_.emplace(std::move(leader));
     return {};
@@ -184,11 +186,11 @@ Result<gpu::Surface> Walls::make_surface(const gpu::Instance& instance) {
     return outputs_.front().window.make_surface(instance);
 }
 
-Status Walls::share(const Immersion& immersion, const cluster::Message& content) {
+Status Walls::share(const ImmersiveFrame& immersive, const cluster::Message& content) {
     ClusterFrame frame;
     frame.number = ++frame_;
-    frame.head = immersion.head;
-    frame.tracked = immersion.tracked;
+    frame.head = immersive.head;
+    frame.tracked = immersive.tracked;
     frame.content = content;
     return leader_->send(frame);
 }
@@ -253,51 +255,52 @@ void Walls::log_status(tracking::HeadStatus status) {
     }
 }
 
-Result<Immersion> Walls::begin_frame(double seconds) {
+Result<ImmersiveFrame> Walls::begin_frame(double seconds) {
     const tracking::FilteredHead head = head_->at(seconds);
     const bool fixed = displays_.head.tracker == content::HeadTracker::fixed;
     if (!fixed) log_status(head.status);
     return begin_frame(head.pose, fixed || head.status == tracking::HeadStatus::tracked);
 }
 
-Result<Immersion> Walls::begin_frame(const Pose& head, bool tracked) {
-    Immersion immersion;
-    immersion.head = head;
-    immersion.tracked = tracked;
-    immersion.expected_head = displays_.head.fixed_head;
-    immersion.shows = [this](const Vec3& point) {
+Result<ImmersiveFrame> Walls::begin_frame(const Pose& head, bool tracked) {
+    ImmersiveFrame immersive;
+    immersive.head = head;
+    immersive.tracked = tracked;
+    immersive.expected_head = displays_.head.fixed_head;
+    immersive.shows = [this](const Vec3& point) {
         return on_a_wall(displays_.walls, displays_.head.fixed_head.position, point);
     };
-    immersion.attentive = true;
+    immersive.attentive = true;
     for (const content::Wall& wall : displays_.walls) {
         VkExtent2D size{};
         for (Output& output : outputs_) {
             if (&displays_.walls[output.plan.wall] != &wall) continue;
             const platform::Size pixels = output.window.pixels();
             BOLT_TRY_ASSIGN(output.size, output.swapchain->prepare({pixels.width, pixels.height}));
-            for (const EyePlace& place : eye_places(wall, output.plan.shows, output.size)) {
-                size.width = std::max(size.width, place.place.extent.width);
-                size.height = std::max(size.height, place.place.extent.height);
+            for (const EyeViewport& viewport : eye_viewports(wall, output.plan.shows, output.size)) {
+                size.width = std::max(size.width, viewport.area.extent.width);
+                size.height = std::max(size.height, viewport.area.extent.height);
             }
         }
         const bool visible = size.width > 0 && size.height > 0;
-        immersion.groups.push_back(visible ? wall_eyes(wall, head, displays_.eye_separation, size)
+        immersive.groups.push_back(visible ? wall_eyes(wall, head, displays_.eye_separation, size)
                                            : EyeGroup{});
     }
-    return immersion;
+    return immersive;
 }
 
-void Walls::add_pictures(const render::Renderer& renderer, const Immersion& immersion,
+void Walls::add_pictures(const render::Renderer& renderer, const ImmersiveFrame& immersive,
                          std::vector<gpu::WindowPictures>& windows) const {
     for (const Output& output : outputs_) {
         gpu::WindowPictures window{output.swapchain.get(), {}, true};
         const std::size_t wall = output.plan.wall;
-        const bool drawn = !immersion.groups[wall].eyes.empty();
+        const bool drawn = !immersive.groups[wall].eyes.empty();
         if (drawn) {
-            for (const EyePlace& place : eye_places(displays_.walls[wall], output.plan.shows, output.size)) {
+            for (const EyeViewport& viewport :
+                 eye_viewports(displays_.walls[wall], output.plan.shows, output.size)) {
                 const render::ImageLayer picture =
-                    renderer.picture(place.eye, immersive_group + static_cast<std::uint32_t>(wall));
-                window.pictures.push_back({picture.image, picture.layer, {}, place.place});
+                    renderer.picture(viewport.eye, immersive_group + static_cast<std::uint32_t>(wall));
+                window.pictures.push_back({picture.image, picture.layer, {}, viewport.area});
             }
         }
         windows.push_back(std::move(window));

@@ -1,5 +1,5 @@
 // Projection walls: a window without a border for each output, and the pictures in it, as the tracked head
-// sees the room through the wall. Poses are in the room's frame (view::Immersion), m.
+// sees the room through the wall. Poses are in the room's frame (view::ImmersiveFrame), m.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/window.hpp"
 #include "engine/render/renderer.hpp"
-#include "game/displays/head_source.hpp"
-#include "game/view/immersion.hpp"
+#include "game/head_tracking/head_source.hpp"
+#include "game/view/immersive_frame.hpp"
 #include "game/view/wall_cluster.hpp"
 
 namespace bolt::view {
@@ -33,25 +33,25 @@ struct WallWindow {
     enum class Shows : std::uint8_t { all, left_output, right_output } shows = Shows::all;
 };
 
-// The computer that the process runs on. `cluster`: that of the process; null: it is the only one.
-content::Computer this_computer(const platform::Desktop& desktop, const cluster::Cluster* cluster = nullptr);
+// The monitors that this process can use, and its number. `cluster`: null: it is the only process.
+content::DisplayHost this_host(const platform::Desktop& desktop, const cluster::Cluster* cluster = nullptr);
 
 // The windows of the outputs of this process. Fails if one is on a monitor that is not connected or on
 // another X display, if an output is of a process that does not exist, or if this process has none.
 Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& displays,
-                                                  const content::Computer& computer);
+                                                  const content::DisplayHost& host);
 
 // The part of a window that shows an eye: 0 is the first eye of wall_eyes().
-struct EyePlace {
+struct EyeViewport {
     std::uint32_t eye = 0;
-    VkRect2D place{};  // px
+    VkRect2D area{};  // px
 };
-std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows shows, VkExtent2D window);
+std::vector<EyeViewport> eye_viewports(const content::Wall& wall, WallWindow::Shows shows, VkExtent2D window);
 
 struct WallsOptions {
     content::DisplayFile displays;
-    std::optional<displays::HeadSource> head;  // none in the processes that follow the first one
-    cluster::Cluster* cluster = nullptr;       // null: this process shows all walls
+    std::optional<head_tracking::HeadSource> head;  // none in the processes that follow the first one
+    cluster::Cluster* cluster = nullptr;            // null: this process shows all walls
     // Receives a line when the tracker finds or loses the head, or a process is slow; may be empty.
     std::function<void(const std::string&)> log;
 };
@@ -79,18 +79,18 @@ class Walls {
 
     // The next frame: prepares the swapchains, and reads the pose of the head at a time on the steady clock.
     // Group i belongs to wall i; it is empty for a wall of another process.
-    Result<Immersion> begin_frame(double seconds);
-    // The same with a head that another process has read.
-    Result<Immersion> begin_frame(const Pose& head, bool tracked);
-    // Adds the pictures that the renderer has drawn for it.
-    void add_pictures(const render::Renderer& renderer, const Immersion& immersion,
+    Result<ImmersiveFrame> begin_frame(double seconds);
+    // As above, with a head that another process has read.
+    Result<ImmersiveFrame> begin_frame(const Pose& head, bool tracked);
+    // Adds the pictures that the renderer has drawn for the frame to `windows`.
+    void add_pictures(const render::Renderer& renderer, const ImmersiveFrame& immersive,
                       std::vector<gpu::WindowPictures>& windows) const;
 
-    // The first one of several processes; null: the only one, or another one.
+    // Null: this is not the first of several processes.
     [[nodiscard]] WallLeader* leader() { return leader_ ? &*leader_ : nullptr; }
     // Sends the frame to the other processes. `content`: WindowContent::share.
-    Status share(const Immersion& immersion, const cluster::Message& content);
-    // Waits until they have drawn it, and permits all to present it.
+    Status share(const ImmersiveFrame& immersive, const cluster::Message& content);
+    // Waits until the other processes have drawn the frame, and permits all to present it.
     Status wait_for_others();
 
     [[nodiscard]] const content::DisplayFile& displays() const { return displays_; }
@@ -109,10 +109,10 @@ class Walls {
     void log_status(tracking::HeadStatus status);
 
     content::DisplayFile displays_;
-    std::optional<displays::HeadSource> head_;
+    std::optional<head_tracking::HeadSource> head_;
     cluster::Cluster* cluster_ = nullptr;
     std::optional<WallLeader> leader_;
-    std::uint64_t frame_ = 0;                             // that was sent last
+    std::uint64_t frame_ = 0;                             // number of the frame that was sent last
     std::vector<platform::InputEvent> events_of_others_;  // since the last call of poll_events()
     std::optional<tracking::HeadStatus> logged_status_;   // in the log
     std::function<void(const std::string&)> log_;

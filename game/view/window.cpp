@@ -60,16 +60,6 @@ Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instan
     return canvas;
 }
 
-Status draw_window(WindowContent& content, Canvas& canvas, const WindowFrame& window) {
-    BOLT_TRY(content.update(window));
-    BOLT_TRY_ASSIGN(const auto frame, canvas.gpu_context.frames->begin());
-    BOLT_TRY(content.draw(*frame, window));
-    const render::ImageLayer picture = canvas.gpu_context.renderer->picture(0);
-    BOLT_TRY(canvas.swapchain->present(*canvas.gpu_context.frames, *frame,
-                                       {picture.image, picture.layer, {}, {}}));
-    return {};
-}
-
 // The pictures of the eyes, for the headset. Without a kept depth it is not submitted.
 std::vector<xr::EyePicture> eye_pictures(const render::Renderer& renderer, const EyeGroup& group) {
     std::vector<xr::EyePicture> pictures;
@@ -94,73 +84,135 @@ double gpu_time(const GpuContext& gpu) {
     return sum;
 }
 
+enum class Ending : std::uint8_t {
+    closed,
+    headset_found,  // the GPU objects are to be created by its runtime
+};
+
+// Shows the content frame by frame, until it is closed.
+class FrameLoop {
+  public:
+    FrameLoop(WindowContent& content, Canvas& canvas, platform::Window& window,
+              const WindowRunOptions& options)
+        : content_(content), canvas_(canvas), window_(window), options_(options) {}
+
+    Result<Ending> run();
+
+  private:
+    // The display whose refreshes determine when frames are due.
+    enum class Display : std::uint8_t { window, headset, walls };
+    [[nodiscard]] Display display() const;
+    // Nothing can be drawn in the window.
+    [[nodiscard]] bool minimised() const;
+    [[nodiscard]] double refresh_rate() const;  // Hz, of window or walls; 0: unknown
+
+    // Adds the events of all windows to those of the next frame. While only a minimised window is there,
+    // waits for them. Returns false if that was closed, because its content gets no frame to see it.
+    bool poll_events(bool only_minimised);
+    Status draw();
+    Status draw_window(const WindowFrame& window);
+    Status draw_headset(xr::HeadsetFrame& frame, WindowFrame window);
+    Status draw_walls(WindowFrame window);
+
+    WindowContent& content_;
+    Canvas& canvas_;
+    platform::Window& window_;
+    const WindowRunOptions& options_;
+};
+
+FrameLoop::Display FrameLoop::display() const {
+    if (options_.walls != nullptr) return Display::walls;
+    return options_.headset != nullptr && options_.headset->running() ? Display::headset : Display::window;
+}
+
+bool FrameLoop::minimised() const {
+    const VkExtent2D size = canvas_.swapchain->plan().extent;
+    return size.width == 0 || size.height == 0;
+}
+
+double FrameLoop::refresh_rate() const {
+    return options_.walls != nullptr ? options_.walls->refresh_rate() : window_.refresh_rate();
+}
+
+Status FrameLoop::draw_window(const WindowFrame& window) {
+    BOLT_TRY(content_.update(window));
+    BOLT_TRY_ASSIGN(const auto frame, canvas_.gpu_context.frames->begin());
+    BOLT_TRY(content_.draw(*frame, window));
+    const render::ImageLayer picture = canvas_.gpu_context.renderer->picture(0);
+    BOLT_TRY(canvas_.swapchain->present(*canvas_.gpu_context.frames, *frame,
+                                        {picture.image, picture.layer, {}, {}}));
+    return {};
+}
+
 // A frame of the headset; the window mirrors the first eye, and never delays the headset.
-Status draw_headset(WindowContent& content, Canvas& canvas, xr::Headset& headset, xr::HeadsetFrame& frame,
-                    WindowFrame window, bool adapts) {
-    GpuContext& gpu = canvas.gpu_context;
-    const VkExtent2D size = scaled(canvas.resolution, headset.session().extent());
-    Immersion immersion;
-    immersion.head = frame.view.head;
-    immersion.tracked = frame.view.tracked;
-    immersion.attentive = frame.focused;
-    immersion.recentred = has_recentred(frame);
-    immersion.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
-    immersion.hands = frame.hands;
-    immersion.tracks_hands = true;
-    immersion.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
+Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
+    xr::Headset& headset = *options_.headset;
+    GpuContext& gpu = canvas_.gpu_context;
+    const VkExtent2D size = scaled(canvas_.resolution, headset.session().extent());
+    ImmersiveFrame immersive;
+    immersive.head = frame.view.head;
+    immersive.tracked = frame.view.tracked;
+    immersive.attentive = frame.focused;
+    immersive.recentred = has_recentred(frame);
+    immersive.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
+    immersive.hands = frame.hands;
+    immersive.tracks_hands = true;
+    immersive.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
         headset.vibrate(side, vibration);
     };
-    if (!frame.view.eyes.empty()) immersion.groups = {eye_group(frame.view, size)};
-    window.immersion = &immersion;
-    BOLT_TRY(content.update(window));
+    if (!frame.view.eyes.empty()) immersive.groups = {eye_group(frame.view, size)};
+    window.immersive = &immersive;
+    BOLT_TRY(content_.update(window));
     BOLT_TRY_ASSIGN(const auto recorded, gpu.frames->begin());
-    if (!immersion.groups.empty()) {
+    if (!immersive.groups.empty()) {
         headset.locate(frame);
-        immersion.head = frame.view.head;
-        immersion.groups = {eye_group(frame.view, size)};
+        immersive.head = frame.view.head;
+        immersive.groups = {eye_group(frame.view, size)};
     }
-    BOLT_TRY(content.draw(*recorded, window));
-    const bool drawn = !immersion.groups.empty() && !immersion.groups.front().eyes.empty();
+    BOLT_TRY(content_.draw(*recorded, window));
+    const bool drawn = !immersive.groups.empty() && !immersive.groups.front().eyes.empty();
     if (!drawn) {
         BOLT_TRY(gpu.frames->submit(*recorded));
     } else {
-        headset.record(recorded->commands(), eye_pictures(*gpu.renderer, immersion.groups.front()));
+        headset.record(recorded->commands(), eye_pictures(*gpu.renderer, immersive.groups.front()));
         const render::ImageLayer picture = gpu.renderer->picture(0, immersive_group);
-        BOLT_TRY(canvas.swapchain->present(
+        BOLT_TRY(canvas_.swapchain->present(
             *gpu.frames, *recorded,
-            {picture.image, picture.layer, filling_part(size, canvas.swapchain->plan().extent), {}}, false));
+            {picture.image, picture.layer, filling_part(size, canvas_.swapchain->plan().extent), {}}, false));
     }
     headset.end_frame(frame, drawn, immersive_range);
-    if (canvas.old_frames > 0) {
-        --canvas.old_frames;
-    } else if (update(canvas.resolution, gpu_time(gpu), adapts ? frame.timing.period : 0.0)) {
-        canvas.old_frames = gpu::frames_in_flight + 1;
+    if (canvas_.old_frames > 0) {
+        --canvas_.old_frames;
+    } else if (update(canvas_.resolution, gpu_time(gpu),
+                      options_.adapts_resolution ? frame.timing.period : 0.0)) {
+        canvas_.old_frames = gpu::frames_in_flight + 1;
     }
     return {};
 }
 
 // A frame on projection walls. The content's picture for the control window is shown whole; all windows are
 // presented together.
-Status draw_walls(WindowContent& content, Canvas& canvas, Walls& walls, WindowFrame window) {
-    GpuContext& gpu = canvas.gpu_context;
-    BOLT_TRY_ASSIGN(const Immersion immersion, walls.begin_frame(canvas.last_frame));
-    window.immersion = &immersion;
-    BOLT_TRY(content.update(window));
+Status FrameLoop::draw_walls(WindowFrame window) {
+    Walls& walls = *options_.walls;
+    GpuContext& gpu = canvas_.gpu_context;
+    BOLT_TRY_ASSIGN(const ImmersiveFrame immersive, walls.begin_frame(canvas_.last_frame));
+    window.immersive = &immersive;
+    BOLT_TRY(content_.update(window));
     WallLeader* leader = walls.leader();
     if (leader != nullptr) {
         cluster::MessageWriter shared;
-        BOLT_TRY(content.share(shared));
-        BOLT_TRY(walls.share(immersion, shared.message()));
+        BOLT_TRY(content_.share(shared));
+        BOLT_TRY(walls.share(immersive, shared.message()));
     }
     BOLT_TRY_ASSIGN(const auto recorded, gpu.frames->begin());
-    BOLT_TRY(content.draw(*recorded, window));
+    BOLT_TRY(content_.draw(*recorded, window));
     std::vector<gpu::WindowPictures> windows;
     if (window.size.width > 0 && window.size.height > 0) {
-        const render::ImageLayer picture = content.window_picture(*gpu.renderer);
+        const render::ImageLayer picture = content_.window_picture(*gpu.renderer);
         const VkRect2D place = fitted(picture.image->info().extent, window.size);
-        windows.push_back({canvas.swapchain.get(), {{picture.image, picture.layer, {}, place}}, false});
+        windows.push_back({canvas_.swapchain.get(), {{picture.image, picture.layer, {}, place}}, false});
     }
-    walls.add_pictures(*gpu.renderer, immersion, windows);
+    walls.add_pictures(*gpu.renderer, immersive, windows);
     if (leader == nullptr) {
         BOLT_TRY(gpu::present(*gpu.frames, *recorded, windows));
         return {};
@@ -176,65 +228,59 @@ Status draw_walls(WindowContent& content, Canvas& canvas, Walls& walls, WindowFr
 
 // The headset's frame is begun when its runtime releases it, which paces the loop. If the runtime is late, no
 // frame is drawn; after `max_hitch` the window draws without it.
-Status draw(WindowContent& content, Canvas& canvas, platform::Window& window,
-            const WindowRunOptions& options) {
+Status FrameLoop::draw() {
     static constexpr double max_wait = 0.1, max_hitch = 0.5;  // s
-    BOLT_TRY_ASSIGN(const auto size, canvas.swapchain->prepare(size_of(window)));
+    BOLT_TRY_ASSIGN(const auto size, canvas_.swapchain->prepare(size_of(window_)));
+    xr::Headset* headset = options_.headset;
     std::optional<xr::HeadsetFrame> headset_frame;
-    if (options.headset != nullptr)
-        headset_frame = options.headset->begin_frame(options.headset->running() ? max_wait : 0.0);
+    if (headset != nullptr) headset_frame = headset->begin_frame(headset->running() ? max_wait : 0.0);
     const double now = seconds();
-    const bool late = options.headset != nullptr && options.headset->running() && !headset_frame;
-    if (late && canvas.late_since == 0.0) canvas.late_since = now;
-    if (!late) canvas.late_since = 0.0;
-    if (late && now - canvas.late_since < max_hitch) return {};
-    const double elapsed = now - canvas.last_frame;
-    canvas.last_frame = now;
-    const std::vector<platform::InputEvent> events = std::exchange(canvas.events, {});
-    const WindowFrame frame{events, size, window.content_scale(), elapsed, nullptr};
-    if (headset_frame && headset_frame->timing.should_render)
-        return draw_headset(content, canvas, *options.headset, *headset_frame, frame,
-                            options.adapts_resolution);
-    if (headset_frame) options.headset->end_frame(*headset_frame, false, immersive_range);
-    if (options.walls != nullptr) return draw_walls(content, canvas, *options.walls, frame);
-    if (size.width == 0 || size.height == 0) return content.frame_while_hidden();
-    return draw_window(content, canvas, frame);
+    const bool late = display() == Display::headset && !headset_frame;
+    if (late && canvas_.late_since == 0.0) canvas_.late_since = now;
+    if (!late) canvas_.late_since = 0.0;
+    if (late && now - canvas_.late_since < max_hitch) return {};
+    const double elapsed = now - canvas_.last_frame;
+    canvas_.last_frame = now;
+    const std::vector<platform::InputEvent> events = std::exchange(canvas_.events, {});
+    const WindowFrame frame{events, size, window_.content_scale(), elapsed, nullptr};
+    if (headset_frame && headset_frame->timing.should_render) return draw_headset(*headset_frame, frame);
+    if (headset_frame) headset->end_frame(*headset_frame, false, immersive_range);
+    if (display() == Display::walls) return draw_walls(frame);
+    return minimised() ? content_.frame_while_hidden() : draw_window(frame);
 }
 
-enum class Ending : std::uint8_t {
-    closed,
-    headset_found,  // the GPU objects are to be created by its runtime
-};
+bool FrameLoop::poll_events(bool only_minimised) {
+    const std::vector<platform::InputEvent> polled =
+        only_minimised ? window_.wait_for_events(0.1) : window_.poll_events();
+    canvas_.events.insert(canvas_.events.end(), polled.begin(), polled.end());
+    if (options_.walls != nullptr) {
+        const std::vector<platform::InputEvent> more = options_.walls->poll_events();
+        canvas_.events.insert(canvas_.events.end(), more.begin(), more.end());
+    }
+    const bool closed = std::any_of(polled.begin(), polled.end(), [](const platform::InputEvent& event) {
+        return std::holds_alternative<platform::CloseEvent>(event);
+    });
+    return !(only_minimised && closed);
+}
 
-Result<Ending> run_until_closed(WindowContent& content, Canvas& canvas, platform::Window& window,
-                                const WindowRunOptions& options) {
-    Walls* walls = options.walls;
-    const double refresh_rate = walls != nullptr ? walls->refresh_rate() : window.refresh_rate();
-    platform::Pace pace{platform::Clock::now(), platform::period_of(refresh_rate), 0};
-    canvas.last_frame = seconds();
-    while (!content.closed() && !(options.stop && options.stop())) {
-        xr::Headset* headset = options.headset;
+Result<Ending> FrameLoop::run() {
+    platform::Pace pace{platform::Clock::now(), platform::period_of(refresh_rate()), 0};
+    canvas_.last_frame = seconds();
+    while (!content_.closed() && !(options_.stop && options_.stop())) {
+        xr::Headset* headset = options_.headset;
         if (headset != nullptr && headset->find(seconds())) return Ending::headset_found;
         if (headset != nullptr && headset->exit_requested()) return Ending::closed;
-        const bool paced = headset != nullptr && headset->running();
-        const bool minimised = canvas.swapchain->plan().extent.width == 0 && !paced && walls == nullptr;
-        const std::vector<platform::InputEvent> polled =
-            minimised ? window.wait_for_events(0.1) : window.poll_events();
-        canvas.events.insert(canvas.events.end(), polled.begin(), polled.end());
-        if (walls != nullptr) {
-            const std::vector<platform::InputEvent> more = walls->poll_events();
-            canvas.events.insert(canvas.events.end(), more.begin(), more.end());
-        }
-        BOLT_TRY(window.display_status());
-        for (const platform::InputEvent& event : polled)
-            if (minimised && std::holds_alternative<platform::CloseEvent>(event)) return Ending::closed;
-        if (Status done = draw(content, canvas, window, options); !done) {
+        const Display shown = display();
+        const bool open = poll_events(shown == Display::window && minimised());
+        BOLT_TRY(window_.display_status());
+        if (!open) return Ending::closed;
+        if (Status done = draw(); !done) {
             // If the display server has ended, report that instead of the failed presentation.
-            const Status display = window.display_status();
-            return fail(display ? done.error() : display.error());
+            const Status server = window_.display_status();
+            return fail(server ? done.error() : server.error());
         }
-        if (content.take_full_screen_request()) window.set_full_screen(!window.full_screen());
-        if (!paced) (void)platform::wait_for_deadline(pace);
+        if (content_.take_full_screen_request()) window_.set_full_screen(!window_.full_screen());
+        if (shown != Display::headset) (void)platform::wait_for_deadline(pace);
     }
     return Ending::closed;
 }
@@ -268,7 +314,7 @@ Result<Ending> run_on_canvas(WindowContent& content, platform::Window& window, c
         options.walls != nullptr ? options.walls->start(*canvas.gpu_context.device, instance) : Status{};
     if (started) started = content.start(canvas.gpu_context);
     if (started)
-        ending = run_until_closed(content, canvas, window, options);
+        ending = FrameLoop(content, canvas, window, options).run();
     else
         ending = fail(started.error());
     // A runtime that was just found has no session yet.

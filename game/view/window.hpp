@@ -7,8 +7,8 @@
 #include "engine/cluster/message.hpp"
 #include "engine/platform/window.hpp"
 #include "game/view/camera.hpp"
-#include "game/view/immersion.hpp"
-#include "game/view/pictures.hpp"
+#include "game/view/gpu_context.hpp"
+#include "game/view/immersive_frame.hpp"
 
 namespace bolt::view {
 
@@ -18,10 +18,10 @@ class WallFollower;
 // The input of one frame of a window.
 struct WindowFrame {
     std::span<const platform::InputEvent> events;
-    VkExtent2D size{};                     // px, of the window
-    float scale = 1.0F;                    // px per point
-    double seconds = 0.0;                  // since the last frame
-    const Immersion* immersion = nullptr;  // null: the window is the only display
+    VkExtent2D size{};                          // px, of the window
+    float scale = 1.0F;                         // px per point
+    double seconds = 0.0;                       // since the last frame
+    const ImmersiveFrame* immersive = nullptr;  // null: the window is the only display
 };
 
 // The content of a window. All its GPU objects can be released and created again after a lost GPU.
@@ -38,11 +38,11 @@ class WindowContent {
     virtual void release() = 0;
     // Applies the input and advances by the time of the frame.
     virtual Status update(const WindowFrame& window) = 0;
-    // Records the commands of the frame. Without an immersion its picture is the renderer's picture 0; with
-    // one, each group of eyes is drawn as a group of the renderer. The poses of the eyes may be newer than
-    // those of update().
+    // Records the commands of the frame. Without an immersive frame its picture is the renderer's picture 0;
+    // with one, each group of eyes is drawn as a group of the renderer. The poses of the eyes may be newer
+    // than those of update().
     virtual Status draw(gpu::FrameContext& frame, const WindowFrame& window) = 0;
-    // With an immersion: the picture for the window, when drawn. The window shows all of it.
+    // With an immersive frame: the picture for the window, when drawn. The window shows all of it.
     [[nodiscard]] virtual render::ImageLayer window_picture(const render::Renderer& renderer) const {
         return renderer.picture(0);
     }

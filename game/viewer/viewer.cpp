@@ -7,6 +7,7 @@
 
 #include "engine/gpu/resources.hpp"
 #include "game/trainer/controls.hpp"
+#include "game/view/pictures.hpp"
 
 namespace bolt::viewer {
 

@@ -12,11 +12,11 @@ command -v mpirun >/dev/null || skip_all "mpirun is not installed"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_show_help=0
 launch=(mpirun --oversubscribe --bind-to none)
 "${launch[@]}" -n 2 true >/dev/null 2>&1 || skip_all "mpirun cannot start processes on this computer"
-rank=0
+process=0
 wall() {  # wall NAME LOWER_LEFT LOWER_RIGHT UPPER_RIGHT X Y
     echo "    { \"name\": \"$1\", \"lower_left_m\": [$2], \"lower_right_m\": [$3], \"upper_right_m\": [$4],"
-    echo "      \"output\": { \"position_px\": [$5, $6], \"resolution_px\": [240, 192], \"rank\": $rank } }${7:-}"
-    rank=$((rank + 1))
+    echo "      \"output\": { \"position_px\": [$5, $6], \"resolution_px\": [240, 192], \"rank\": $process } }${7:-}"
+    process=$((process + 1))
 }
 {
     echo '{ "format": "boltwright displays 1", "head": { "tracker": "fixed", "fixed": { "position_m": [0.2, 1.65, 0.3] } }, "walls": ['

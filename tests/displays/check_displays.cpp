@@ -15,8 +15,8 @@ using namespace displays_test;
 namespace {
 
 // Exactly one finding of the file, with this part.
-void check_one(const DisplayFile& displays, const std::string& part, const Computer& computer = {}) {
-    const auto found = texts(check_displays(displays, computer));
+void check_one(const DisplayFile& displays, const std::string& part, const DisplayHost& host = {}) {
+    const auto found = texts(check_displays(displays, host));
     REQUIRE_MESSAGE(found.size() == 1, part);
     CHECK_MESSAGE(has(found.front(), part), found.front());
 }
@@ -28,7 +28,7 @@ DisplayFile on_monitor(const std::string& name) {
     return file;
 }
 
-const Computer two_monitors{{{"DP-1", 0, 0, 1500, 1200}, {"DP-2", 1500, 0, 1920, 1080}}, 0, ":0"};
+const DisplayHost two_monitors{{{"DP-1", 0, 0, 1500, 1200}, {"DP-2", 1500, 0, 1920, 1080}}, 0, ":0"};
 
 }  // namespace
 
@@ -126,9 +126,9 @@ TEST_CASE("Display check: no two outputs have the same pixels") {
     CHECK(check_displays(file).empty());
     file.walls[1].output.position = PixelPosition{1499, 0};
     check_one(file, "wall \"front\" and wall \"left\" are shown on the same pixels");
-    file.walls[1].output.rank = 1;  // another computer
+    file.walls[1].output.process = 1;  // another computer
     CHECK(check_displays(file).empty());
-    file.walls[1].output.rank = 0;
+    file.walls[1].output.process = 0;
     file.walls[1].output.display = ":0.1";  // another desktop than that of the program
     CHECK(check_displays(file).empty());
     file.walls[0].output.display = ":0";
@@ -172,7 +172,7 @@ TEST_CASE("Display check: the output of this computer is on the X display of the
               "wall \"front\": its output is on the X display \":0.1\"; expected \":0\", that of the program",
               two_monitors);
     CHECK(check_displays(file).empty());  // the display of the program is not known
-    file.walls[0].output.rank = 1;
+    file.walls[0].output.process = 1;
     CHECK(check_displays(file, two_monitors).empty());
 }
 

@@ -100,7 +100,7 @@ TEST_CASE("Displays: all members are read") {
     CHECK_FALSE(left.right_output);
     CHECK(left.output.position == PixelPosition{0, -20});
     CHECK(left.output.display == ":0.1");
-    CHECK(left.output.rank == 2);
+    CHECK(left.output.process == 2);
 }
 
 TEST_CASE("Displays: the file of these tests has every member of the schema") {

@@ -45,20 +45,20 @@ Wall random_wall(Random& random) {
 
 }  // namespace
 
-TEST_CASE("Wall: its frame has the corners, and a normal towards the viewer") {
-    const WallFrame frame = frame_of(front_wall());
-    CHECK(frame.right == Vec3(1, 0, 0));
-    CHECK(frame.up == Vec3(0, 1, 0));
-    CHECK(frame.normal == Vec3(0, 0, 1));
-    CHECK(frame.width == 3.0);
-    CHECK(frame.height == 2.4);
-    CHECK(distance_in_front(frame, {0.0, 1.6, 0.0}) == 1.5);
-    CHECK(distance_in_front(frame, {0.0, 1.6, -2.0}) == -0.5);
+TEST_CASE("Wall: its axes give the corners, and a normal towards the viewer") {
+    const WallAxes axes = axes_of(front_wall());
+    CHECK(axes.right == Vec3(1, 0, 0));
+    CHECK(axes.up == Vec3(0, 1, 0));
+    CHECK(axes.normal == Vec3(0, 0, 1));
+    CHECK(axes.width == 3.0);
+    CHECK(axes.height == 2.4);
+    CHECK(distance_in_front(axes, {0.0, 1.6, 0.0}) == 1.5);
+    CHECK(distance_in_front(axes, {0.0, 1.6, -2.0}) == -0.5);
     CHECK(upper_left(front_wall()) == Vec3(-1.5, 2.4, -1.5));
-    const auto corners = corners_of(frame, 0.1);
+    const auto corners = corners_of(axes, 0.1);
     CHECK(glm::length(corners[2] - Vec3(1.4, 2.3, -1.5)) < 1e-12);
     for (const Wall& wall : example_displays(DisplayKind::cave).walls)  // of a box that the viewer stands in
-        CHECK(distance_in_front(frame_of(wall), {0.0, 1.2, 0.0}) > 1.0);
+        CHECK(distance_in_front(axes_of(wall), {0.0, 1.2, 0.0}) > 1.0);
 }
 
 TEST_CASE(
@@ -88,12 +88,12 @@ TEST_CASE("Wall: its corners are projected to the corners of the picture from an
     Random random(11);
     for (int i = 0; i < 200; ++i) {
         const Wall wall = random_wall(random);
-        const WallFrame frame = frame_of(wall);
-        const Vec3 position = in_room(frame, (2.0 * random.uniform() - 0.5) * frame.width,
-                                      (2.0 * random.uniform() - 0.5) * frame.height) +
-                              frame.normal * (0.3 + 3.0 * random.uniform());
+        const WallAxes axes = axes_of(wall);
+        const Vec3 position = in_room(axes, (2.0 * random.uniform() - 0.5) * axes.width,
+                                      (2.0 * random.uniform() - 0.5) * axes.height) +
+                              axes.normal * (0.3 + 3.0 * random.uniform());
         const render::Eye eye = eye_of(wall, position);
-        const auto corners = corners_of(frame);
+        const auto corners = corners_of(axes);
         const glm::dvec2 expected[] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
         for (std::size_t k = 0; k < 4; ++k) {
             const glm::dvec2 at = projected(eye, corners[k]);
@@ -114,69 +114,69 @@ TEST_CASE("Wall: a point in the wall has no parallax, and one behind it moves wi
 }
 
 TEST_CASE("Wall: walls cross exactly if a common line is inside both") {
-    const WallFrame front = frame_of(front_wall());
+    const WallAxes front = axes_of(front_wall());
     CHECK(
-        walls_cross(front, frame_of(moved(turned_wall("t", 90.0), {1.5, 0.0, -1.5})), 0.01));  // same heights
-    CHECK(walls_cross(front, frame_of(moved(turned_wall("t", 45.0), {1.0, -1.0, 0.0})), 0.01));
+        walls_cross(front, axes_of(moved(turned_wall("t", 90.0), {1.5, 0.0, -1.5})), 0.01));  // same heights
+    CHECK(walls_cross(front, axes_of(moved(turned_wall("t", 45.0), {1.0, -1.0, 0.0})), 0.01));
     // Left and front of a cave meet at an edge; one that extends 5 mm too far still does, 20 mm cross.
-    const WallFrame left = frame_of(turned_wall("left", 90.0));
+    const WallAxes left = axes_of(turned_wall("left", 90.0));
     CHECK_FALSE(walls_cross(front, left, 0.01));
-    CHECK_FALSE(walls_cross(front, frame_of(moved(turned_wall("left", 90.0), {0.005, 0.0, -0.005})), 0.01));
-    CHECK(walls_cross(front, frame_of(moved(turned_wall("left", 90.0), {0.02, 0.0, -0.02})), 0.01));
-    CHECK_FALSE(walls_cross(front, frame_of(moved(front_wall(), {0.1, 0.1, 0.0})), 0.01));   // one plane
-    CHECK_FALSE(walls_cross(front, frame_of(moved(front_wall(), {0.1, 0.1, -0.5})), 0.01));  // parallel
+    CHECK_FALSE(walls_cross(front, axes_of(moved(turned_wall("left", 90.0), {0.005, 0.0, -0.005})), 0.01));
+    CHECK(walls_cross(front, axes_of(moved(turned_wall("left", 90.0), {0.02, 0.0, -0.02})), 0.01));
+    CHECK_FALSE(walls_cross(front, axes_of(moved(front_wall(), {0.1, 0.1, 0.0})), 0.01));   // one plane
+    CHECK_FALSE(walls_cross(front, axes_of(moved(front_wall(), {0.1, 0.1, -0.5})), 0.01));  // parallel
     // The planes meet inside one wall and beside the other.
-    CHECK_FALSE(walls_cross(front, frame_of(moved(turned_wall("t", 90.0), {1.5, 3.0, -1.5})), 0.01));
-    CHECK_FALSE(walls_cross(front, frame_of(moved(turned_wall("t", 90.0), {1.5, 0.0, 2.0})), 0.01));
+    CHECK_FALSE(walls_cross(front, axes_of(moved(turned_wall("t", 90.0), {1.5, 3.0, -1.5})), 0.01));
+    CHECK_FALSE(walls_cross(front, axes_of(moved(turned_wall("t", 90.0), {1.5, 0.0, 2.0})), 0.01));
     Random random(3);
     int crossings = 0;
     for (int i = 0; i < 300; ++i) {  // symmetric; and walls through one point that is inside both do cross
-        const WallFrame a = frame_of(random_wall(random)), b = frame_of(random_wall(random));
+        const WallAxes a = axes_of(random_wall(random)), b = axes_of(random_wall(random));
         CHECK(walls_cross(a, b, 0.01) == walls_cross(b, a, 0.01));
         crossings += walls_cross(a, b, 0.01) ? 1 : 0;
         Wall through = random_wall(random);
-        const WallFrame own = frame_of(through);
+        const WallAxes own = axes_of(through);
         const Vec3 to =
             in_room(a, 0.5 * a.width, 0.5 * a.height) - in_room(own, 0.5 * own.width, 0.5 * own.height);
-        CHECK(walls_cross(a, frame_of(moved(through, to)), 0.01));
+        CHECK(walls_cross(a, axes_of(moved(through, to)), 0.01));
     }
     CHECK(crossings > 10);
     CHECK(crossings < 290);
 }
 
 TEST_CASE("Wall: a wall that ends inside another one is found, with its distance from the edge") {
-    const WallFrame front = frame_of(front_wall()), left = frame_of(turned_wall("left", 90.0));
+    const WallAxes front = axes_of(front_wall()), left = axes_of(turned_wall("left", 90.0));
     CHECK_FALSE(edge_inset(left, front, 0.01));  // they meet at their edges
     CHECK_FALSE(edge_inset(front, left, 0.01));
-    const WallFrame inner = frame_of(moved(turned_wall("left", 90.0), {0.2, 0.0, 0.0}));
+    const WallAxes inner = axes_of(moved(turned_wall("left", 90.0), {0.2, 0.0, 0.0}));
     CHECK(edge_inset(inner, front, 0.01).value_or(0.0) == doctest::Approx(0.2));
     CHECK_FALSE(edge_inset(front, inner, 0.01));
     CHECK_FALSE(walls_cross(inner, front, 0.01));
     // Beside the other wall, above it, and not on its plane.
-    CHECK_FALSE(edge_inset(frame_of(moved(turned_wall("left", 90.0), {-0.2, 0.0, 0.0})), front, 0.01));
-    CHECK_FALSE(edge_inset(frame_of(moved(turned_wall("left", 90.0), {0.2, 2.4, 0.0})), front, 0.01));
-    CHECK_FALSE(edge_inset(frame_of(moved(turned_wall("left", 90.0), {0.2, 0.0, 0.1})), front, 0.01));
-    CHECK_FALSE(edge_inset(frame_of(moved(front_wall(), {0.2, 0.0, 0.0})), front, 0.01));  // one plane
+    CHECK_FALSE(edge_inset(axes_of(moved(turned_wall("left", 90.0), {-0.2, 0.0, 0.0})), front, 0.01));
+    CHECK_FALSE(edge_inset(axes_of(moved(turned_wall("left", 90.0), {0.2, 2.4, 0.0})), front, 0.01));
+    CHECK_FALSE(edge_inset(axes_of(moved(turned_wall("left", 90.0), {0.2, 0.0, 0.1})), front, 0.01));
+    CHECK_FALSE(edge_inset(axes_of(moved(front_wall(), {0.2, 0.0, 0.0})), front, 0.01));  // one plane
 }
 
 TEST_CASE("Wall: overlaps in one plane and gaps of seams are measured") {
-    const WallFrame front = frame_of(front_wall());
-    CHECK_FALSE(coplanar_overlap(front, frame_of(moved(front_wall(), {3.0, 0.0, 0.0})), 0.01));
-    CHECK(coplanar_overlap(front, frame_of(moved(front_wall(), {2.8, 0.0, 0.0})), 0.01).value_or(0.0) ==
+    const WallAxes front = axes_of(front_wall());
+    CHECK_FALSE(coplanar_overlap(front, axes_of(moved(front_wall(), {3.0, 0.0, 0.0})), 0.01));
+    CHECK(coplanar_overlap(front, axes_of(moved(front_wall(), {2.8, 0.0, 0.0})), 0.01).value_or(0.0) ==
           doctest::Approx(0.2));
-    CHECK_FALSE(coplanar_overlap(front, frame_of(moved(front_wall(), {2.8, 0.0, 0.1})), 0.01));
-    CHECK_FALSE(coplanar_overlap(front, frame_of(turned_wall("left", 90.0)), 0.01));
-    CHECK(seam_gap(front, frame_of(moved(front_wall(), {3.0, 0.0, 0.0}))).value_or(1.0) < 1e-12);
-    CHECK(seam_gap(front, frame_of(moved(front_wall(), {3.004, 0.0, 0.003}))).value_or(0.0) ==
+    CHECK_FALSE(coplanar_overlap(front, axes_of(moved(front_wall(), {2.8, 0.0, 0.1})), 0.01));
+    CHECK_FALSE(coplanar_overlap(front, axes_of(turned_wall("left", 90.0)), 0.01));
+    CHECK(seam_gap(front, axes_of(moved(front_wall(), {3.0, 0.0, 0.0}))).value_or(1.0) < 1e-12);
+    CHECK(seam_gap(front, axes_of(moved(front_wall(), {3.004, 0.0, 0.003}))).value_or(0.0) ==
           doctest::Approx(0.005));
-    CHECK(seam_gap(front, frame_of(turned_wall("left", 90.0))).value_or(1.0) < 1e-12);
+    CHECK(seam_gap(front, axes_of(turned_wall("left", 90.0))).value_or(1.0) < 1e-12);
     // Edges that are not parallel are no seam.
     Wall rolled = moved(front_wall(), {3.0, 0.0, 0.0});
     const Quat roll = rotation(Vec3(0.0, 0.0, 0.3));
     for (Vec3* corner : {&rolled.lower_left, &rolled.lower_right, &rolled.upper_right})
         *corner = roll * *corner;
-    CHECK_FALSE(seam_gap(front, frame_of(rolled)));
-    CHECK_FALSE(seam_gap(front, frame_of(Wall{})));
+    CHECK_FALSE(seam_gap(front, axes_of(rolled)));
+    CHECK_FALSE(seam_gap(front, axes_of(Wall{})));
 }
 
 TEST_CASE("Wall: the summary has sizes of pixels, angles of the wall, and the angle that it covers") {
@@ -209,7 +209,7 @@ TEST_CASE("Test pattern: the scales have their length on the wall, and the borde
     for (const Wall& wall :
          {front_wall(), turned_wall("t", 33.0), example_displays(DisplayKind::desk).walls[1]}) {
         const TestPattern pattern = test_pattern(wall, PatternEye::both);
-        const auto corners = corners_of(frame_of(wall));
+        const auto corners = corners_of(axes_of(wall));
         int scales = 0, borders = 0;
         for (const PatternLine& line : pattern.lines) {
             const Vec3 from = pattern_point(wall, line.from), to = pattern_point(wall, line.to);

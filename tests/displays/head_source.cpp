@@ -1,5 +1,5 @@
 // The head from the tracker of a display file: DTrack on this machine, recorded poses, poses that are added.
-#include "game/displays/head_source.hpp"
+#include "game/head_tracking/head_source.hpp"
 
 #include <doctest/doctest.h>
 
@@ -12,7 +12,7 @@
 namespace head_source_test {
 
 using namespace bolt;
-using bolt::displays::HeadSource;
+using bolt::head_tracking::HeadSource;
 using content::HeadTracker;
 using content::HeadTracking;
 using tracking::HeadStatus;

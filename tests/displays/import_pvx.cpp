@@ -80,7 +80,7 @@ TEST_CASE(".pvx: walls, windows and the eye separation are imported") {
     CHECK(file.walls[2].upper_right == Vec3(1, 1.5, 1));
     CHECK(file.walls[1].output.position == PixelPosition{1024, 0});
     CHECK(file.walls[1].output.resolution == PixelSize{1024, 768});
-    CHECK(file.walls[1].output.rank == 0);
+    CHECK(file.walls[1].output.process == 0);
     CHECK(file.walls[1].output.display.empty());
     CHECK(file.eye_separation == 0.065);
     const auto found = texts(check_displays(file));
@@ -137,19 +137,19 @@ TEST_CASE(".pvx: names are computers only if their windows are at the same place
                       b = machine("Name=\"b\" Geometry=\"800x600+0+0\""),
                       beside = machine("Name=\"b\" Geometry=\"800x600+800+0\"");
     const ImportedDisplays two = imported(file_of(a + b));
-    CHECK(two.displays.walls[0].output.rank == 0);
-    CHECK(two.displays.walls[1].output.rank == 1);
-    CHECK(warns(two, "so each Name is a computer: 2 ranks"));
+    CHECK(two.displays.walls[0].output.process == 0);
+    CHECK(two.displays.walls[1].output.process == 1);
+    CHECK(warns(two, "so each Name is a computer: 2 processes"));
     const ImportedDisplays one = imported(file_of(a + beside));
-    CHECK(one.displays.walls[1].output.rank == 0);
-    CHECK_FALSE(warns(one, "ranks"));
+    CHECK(one.displays.walls[1].output.process == 0);
+    CHECK_FALSE(warns(one, "processes"));
     // Windows of one Name get walls with names of their own.
     const ImportedDisplays same = imported(file_of(a + a));
     CHECK(same.displays.walls[1].name == "a 2");
-    CHECK(same.displays.walls[1].output.rank == 0);
+    CHECK(same.displays.walls[1].output.process == 0);
     // Without a Geometry each fills the screen of its computer, or of its X display.
     const ImportedDisplays full = imported(file_of(machine("Name=\"a\"") + machine("Name=\"b\"")));
-    CHECK(full.displays.walls[1].output.rank == 1);
+    CHECK(full.displays.walls[1].output.process == 1);
     CHECK(full.displays.walls[1].output.monitor_index == 0);
     CHECK(warns(full, "without a Geometry the wall fills a monitor"));
     const ImportedDisplays displays =

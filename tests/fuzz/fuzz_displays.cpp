@@ -23,10 +23,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (displays.walls.empty() || displays.walls.size() > max_walls ||
         read.wall_positions.size() != displays.walls.size())
         std::abort();
-    const Computer computer{{{"DP-1", 0, 0, 1920, 1080}}, 0, ":0"};
-    for (const DisplayFinding& finding : check_displays(displays, computer))
+    const DisplayHost host{{{"DP-1", 0, 0, 1920, 1080}}, 0, ":0"};
+    for (const DisplayFinding& finding : check_displays(displays, host))
         if (finding.text.empty() || finding.wall.value_or(0) >= displays.walls.size()) std::abort();
-    if (list_walls(displays, computer).empty()) std::abort();
+    if (list_walls(displays, host).empty()) std::abort();
     for (const Wall& wall : displays.walls) {
         if (wall.right_output.has_value() != (wall.stereo == StereoMode::two_outputs)) std::abort();
         for (const PatternLine& line : test_pattern(wall, PatternEye::left, 7).lines)

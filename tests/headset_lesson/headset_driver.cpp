@@ -7,6 +7,7 @@
 
 #include "engine/gpu/resources.hpp"
 #include "game/session/session_file.hpp"
+#include "game/view/pictures.hpp"
 #include "tests/support/need.hpp"
 
 namespace bolt::test {
@@ -23,9 +24,9 @@ void HeadsetDriver::release() {
 }
 
 // How well the runtime returns what was sent in the user's last turn.
-void HeadsetDriver::compare(const view::Immersion& immersion) {
+void HeadsetDriver::compare(const view::ImmersiveFrame& immersive) {
     for (std::size_t side = 0; side < sent_.sides.size(); ++side) {
-        const xr::HandInput &sent = sent_.sides[side], &got = immersion.hands.sides[side];
+        const xr::HandInput &sent = sent_.sides[side], &got = immersive.hands.sides[side];
         if (!sent.active || !sent.grip) continue;
         if (!got.active || !got.grip) {
             ++frames_.without_hand;
@@ -42,10 +43,10 @@ Status HeadsetDriver::update(const view::WindowFrame& window) {
     view::WindowFrame stepped = window;
     stepped.seconds = options_.step;
     const auto now = std::chrono::steady_clock::now();
-    const bool seen = window.immersion != nullptr && window.immersion->attentive;
+    const bool seen = window.immersive != nullptr && window.immersive->attentive;
     if (seen) {
-        compare(*window.immersion);
-        received_ = window.immersion->hands;
+        compare(*window.immersive);
+        received_ = window.immersive->hands;
         ++frames_.count;
         if (last_frame_) frames_.seconds += std::chrono::duration<double>(now - *last_frame_).count();
     }
@@ -55,14 +56,14 @@ Status HeadsetDriver::update(const view::WindowFrame& window) {
 }
 
 Status HeadsetDriver::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
-    const bool seen = window.immersion != nullptr && window.immersion->attentive;
+    const bool seen = window.immersive != nullptr && window.immersive->attentive;
     const double time = app_.lesson() ? app_.lesson()->session->time() : 0.0;
     newly_drawn_ = !seen || !drawn_ || app_.screen() != trainer::ShownScreen::lesson ||
                    time >= drawn_at_ + options_.draw_interval || time < drawn_at_;
     if (newly_drawn_) {
         drawn_at_ = time;
         BOLT_TRY(app_.draw(frame, window));
-        if (seen && !window.immersion->groups.empty()) drawn_ = window.immersion->groups.front().size;
+        if (seen && !window.immersive->groups.empty()) drawn_ = window.immersive->groups.front().size;
     }
     if (seen) user_done_ = turns_.give();
     return {};

@@ -62,7 +62,7 @@ class HeadsetDriver final : public view::WindowContent, public RoomDriver {
     [[nodiscard]] const xr::Hands& received() const { return received_; }
 
   private:
-    void compare(const view::Immersion& immersion);
+    void compare(const view::ImmersiveFrame& immersive);
     Status take_picture();
 
     trainer::App& app_;

@@ -47,12 +47,12 @@ class CoverInHeadset : public view::WindowContent {
         cover_.reset();
     }
     Status update(const view::WindowFrame& window) override {
-        if (window.immersion != nullptr && ++frames_ > 6) closed_ = true;
+        if (window.immersive != nullptr && ++frames_ > 6) closed_ = true;
         return {};
     }
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override {
-        if (window.immersion != nullptr && !window.immersion->groups.empty()) {
-            group_ = window.immersion->groups.front();
+        if (window.immersive != nullptr && !window.immersive->groups.empty()) {
+            group_ = window.immersive->groups.front();
             return gpu_->renderer->render(frame, cover_->shown->scene, eyes_at_model(group_), group_.size,
                                           view::immersive_group);
         }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tests/room/immersion_driver.hpp"
+#include "tests/room/immersive_driver.hpp"
 #include "tests/station/virtual_bench.hpp"
 
 namespace registered_arm_test {
@@ -38,7 +38,7 @@ struct RegisteredArm {
             return made;
         };
         driver.emplace(std::move(options), test::Display{small_eye, 0.3F, 0.02});
-        driver->immersion = test::standing_user(small_eye);
+        driver->immersive = test::standing_user(small_eye);
         for (int i = 0; i < 8; ++i) frame();
     }
     void frame() {
@@ -53,7 +53,7 @@ struct RegisteredArm {
     }
     // The scene's pose in the room, from the head in both.
     [[nodiscard]] Pose scene_in_room() const {
-        return driver->immersion->head * inverse(*lesson().view.head);
+        return driver->immersive->head * inverse(*lesson().view.head);
     }
 };
 
@@ -110,8 +110,8 @@ TEST_CASE(
 
 TEST_CASE("Registered arm: after the workpiece was turned, right is still the user's right") {
     RegisteredArm at(std::nullopt);
-    at.driver->immersion->hands.sides[1].active = true;
-    at.driver->immersion->hands.sides[1].stick = {1.0F, 0.0F};
+    at.driver->immersive->hands.sides[1].active = true;
+    at.driver->immersive->hands.sides[1].stick = {1.0F, 0.0F};
     for (int i = 0; i < 2; ++i) at.frame();
     REQUIRE(at.driver->app().room()->turns == 1);
     REQUIRE(at.lesson().view.heading);

@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "tests/room/immersion_driver.hpp"
+#include "game/view/pictures.hpp"
+#include "tests/room/immersive_driver.hpp"
 #include "tests/trainer/one_joint.hpp"
 
 using namespace bolt;
@@ -26,15 +27,15 @@ AppOptions tracked_hand(const char* assembly) {
 
 TEST_CASE("Room: workpiece and panel stand in front of the user, and stay when the head moves") {
     HeadlessTrainer driver(tracked_hand("cover-m8"), {eye_size, 0.3F, 0.02});
-    driver.immersion = test::standing_user(eye_size);
+    driver.immersive = test::standing_user(eye_size);
     driver.frame();
     driver.frame();
     REQUIRE(driver.app().room());
-    const Room room = *driver.app().room();
+    const RoomState room = *driver.app().room();
     REQUIRE(room.workpiece);
     REQUIRE(room.panel);
-    driver.immersion->head.position += Vec3(0.2, -0.1, 0.1);
-    driver.immersion->groups = {test::two_eyes(driver.immersion->head, eye_size)};
+    driver.immersive->head.position += Vec3(0.2, -0.1, 0.1);
+    driver.immersive->groups = {test::two_eyes(driver.immersive->head, eye_size)};
     driver.frame();
     CHECK(driver.app().room()->workpiece->position == room.workpiece->position);
     CHECK(driver.app().room()->panel->position == room.panel->position);
@@ -45,7 +46,7 @@ TEST_CASE("Room: the menu is a panel that the hand points at, and its buttons ar
     AppOptions menu = tracked_hand("cover-m8");
     menu.menu = true;
     HeadlessTrainer driver(std::move(menu), {eye_size, 0.3F, 0.02});
-    driver.immersion = test::standing_user(eye_size);
+    driver.immersive = test::standing_user(eye_size);
     for (int i = 0; i < 40; ++i) driver.frame();
     test::save_eyes(driver, "menu");
     REQUIRE(driver.app().room()->panel);
@@ -57,17 +58,17 @@ TEST_CASE("Room: the menu is a panel that the hand points at, and its buttons ar
 
 TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wrench, aligns it and tightens") {
     HeadlessTrainer driver(tracked_hand("first-nut"), {eye_size, 0.3F, 0.02});
-    driver.immersion = test::standing_user(eye_size);
+    driver.immersive = test::standing_user(eye_size);
     driver.frame();
     driver.draws = false;
     REQUIRE(driver.lesson().station);
     std::vector<std::pair<double, xr::Vibration>> felt;  // time of the lesson, s
-    driver.immersion->vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
+    driver.immersive->vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
         CHECK(side == xr::Side::right);
         felt.emplace_back(driver.lesson().session->time(), vibration);
     };
     double tightening = 0.0;  // s, when the jaw first holds the nut
-    test::ImmersionDriver hands(driver);
+    test::ImmersiveDriver hands(driver);
     test::TraineeInRoom trainee(hands);
     trainee.on_frame = [&] {
         if (tightening == 0.0 && hand_of(driver.lesson()).wrench &&
@@ -98,22 +99,22 @@ TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wren
 TEST_CASE("Room: a lesson pauses while its user does not see it, and when the headset is lost") {
     HeadlessTrainer driver(tracked_hand("first-nut"), {eye_size, 0.3F, 0.02});
     driver.draws = false;
-    driver.immersion = test::standing_user(eye_size);
-    test::ImmersionDriver hands(driver);
+    driver.immersive = test::standing_user(eye_size);
+    test::ImmersiveDriver hands(driver);
     test::TraineeInRoom trainee(hands);
     driver.frame();
     trainee.hold_still(0.2, 0.0);
     REQUIRE_FALSE(driver.lesson().clock.paused);
-    driver.immersion->attentive = false;
+    driver.immersive->attentive = false;
     trainee.hold_still(0.1, 0.0);
     CHECK(driver.lesson().clock.paused);
     const double then = driver.lesson().session->time();
     trainee.hold_still(0.3, 0.0);
     CHECK(driver.lesson().session->time() - then < 0.05);
-    driver.immersion->attentive = true;
+    driver.immersive->attentive = true;
     trainee.hold_still(0.1, 0.0);
     CHECK_FALSE(driver.lesson().clock.paused);
-    driver.immersion.reset();
+    driver.immersive.reset();
     driver.frame();
     CHECK(driver.lesson().clock.paused);
     CHECK_FALSE(driver.app().room()->shown);
@@ -121,17 +122,17 @@ TEST_CASE("Room: a lesson pauses while its user does not see it, and when the he
     CHECK(glm::length(driver.lesson().station->latest.output.force) == 0.0);
     // It returns where it was, and the lesson goes on.
     const Pose workpiece = driver.app().room()->workpiece.value();
-    driver.immersion = test::standing_user(eye_size);
-    driver.immersion->head.position += Vec3(0.3, 0.0, 0.2);
+    driver.immersive = test::standing_user(eye_size);
+    driver.immersive->head.position += Vec3(0.3, 0.0, 0.2);
     driver.frame();
     CHECK_FALSE(driver.lesson().clock.paused);
     CHECK(driver.app().room()->workpiece->position == workpiece.position);
     // After the user has recentred, everything stands in front again.
-    driver.immersion->recentred = true;
+    driver.immersive->recentred = true;
     driver.frame();
     CHECK(driver.app().room()->workpiece->position != workpiece.position);
     // At the window the user may go on without the headset.
-    driver.immersion.reset();
+    driver.immersive.reset();
     driver.frame();
     CHECK(driver.lesson().clock.paused);
     driver.key(platform::Key::escape);
@@ -141,7 +142,7 @@ TEST_CASE("Room: a lesson pauses while its user does not see it, and when the he
 }
 
 TEST_CASE("Room: the stick turns the workpiece by a step, once, and raises it as fast in every frame rate") {
-    Room room;
+    RoomState room;
     xr::Hands hands;
     xr::HandInput& left = hands[xr::Side::left];
     left.active = true;
@@ -159,12 +160,12 @@ TEST_CASE("Room: the stick turns the workpiece by a step, once, and raises it as
         for (int i = 0; i < frames; ++i) (void)hand_events(room, hands, {}, 1.0 / frames);
         CHECK(room.height == doctest::Approx(0.2));
     }
-    // About the vertical through the middle of the machine.
-    render::BoundingBox machine;
-    machine.low = {-0.1F, 0.0F, -0.2F};
-    machine.high = {0.3F, 0.4F, 0.2F};
+    // About the vertical through the middle of the workpiece.
+    render::BoundingBox box;
+    box.low = {-0.1F, 0.0F, -0.2F};
+    box.high = {0.3F, 0.4F, 0.2F};
     const Vec3 middle(0.1, 0.2, 0.0);
-    const Pose turned = adjusted({}, machine, 3, 0.05);
+    const Pose turned = adjusted({}, box, 3, 0.05);
     CHECK(glm::distance(turned * middle, middle + Vec3(0.0, 0.05, 0.0)) < 1e-6);
     CHECK(glm::distance(turned * (middle + Vec3(1.0, 0.0, 0.0)), middle + Vec3(0.0, 0.05, -1.0)) < 1e-6);
 }

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "tests/room/immersion_driver.hpp"
+#include "tests/room/immersive_driver.hpp"
 #include "tests/station/virtual_bench.hpp"
 
 namespace touch_check_test {
@@ -58,7 +58,7 @@ struct TouchedLesson {
             return made;
         };
         driver.emplace(std::move(options), test::Display{test::eye_size(), 0.3F, 0.02});
-        driver->immersion = test::standing_user(test::eye_size());
+        driver->immersive = test::standing_user(test::eye_size());
         play(1.0);
     }
     void play(double seconds) {

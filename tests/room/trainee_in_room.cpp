@@ -39,12 +39,12 @@ Pose standing_head() {
     return {{0.0, eye_height, 0.0}, glm::angleAxis(to_radians(-20.0), Vec3(1.0, 0.0, 0.0))};
 }
 
-view::Immersion standing_user(VkExtent2D size) {
-    view::Immersion immersion;
-    immersion.head = standing_head();
-    immersion.tracked = immersion.attentive = immersion.tracks_hands = true;
-    immersion.groups = {two_eyes(immersion.head, size)};
-    return immersion;
+view::ImmersiveFrame standing_user(VkExtent2D size) {
+    view::ImmersiveFrame immersive;
+    immersive.head = standing_head();
+    immersive.tracked = immersive.attentive = immersive.tracks_hands = true;
+    immersive.groups = {two_eyes(immersive.head, size)};
+    return immersive;
 }
 
 Vec3 TraineeInRoom::nut(std::size_t joint) const {
@@ -61,7 +61,7 @@ Pose TraineeInRoom::tool() const {
 
 void TraineeInRoom::frame(const Pose& palm, double closed) {
     palm_ = palm;
-    const trainer::Room& room = *driver_.app().room();
+    const trainer::RoomState& room = *driver_.app().room();
     xr::Hands hands;
     xr::HandInput& hand = hands[side_];
     hand.active = true;
@@ -69,7 +69,7 @@ void TraineeInRoom::frame(const Pose& palm, double closed) {
     if (room.workpiece) {
         const Pose assembly =
             trainer::adjusted(*room.workpiece, lesson().workplace.workpiece, room.turns, room.height);
-        hand.grip = xr::TrackedPose{assembly * palm_, true};
+        hand.grip = xr::LocatedPose{assembly * palm_, true};
         look_at(assembly *
                 (0.5 * (tool().position + (due() != nullptr ? nut(due()->joint) : tool().position))));
     }

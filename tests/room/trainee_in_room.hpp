@@ -16,10 +16,10 @@ view::EyeGroup two_eyes(const Pose& head, VkExtent2D size);
 Pose standing_head();
 
 // A room whose user stands at its origin, eyes 1.65 m above the floor.
-view::Immersion standing_user(VkExtent2D size);
+view::ImmersiveFrame standing_user(VkExtent2D size);
 
 // A running trainer and the display whose poses it gets. The trainee decides the poses; a driver delivers
-// them: into the immersion of the next frame, or through a headset's runtime.
+// them: into the next immersive frame, or through a headset's runtime.
 class RoomDriver {
   public:
     RoomDriver() = default;

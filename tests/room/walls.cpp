@@ -1,7 +1,7 @@
 // The trainer between projection walls, without windows: what stands where, and who moves the pointer.
 #include <doctest/doctest.h>
 
-#include "tests/room/immersion_driver.hpp"
+#include "tests/room/immersive_driver.hpp"
 
 using namespace bolt;
 using namespace bolt::trainer;
@@ -12,29 +12,29 @@ namespace {
 constexpr VkExtent2D wall_size{160, 120};
 
 // A viewer who is expected 2 m in front of a wall that shows only what is above a line of sight.
-view::Immersion in_front_of_wall(double lowest_sight) {
-    view::Immersion immersion = test::standing_user(wall_size);
-    immersion.tracked = false;
-    immersion.head.position += Vec3(0.5, 0.1, -0.3);
-    immersion.expected_head = test::standing_head();
-    immersion.tracks_hands = false;
-    const Vec3 eye = immersion.expected_head->position;
-    immersion.shows = [eye, lowest_sight](const Vec3& point) {
+view::ImmersiveFrame in_front_of_wall(double lowest_sight) {
+    view::ImmersiveFrame immersive = test::standing_user(wall_size);
+    immersive.tracked = false;
+    immersive.head.position += Vec3(0.5, 0.1, -0.3);
+    immersive.expected_head = test::standing_head();
+    immersive.tracks_hands = false;
+    const Vec3 eye = immersive.expected_head->position;
+    immersive.shows = [eye, lowest_sight](const Vec3& point) {
         const Vec3 along = point - eye;
         return along.z < 0.0 && along.y / -along.z > lowest_sight;
     };
-    return immersion;
+    return immersive;
 }
 
 double distance_of_workpiece(double lowest_sight) {
     HeadlessTrainer driver(test::options("cover-m8", false), {wall_size, 0.3F, 0.02});
-    driver.immersion = in_front_of_wall(lowest_sight);
+    driver.immersive = in_front_of_wall(lowest_sight);
     driver.frame();
     // Already in the first frame of the lesson, which is shown.
     REQUIRE(driver.app().lesson() != nullptr);
     REQUIRE(driver.app().room()->workpiece);
     const Vec3 position = driver.app().room()->workpiece->position;
-    driver.immersion->head.position += Vec3(0.1, 0.0, 0.2);
+    driver.immersive->head.position += Vec3(0.1, 0.0, 0.2);
     driver.frame();
     CHECK(driver.app().room()->workpiece->position == position);
     return -position.z;
@@ -51,7 +51,7 @@ TEST_CASE("Walls: the workpiece stands where the walls show it to the expected h
 
 TEST_CASE("Walls: the menu is a panel on the walls, and the window's pointer presses its buttons") {
     HeadlessTrainer driver(test::options("first-nut", true), {panel_extent, 1.0F, 0.02});
-    driver.immersion = in_front_of_wall(-100.0);
+    driver.immersive = in_front_of_wall(-100.0);
     driver.draws = true;
     for (int i = 0; i < 3; ++i) driver.frame();
     REQUIRE(driver.app().room()->shown);

@@ -1,16 +1,14 @@
 // A lesson's station in virtual time, which a test advances. Mouse and keyboard move the tool.
 #pragma once
 
-#include <deque>
-
 #include "game/session/lesson_session.hpp"
-#include "game/station/lesson_station.hpp"
+#include "game/station/stepped_station.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/device/device_thread.hpp"
 
 namespace bolt::test {
 
-class VirtualBench final : public station_setup::LessonStation {
+class VirtualBench final : public station_setup::SteppedStation {
   public:
     // `scale`: that of the workspace map.
     VirtualBench(session::SessionSetup prepared, session::LessonOptions options, double scale = 1.0)
@@ -50,33 +48,18 @@ class VirtualBench final : public station_setup::LessonStation {
         held_ = held;
     }
 
-    // Advances the time by `seconds`.
+    // Advances the time by `seconds`. The frames of a lesson do not.
     void advance(double seconds) {
-        owed_ += seconds;
-        for (; owed_ >= setup_.dt; owed_ -= setup_.dt) tick();
+        if (!stopped_) run_ticks(seconds);
     }
 
-    void set_controls(const station::StationControls& controls) override { controls_ = controls; }
-    Status send(const station::StationCommand& command) override {
-        commands_.push_back(command);
-        return {};
-    }
     void set_puck_input(const device::PuckInput& input) override { puck_.set_input(input); }
-    bool next_tick(station::StationTick& tick) override {
-        if (ticks_.empty()) return false;
-        tick = ticks_.front();
-        ticks_.pop_front();
-        return true;
-    }
-    const station::StationTick& latest_tick() override { return newest_; }
     [[nodiscard]] std::uint64_t lost_ticks() const override { return lost_; }
     const station::DisplayedHand* hand() override { return hand_ ? &*hand_ : nullptr; }
     std::vector<std::string> fault_messages() override { return fault_messages_; }
     device::DeviceHealth health() override { return health_; }
     device::ArmNeeds needs() override { return needs_; }
     void permit_move() override { ++permissions_; }
-    [[nodiscard]] const station::DeviceLayout& layout() const override { return layout_; }
-    [[nodiscard]] const servo::Setup& setup() const override { return setup_; }
     const servo::Timing* stop() override {
         stopped_ = true;
         return nullptr;
@@ -95,31 +78,23 @@ class VirtualBench final : public station_setup::LessonStation {
 
   private:
     void serve() { device::run_once(supervisor_, mailboxes_, snapshot_); }
-    void tick() {
-        if (stopped_) return;
-        now_ += setup_.dt;
-        while (time_.now < now_) serve();
-        station::StationInputs inputs;
+    void read_devices(double now, station::StationInputs& inputs) override {
+        while (time_.now < now) serve();
         mailboxes_.snapshots.update();
         inputs.mover = mailboxes_.snapshots.latest();
         inputs.mover.usable = inputs.mover.usable && !unplugged_;
         inputs.mover.sample.gripper = gripper_;
         if (held_) {
             inputs.mover.usable = !unplugged_;
-            inputs.mover.number = number_ + 1;
+            inputs.mover.number = ++held_number_;
             inputs.mover.sample.pose = held_->pose;
             inputs.mover.sample.buttons = held_->buttons;
         }
-        inputs.controls = controls_;
-        inputs.commands = commands_;
         if (hand_) inputs.hand_grip = hand_->held ? servo::Grip::wrench : servo::Grip::none;
-
-        const station::StationStep done = station::step(layout_, setup_, state_, servo_, inputs, ++number_);
-        commands_.clear();
+    }
+    void write_devices(station::StationStep& done) override {
         mailboxes_.commands.write({done.commands.mover, true, ++command_number_});
-        newest_ = done.tick;
-        if (std::exchange(garbles_, false)) newest_.input.commanded_tool.position[0] += 1e-3F;
-        if (!done.paused) ticks_.push_back(newest_);
+        if (std::exchange(garbles_, false)) done.tick.input.commanded_tool.position[0] += 1e-3F;
     }
 
     device::VirtualTime time_;
@@ -127,17 +102,8 @@ class VirtualBench final : public station_setup::LessonStation {
     device::DeviceSupervisor supervisor_;
     device::DeviceMailboxes mailboxes_;
     device::DeviceSnapshot snapshot_;
-    station::DeviceLayout layout_;
-    servo::Setup setup_;
-    servo::State servo_;
-    station::StationState state_;
-    station::StationControls controls_;
-    std::vector<station::StationCommand> commands_;  // of the next tick
-    std::deque<station::StationTick> ticks_;
-    station::StationTick newest_;
-    double now_ = 0.0, owed_ = 0.0;  // s
     std::optional<station::HeldMover> held_;
-    std::uint64_t number_ = 0, command_number_ = 0;
+    std::uint64_t held_number_ = 0, command_number_ = 0;
     bool stopped_ = false;
 };
 

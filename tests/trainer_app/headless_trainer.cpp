@@ -69,7 +69,7 @@ bool HeadlessTrainer::is_due(const std::vector<platform::InputEvent>& events) {
 
 Status HeadlessTrainer::run_frame(const std::vector<platform::InputEvent>& events, double seconds) {
     const view::WindowFrame window{events, display_.size, display_.scale, seconds,
-                                   immersion ? &*immersion : nullptr};
+                                   immersive ? &*immersive : nullptr};
     BOLT_TRY(app_->update(window));
     drawn_ = draws && is_due(events);
     return drawn_ ? draw(window) : Status{};
@@ -134,7 +134,7 @@ glm::dvec2 HeadlessTrainer::hold(std::size_t joint) {
 
 render::Picture HeadlessTrainer::picture() {
     if (!std::exchange(drawn_, true))
-        need(draw({{}, display_.size, display_.scale, 0.0, immersion ? &*immersion : nullptr}));
+        need(draw({{}, display_.size, display_.scale, 0.0, immersive ? &*immersive : nullptr}));
     need(gpu_context_.frames->finish());
     const render::ImageLayer made = gpu_context_.renderer->picture(0);
     const auto texels = gpu::download_image(*gpu_context_.device, *made.image,
@@ -148,7 +148,7 @@ render::Picture HeadlessTrainer::picture() {
 render::Picture HeadlessTrainer::room_picture(std::uint32_t view) {
     need(gpu_context_.frames->finish());
     const render::ImageLayer made = gpu_context_.renderer->picture(view, view::immersive_group);
-    const VkExtent2D size = immersion->groups.front().size;
+    const VkExtent2D size = immersive->groups.front().size;
     const auto texels = need(gpu::download_image(*gpu_context_.device, *made.image,
                                                  gpu::ResourceUse::transfer_from, 4, 0, made.layer));
     render::Picture picture{size.width, size.height, {}};

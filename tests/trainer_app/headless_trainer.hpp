@@ -53,7 +53,7 @@ class HeadlessTrainer : public TrainerDriver {
     glm::dvec2 hold(std::size_t joint);
 
     // The display that surrounds the user in the next frames; none: the window alone.
-    std::optional<view::Immersion> immersion;
+    std::optional<view::ImmersiveFrame> immersive;
     bool draws = true;  // false: the next frames are not drawn, which is faster
     // While a lesson runs without input, one of this many frames is drawn: drawing takes most of the time.
     int draw_interval = 5;

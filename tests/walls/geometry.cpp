@@ -32,11 +32,11 @@ TEST_CASE("Walls: a point of the wall is at its place in the picture, and hides 
     const content::DisplayFile cave = test::small_cave();
     for (int i = 0; i < 400; ++i) {
         const content::Wall& wall = cave.walls[static_cast<std::size_t>(i) % test::cave_walls];
-        const content::WallFrame frame = content::frame_of(wall);
+        const content::WallAxes axes = content::axes_of(wall);
         const view::EyeGroup group = view::wall_eyes(wall, random_head(random), 0.065, picture_size);
         REQUIRE(group.eyes.size() == 1);
         const glm::dvec2 place(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
-        const Vec3 on_wall = content::in_room(frame, place.x * frame.width, place.y * frame.height);
+        const Vec3 on_wall = content::in_room(axes, place.x * axes.width, place.y * axes.height);
         CHECK(glm::distance(in_picture(group.eyes[0], on_wall), place) < 1e-5);
         const Vec3 eye(group.eyes[0].position);
         const Vec3 behind = eye + random.uniform(1.01, 5.0) * (on_wall - eye);
@@ -74,32 +74,35 @@ TEST_CASE("Walls: two eyes are apart along the head's x, the left one first, and
     CHECK(view::wall_eyes(wall, across_plane, 0.2, picture_size).eyes.empty());
 }
 
-TEST_CASE("Walls: each stereo mode has its places in the window") {
+TEST_CASE("Walls: each stereo mode has its viewports in the window") {
     content::Wall wall;
     const VkExtent2D window{401, 300};
-    const auto places = [&](view::WallWindow::Shows shows) { return view::eye_places(wall, shows, window); };
-    const auto is_at = [](const view::EyePlace& place, std::uint32_t eye, const VkRect2D& r) {
-        return place.eye == eye && place.place.offset.x == r.offset.x && place.place.offset.y == r.offset.y &&
-               place.place.extent.width == r.extent.width && place.place.extent.height == r.extent.height;
+    const auto viewports = [&](view::WallWindow::Shows shows) {
+        return view::eye_viewports(wall, shows, window);
+    };
+    const auto is_at = [](const view::EyeViewport& viewport, std::uint32_t eye, const VkRect2D& r) {
+        return viewport.eye == eye && viewport.area.offset.x == r.offset.x &&
+               viewport.area.offset.y == r.offset.y && viewport.area.extent.width == r.extent.width &&
+               viewport.area.extent.height == r.extent.height;
     };
     using Shows = view::WallWindow::Shows;
-    REQUIRE(places(Shows::all).size() == 1);
-    CHECK(is_at(places(Shows::all)[0], 0, {{0, 0}, window}));
+    REQUIRE(viewports(Shows::all).size() == 1);
+    CHECK(is_at(viewports(Shows::all)[0], 0, {{0, 0}, window}));
     wall.stereo = content::StereoMode::side_by_side;
-    REQUIRE(places(Shows::all).size() == 2);
-    CHECK(is_at(places(Shows::all)[0], 0, {{0, 0}, {200, 300}}));
-    CHECK(is_at(places(Shows::all)[1], 1, {{200, 0}, {201, 300}}));
+    REQUIRE(viewports(Shows::all).size() == 2);
+    CHECK(is_at(viewports(Shows::all)[0], 0, {{0, 0}, {200, 300}}));
+    CHECK(is_at(viewports(Shows::all)[1], 1, {{200, 0}, {201, 300}}));
     wall.swap_eyes = true;
-    CHECK(places(Shows::all)[0].eye == 1);
+    CHECK(viewports(Shows::all)[0].eye == 1);
     wall.stereo = content::StereoMode::top_bottom;
     wall.swap_eyes = false;
-    CHECK(is_at(places(Shows::all)[0], 0, {{0, 0}, {401, 150}}));
-    CHECK(is_at(places(Shows::all)[1], 1, {{0, 150}, {401, 150}}));
+    CHECK(is_at(viewports(Shows::all)[0], 0, {{0, 0}, {401, 150}}));
+    CHECK(is_at(viewports(Shows::all)[1], 1, {{0, 150}, {401, 150}}));
     wall.stereo = content::StereoMode::two_outputs;
-    CHECK(is_at(places(Shows::left_output).at(0), 0, {{0, 0}, window}));
-    CHECK(is_at(places(Shows::right_output).at(0), 1, {{0, 0}, window}));
+    CHECK(is_at(viewports(Shows::left_output).at(0), 0, {{0, 0}, window}));
+    CHECK(is_at(viewports(Shows::right_output).at(0), 1, {{0, 0}, window}));
     wall.swap_eyes = true;
-    CHECK(places(Shows::left_output).at(0).eye == 1);
+    CHECK(viewports(Shows::left_output).at(0).eye == 1);
 }
 
 TEST_CASE("Walls: a point is on a wall if the line from the eye through it meets the picture") {
@@ -116,8 +119,8 @@ TEST_CASE("Walls: a point is on a wall if the line from the eye through it meets
 
 TEST_CASE("Walls: outputs become windows, and an output that is not here is refused by name") {
     content::DisplayFile file = test::small_cave();
-    const content::Computer computer{{{"DP-1", 0, 0, 1920, 1080}, {"DP-2", 1920, 0, 1280, 720}}, 0, ":0"};
-    const auto plan = view::plan_wall_windows(file, computer);
+    const content::DisplayHost host{{{"DP-1", 0, 0, 1920, 1080}, {"DP-2", 1920, 0, 1280, 720}}, 0, ":0"};
+    const auto plan = view::plan_wall_windows(file, host);
     REQUIRE(plan);
     REQUIRE(plan->size() == test::cave_walls);
     CHECK((*plan)[1].area.x == 240);
@@ -130,7 +133,7 @@ TEST_CASE("Walls: outputs become windows, and an output that is not here is refu
     wall.output.monitor = "DP-2";
     wall.right_output = content::DisplayOutput();
     wall.right_output->monitor_index = 0;
-    const auto two = view::plan_wall_windows(file, computer);
+    const auto two = view::plan_wall_windows(file, host);
     REQUIRE(two);
     REQUIRE(two->size() == test::cave_walls + 1);
     CHECK((*two)[1].area.x == 1920);
@@ -139,7 +142,7 @@ TEST_CASE("Walls: outputs become windows, and an output that is not here is refu
     CHECK((*two)[2].shows == view::WallWindow::Shows::right_output);
 
     const auto refused = [&](const char* part) {
-        const auto result = view::plan_wall_windows(file, computer);
+        const auto result = view::plan_wall_windows(file, host);
         REQUIRE_FALSE(result);
         CHECK(result.error().code == ErrorCode::no_device);
         CHECK(result.error().message().find("\"front\"") != std::string::npos);
@@ -153,31 +156,32 @@ TEST_CASE("Walls: outputs become windows, and an output that is not here is refu
     wall.output.display = {};
 }
 
-TEST_CASE("Walls: each process opens the windows of its rank, and a rank without a process is refused") {
+TEST_CASE(
+    "Walls: each process opens its windows, and the number of a process that does not exist is refused") {
     content::DisplayFile file = test::small_cave();
-    file.walls[1].output.rank = 1;
-    file.walls[3].output.rank = 1;
-    content::Computer computer{{{"DP-1", 0, 0, 1920, 1080}}, 0, ":0", 2};
-    const auto first = view::plan_wall_windows(file, computer);
+    file.walls[1].output.process = 1;
+    file.walls[3].output.process = 1;
+    content::DisplayHost host{{{"DP-1", 0, 0, 1920, 1080}}, 0, ":0", 2};
+    const auto first = view::plan_wall_windows(file, host);
     REQUIRE(first);
     CHECK(first->size() == test::cave_walls - 2);
-    computer.rank = 1;
-    const auto second = view::plan_wall_windows(file, computer);
+    host.process = 1;
+    const auto second = view::plan_wall_windows(file, host);
     REQUIRE(second);
     REQUIRE(second->size() == 2);
     CHECK((*second)[0].wall == 1);
     CHECK((*second)[1].wall == 3);
 
     const auto refused = [&](const char* part) {
-        const auto result = view::plan_wall_windows(file, computer);
+        const auto result = view::plan_wall_windows(file, host);
         REQUIRE_FALSE(result);
         CHECK(result.error().code == ErrorCode::usage);
         CHECK(result.error().message().find(part) != std::string::npos);
     };
-    computer = {{}, 2, ":0", 3};
+    host = {{}, 2, ":0", 3};
     refused("process 2 shows no wall");
-    file.walls[1].output.rank = 4;
+    file.walls[1].output.process = 4;
     refused("wall \"front\": its output has rank 4, and there are 3 processes; expected mpirun -n 5");
-    computer = {{}, 0, ":0", 1};
+    host = {{}, 0, ":0", 1};
     refused("has rank 4, and the program was started alone");
 }

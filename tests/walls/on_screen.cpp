@@ -89,7 +89,7 @@ class SpheresAround : public view::WindowContent {
         sphere_.reset();
     }
     Status update(const view::WindowFrame& window) override {
-        head_ = window.immersion->head;
+        head_ = window.immersive->head;
         if (++frames_ < 3) return {};
         BOLT_TRY(gpu_->device->idle());
         BOLT_TRY_ASSIGN(screen_, test::read_screen());
@@ -101,12 +101,12 @@ class SpheresAround : public view::WindowContent {
         return {};
     }
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override {
-        for (std::uint32_t i = 0; i < window.immersion->groups.size(); ++i) {
-            const view::EyeGroup& group = window.immersion->groups[i];
+        for (std::uint32_t i = 0; i < window.immersive->groups.size(); ++i) {
+            const view::EyeGroup& group = window.immersive->groups[i];
             BOLT_TRY(
                 gpu_->renderer->render(frame, scene_, group.eyes, group.size, view::immersive_group + i));
         }
-        const render::Eye eye = window.immersion->groups[at(test::CaveWall::front)].eyes.front();
+        const render::Eye eye = window.immersive->groups[at(test::CaveWall::front)].eyes.front();
         return gpu_->renderer->render(frame, scene_, std::span(&eye, 1), window.size);
     }
     [[nodiscard]] bool closed() const override {
@@ -163,7 +163,7 @@ void run_cave(const Vec3& head, const std::function<void(const SpheresAround&)>&
     platform::Window window = test::need(platform::Window::open(desktop, window_options));
     view::WallsOptions walls_options;
     walls_options.displays = displays;
-    walls_options.head.emplace(test::need(displays::HeadSource::open(displays.head, ".")));
+    walls_options.head.emplace(test::need(head_tracking::HeadSource::open(displays.head, ".")));
     const auto walls = test::need(view::Walls::open(desktop, std::move(walls_options)));
     gpu::InstanceOptions options;
     options.validation = true;

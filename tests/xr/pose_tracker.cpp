@@ -11,8 +11,8 @@ namespace {
 
 const Pose somewhere{{0.3, 1.7, -0.4}, rotation({0.1, -0.4, 0.2})};
 
-std::unique_ptr<xr::PoseTracker> opened(xr::TrackedThing thing) {
-    auto tracker = xr::PoseTracker::open(thing);
+std::unique_ptr<xr::PoseTracker> opened(xr::TrackedDevice device) {
+    auto tracker = xr::PoseTracker::open(device);
     REQUIRE_MESSAGE(tracker, (tracker ? "" : tracker.error().message()));
     return std::move(*tracker);
 }
@@ -34,7 +34,7 @@ void check_same(const std::optional<Pose>& pose, const Pose& expected) {
 TEST_CASE("PoseTracker: the headset's pose in the stage, without pictures and frames") {
     const test::MockRuntime mock;
     mock->set_head({somewhere});
-    const auto tracker = opened(xr::TrackedThing::head);
+    const auto tracker = opened(xr::TrackedDevice::headset);
     check_same(pose_of(*tracker), somewhere);
     const Pose moved{{-0.2, 1.5, 0.1}, rotation({0.0, 1.0, 0.0})};
     mock->set_head({moved});
@@ -48,7 +48,7 @@ TEST_CASE("PoseTracker: the controller that is fixed to the glasses, of one hand
     hand.profile = "/interaction_profiles/htc/vive_controller";
     hand.grip.pose = somewhere;
     mock->set_hand(mock::Side::left, hand);
-    const auto left = opened(xr::TrackedThing::left_hand);
+    const auto left = opened(xr::TrackedDevice::left_controller);
     (void)pose_of(*left);
     check_same(pose_of(*left), somewhere);
 }
@@ -63,7 +63,7 @@ TEST_CASE("PoseTracker: the trigger of each kind of controller, and no press whi
         mock::Hand hand;
         hand.profile = profile;
         mock->set_hand(mock::Side::right, hand);
-        const auto right = opened(xr::TrackedThing::right_hand);
+        const auto right = opened(xr::TrackedDevice::right_controller);
         (void)pose_of(*right);
         (void)pose_of(*right);
         CHECK(!right->pressed());
@@ -82,12 +82,12 @@ TEST_CASE("PoseTracker: the trigger of each kind of controller, and no press whi
 TEST_CASE("PoseTracker: tells whether its poses are those in the stage") {
     {
         const test::MockRuntime mock;
-        CHECK(opened(xr::TrackedThing::right_hand)->in_stage());
+        CHECK(opened(xr::TrackedDevice::right_controller)->in_stage());
     }
     mock::Config config;
     config.spaces = {XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL};
     const test::MockRuntime mock(config);
-    CHECK(!opened(xr::TrackedThing::right_hand)->in_stage());
+    CHECK(!opened(xr::TrackedDevice::right_controller)->in_stage());
 }
 
 TEST_CASE("PoseTracker: a controller that is switched off, and a pose that is estimated, are not tracked") {
@@ -95,7 +95,7 @@ TEST_CASE("PoseTracker: a controller that is switched off, and a pose that is es
     mock::Hand hand;
     hand.active = false;
     mock->set_hand(mock::Side::right, hand);
-    const auto right = opened(xr::TrackedThing::right_hand);
+    const auto right = opened(xr::TrackedDevice::right_controller);
     CHECK(!pose_of(*right).has_value());
     CHECK(!pose_of(*right).has_value());
     hand.active = true;
@@ -113,7 +113,7 @@ TEST_CASE("PoseTracker: a controller that is switched off, and a pose that is es
 TEST_CASE("PoseTracker: without a runtime, a headset or the extension there is none, with the reason") {
     {
         const test::EnvironmentVariable none("XR_RUNTIME_JSON", "/nowhere.json");
-        const auto tracker = xr::PoseTracker::open(xr::TrackedThing::head);
+        const auto tracker = xr::PoseTracker::open(xr::TrackedDevice::headset);
         REQUIRE(!tracker);
         CHECK(tracker.error().code == ErrorCode::no_device);
     }
@@ -121,28 +121,28 @@ TEST_CASE("PoseTracker: without a runtime, a headset or the extension there is n
     config.connected = false;
     {
         const test::MockRuntime mock(config);
-        const auto tracker = xr::PoseTracker::open(xr::TrackedThing::head);
+        const auto tracker = xr::PoseTracker::open(xr::TrackedDevice::headset);
         REQUIRE(!tracker);
         CHECK(tracker.error().code == ErrorCode::no_device);
     }
     config = {};
     config.extensions = {"XR_KHR_vulkan_enable2", "XR_KHR_convert_timespec_time"};
     const test::MockRuntime mock(config);
-    const auto tracker = xr::PoseTracker::open(xr::TrackedThing::head);
+    const auto tracker = xr::PoseTracker::open(xr::TrackedDevice::headset);
     REQUIRE(!tracker);
     CHECK(tracker.error().message().find("lacks XR_MND_headless") != std::string::npos);
 }
 
 TEST_CASE("PoseTracker: a runtime that ends is a loss, and another tracker finds it again") {
     const test::MockRuntime mock;
-    auto tracker = opened(xr::TrackedThing::head);
+    auto tracker = opened(xr::TrackedDevice::headset);
     (void)pose_of(*tracker);
     mock->send(mock::Event::instance_loss);
     const auto lost = tracker->read();
     REQUIRE(!lost);
     CHECK(lost.error().lost);
     tracker.reset();
-    tracker = opened(xr::TrackedThing::head);
+    tracker = opened(xr::TrackedDevice::headset);
     mock->set_head({somewhere});
     check_same(pose_of(*tracker), somewhere);
 }

@@ -17,8 +17,8 @@ namespace {
 constexpr int warm_up = 8;  // frames: pipelines, uploads
 
 // The eyes of a standing user who looks down at the workpiece.
-view::Immersion immersion(VkExtent2D size) {
-    view::Immersion made;
+view::ImmersiveFrame facing_frame(VkExtent2D size) {
+    view::ImmersiveFrame made;
     made.head = {{0.0, 1.65, 0.0}, glm::angleAxis(to_radians(-30.0), Vec3(1.0, 0.0, 0.0))};
     made.tracked = made.attentive = true;
     view::EyeGroup group{size, {}};
@@ -93,7 +93,7 @@ void headset_zq350(benchmark::State& state) {
         Lesson lesson;
         const VkExtent2D size{static_cast<std::uint32_t>(state.range(0)),
                               static_cast<std::uint32_t>(state.range(1))};
-        const view::Immersion eyes = immersion(size);
+        const view::ImmersiveFrame eyes = facing_frame(size);
         const view::WindowFrame room{{}, {1280, 720}, 1.0F, 1.0 / 90.0, &eyes},
             window{{}, {1280, 720}, 1.0F, 1.0 / 90.0, nullptr};
         constexpr int frames = 10;

@@ -9,6 +9,7 @@
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/pace.hpp"
 #include "engine/render/renderer.hpp"
+#include "game/view/gpu_context.hpp"
 #include "game/view/pictures.hpp"
 #include "tools/author/preview/controls.hpp"
 

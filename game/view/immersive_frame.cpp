@@ -1,4 +1,4 @@
-#include "game/view/immersion.hpp"
+#include "game/view/immersive_frame.hpp"
 
 namespace bolt::view {
 

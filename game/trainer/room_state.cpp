@@ -1,4 +1,4 @@
-#include "game/trainer/immersive.hpp"
+#include "game/trainer/room_state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double head_to_machine = 0.40;  // m, horizontally, to the front of the workpiece
+constexpr double head_to_workpiece = 0.40;  // m, horizontally, to the front of the workpiece
 constexpr double panel_below_eyes = 0.02, panel_least_height = 0.9;  // m
 // Sticks: the deflection that turns the workpiece by a step, that below which it is at rest, and m/s.
 constexpr float stick_turns = 0.7F, stick_rests = 0.3F;
@@ -23,14 +23,14 @@ Quat heading(const Pose& head) {
     return glm::angleAxis(std::atan2(-right.z, right.x), Vec3(0.0, 1.0, 0.0));
 }
 
-Vec3 middle_of(const render::BoundingBox& machine) { return 0.5 * (Vec3(machine.low) + Vec3(machine.high)); }
+Vec3 middle_of(const render::BoundingBox& box) { return 0.5 * (Vec3(box.low) + Vec3(box.high)); }
 
 void add_key(std::vector<platform::InputEvent>& events, platform::Key key, bool down, bool& was_down) {
     if (std::exchange(was_down, down) != down) events.emplace_back(platform::KeyEvent{key, down, false, {}});
 }
 
 // The stick turns the workpiece by steps, once for each deflection: smooth turning makes people sick.
-void apply_stick(Room& room, const glm::vec2& stick, bool& used, double seconds) {
+void apply_stick(RoomState& room, const glm::vec2& stick, bool& used, double seconds) {
     if (!used && std::abs(stick.x) > stick_turns) {
         room.turns += stick.x > 0.0F ? 1 : -1;
         used = true;
@@ -44,22 +44,21 @@ void apply_stick(Room& room, const glm::vec2& stick, bool& used, double seconds)
 
 }  // namespace
 
-Pose place_workpiece(const Pose& head, const render::BoundingBox& machine,
-                     std::optional<double> seated_eyes) {
+Pose place_workpiece(const Pose& head, const render::BoundingBox& box, std::optional<double> seated_eyes) {
     const Quat turn = heading(head);
-    const Vec3 front(0.5 * static_cast<double>(machine.low.x + machine.high.x), 0.0,
-                     static_cast<double>(machine.high.z) + head_to_machine);
+    const Vec3 front(0.5 * static_cast<double>(box.low.x + box.high.x), 0.0,
+                     static_cast<double>(box.high.z) + head_to_workpiece);
     Pose place{head.position - turn * front, turn};
-    const double floor = static_cast<double>(machine.low.y) - scene::floor_below_plate;
+    const double floor = static_cast<double>(box.low.y) - scene::floor_below_plate;
     place.position.y = (seated_eyes ? head.position.y - *seated_eyes : 0.0) - floor;
     return place;
 }
 
-Pose moved_into_view(const Pose& workpiece, const render::BoundingBox& machine, const Pose& head,
+Pose moved_into_view(const Pose& workpiece, const render::BoundingBox& box, const Pose& head,
                      const std::function<bool(const Vec3&)>& shows) {
     constexpr double farthest = 2.5, step = 0.05,
-                     margin = 0.1;  // m; the margin around the machine is for the hand
-    const Vec3 low = Vec3(machine.low) - margin, high = Vec3(machine.high) + margin;
+                     margin = 0.1;  // m; the margin around the box is for the hand
+    const Vec3 low = Vec3(box.low) - margin, high = Vec3(box.high) + margin;
     const Vec3 away = heading(head) * Vec3(0.0, 0.0, -1.0);
     const auto seen_corners = [&](const Pose& place) {
         int seen = 0;
@@ -90,8 +89,8 @@ Pose place_panel(const Pose& head) {
     return {centre, turn};
 }
 
-Pose adjusted(const Pose& workpiece, const render::BoundingBox& machine, int turns, double height) {
-    const Vec3 middle = middle_of(machine);
+Pose adjusted(const Pose& workpiece, const render::BoundingBox& box, int turns, double height) {
+    const Vec3 middle = middle_of(box);
     const Pose turned{{0.0, height, 0.0}, glm::angleAxis(turns * turn_step, Vec3(0.0, 1.0, 0.0))};
     return workpiece * Pose{middle, {1.0, 0.0, 0.0, 0.0}} * turned * Pose{-middle, {1.0, 0.0, 0.0, 0.0}};
 }
@@ -108,7 +107,7 @@ std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim) {
     return points * static_cast<double>(panel_scale);
 }
 
-std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys,
+std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& hands, const HandKeys& keys,
                                               double seconds) {
     std::vector<platform::InputEvent> events;
     std::optional<glm::dvec2> at;
@@ -154,9 +153,9 @@ void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown
 }
 
 Status draw_in_room(render::Renderer& renderer, gpu::FrameContext& frame, const render::Scene& scene,
-                    const Pose& scene_in_room, const view::Immersion& immersion) {
-    for (std::uint32_t i = 0; i < immersion.groups.size(); ++i) {
-        const view::EyeGroup& group = immersion.groups[i];
+                    const Pose& scene_in_room, const view::ImmersiveFrame& immersive) {
+    for (std::uint32_t i = 0; i < immersive.groups.size(); ++i) {
+        const view::EyeGroup& group = immersive.groups[i];
         std::vector<render::Eye> eyes;
         for (const render::Eye& eye : group.eyes) eyes.push_back(render::seen_from(eye, scene_in_room));
         if (!eyes.empty())

@@ -1,25 +1,26 @@
-// Delivers a trainee's hands to a trainer without a window and without a headset: as the immersion of its
-// frames.
+// Delivers a trainee's hands to a trainer without a window and without a headset: as its
+// immersive frames.
 #pragma once
 
 #include <algorithm>
 #include <cstdlib>
 #include <string>
 
+#include "game/view/pictures.hpp"
 #include "tests/room/trainee_in_room.hpp"
 #include "tests/trainer_app/headless_trainer.hpp"
 
 namespace bolt::test {
 
-class ImmersionDriver final : public RoomDriver {
+class ImmersiveDriver final : public RoomDriver {
   public:
-    // `trainer.immersion` must be set in each frame.
-    explicit ImmersionDriver(HeadlessTrainer& trainer) : trainer_(trainer) {}
+    // `trainer.immersive` must be set in each frame.
+    explicit ImmersiveDriver(HeadlessTrainer& trainer) : trainer_(trainer) {}
 
     void frame(const Pose& head, const xr::Hands& hands) override {
-        trainer_.immersion->head = head;
-        for (view::EyeGroup& group : trainer_.immersion->groups) group = two_eyes(head, group.size);
-        trainer_.immersion->hands = hands;
+        trainer_.immersive->head = head;
+        for (view::EyeGroup& group : trainer_.immersive->groups) group = two_eyes(head, group.size);
+        trainer_.immersive->hands = hands;
         trainer_.frame();
     }
     [[nodiscard]] const trainer::App& app() const override { return trainer_.app(); }
@@ -36,11 +37,11 @@ inline void point_at(HeadlessTrainer& trainer, const trainer::DrawnWidget& widge
         glm::dvec2(widget.middle) / static_cast<double>(trainer::panel_scale) - 0.5 * trainer::panel_points;
     const Vec3 target = panel * Vec3(points.x * trainer::point_size, -points.y * trainer::point_size, 0.0);
     const Vec3 hand = panel * Vec3(0.1, -0.4, 0.5);
-    xr::HandInput& right = trainer.immersion->hands[xr::Side::right];
+    xr::HandInput& right = trainer.immersive->hands[xr::Side::right];
     right.active = true;
     right.select = select;
     const Vec3 along = glm::normalize(target - hand);
-    right.aim = xr::TrackedPose{
+    right.aim = xr::LocatedPose{
         {hand, glm::normalize(Quat(1.0 - along.z, glm::cross(Vec3(0.0, 0.0, -1.0), along)))}, true};
     trainer.frame();
 }

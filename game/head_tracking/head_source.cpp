@@ -1,11 +1,11 @@
-#include "game/displays/head_source.hpp"
+#include "game/head_tracking/head_source.hpp"
 
 #include <algorithm>
 #include <limits>
 
 #include "engine/tracking/recorded_poses.hpp"
 
-namespace bolt::displays {
+namespace bolt::head_tracking {
 
 using content::HeadTracker;
 
@@ -13,16 +13,16 @@ namespace {
 
 constexpr double search_interval = 1.0;  // s
 
-xr::TrackedThing thing_of(content::TrackedPose pose) {
+xr::TrackedDevice device_of(content::TrackedPose pose) {
     switch (pose) {
         case content::TrackedPose::left_hand:
-            return xr::TrackedThing::left_hand;
+            return xr::TrackedDevice::left_controller;
         case content::TrackedPose::right_hand:
-            return xr::TrackedThing::right_hand;
+            return xr::TrackedDevice::right_controller;
         case content::TrackedPose::headset:
             break;
     }
-    return xr::TrackedThing::head;
+    return xr::TrackedDevice::headset;
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ Result<HeadSource> HeadSource::open(const content::HeadTracking& head, const std
         BOLT_TRY_ASSIGN(auto poses, tracking::load_recorded_poses(folder / head.recording));
         source.recording_ = std::move(poses);
     } else if (head.tracker == HeadTracker::openxr) {
-        source.tracked_ = thing_of(head.pose);
+        source.tracked_ = device_of(head.pose);
         BOLT_TRY_ASSIGN(source.openxr_, xr::PoseTracker::open(*source.tracked_));
     }
     return source;
@@ -100,4 +100,4 @@ tracking::FilteredHead HeadSource::at(double now) {
     return head;
 }
 
-}  // namespace bolt::displays
+}  // namespace bolt::head_tracking

@@ -11,7 +11,7 @@
 #include "engine/tracking/head_pose.hpp"
 #include "engine/xr/pose_tracker.hpp"
 
-namespace bolt::displays {
+namespace bolt::head_tracking {
 
 // The samples that have arrived from the tracker.
 struct TrackerCounts {
@@ -48,9 +48,9 @@ class HeadSource {
     tracking::HeadFilterState state_;
     std::optional<tracking::DtrackReceiver> receiver_;
     int body_ = 0;
-    std::optional<xr::TrackedThing> tracked_;  // with tracker openxr only
-    std::unique_ptr<xr::PoseTracker> openxr_;  // null: the runtime has ended
-    double next_search_ = 0.0;                 // s
+    std::optional<xr::TrackedDevice> tracked_;  // with tracker openxr only
+    std::unique_ptr<xr::PoseTracker> openxr_;   // null: the runtime has ended
+    double next_search_ = 0.0;                  // s
     std::vector<tracking::BodySample> recording_;
     std::optional<double> started_;              // when the recording began, less the time of its first pose
     double played_until_ = 0.0;                  // s, in the recording
@@ -58,4 +58,4 @@ class HeadSource {
     TrackerCounts counts_;
 };
 
-}  // namespace bolt::displays
+}  // namespace bolt::head_tracking

@@ -1,6 +1,6 @@
 // A lesson in a headset or between projection walls: where the workpiece and the panel of the user interface
 // stand in the room, and the pointer on the panel. Nothing moves with the head. Poses are in the room's frame
-// (view::Immersion) unless a comment says otherwise.
+// (view::ImmersiveFrame) unless a comment says otherwise.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 #include "engine/render/renderer.hpp"
 #include "engine/render/scene.hpp"
 #include "game/trainer/touch_check.hpp"
-#include "game/view/immersion.hpp"
+#include "game/view/immersive_frame.hpp"
 
 namespace bolt::trainer {
 
@@ -31,10 +31,11 @@ struct PanelPointer {
     bool pressed = false;
 };
 
-// Survives a short loss of the display, so that workpiece and panel keep their poses.
-struct Room {
-    std::optional<Pose> workpiece;  // of the assembly's frame; none: not placed yet
-    std::optional<Pose> panel;      // of its centre; x right, y up, z towards the user
+// The state of a room from frame to frame. It is kept while the display is lost for a short time, so that
+// workpiece and panel stay where they are.
+struct RoomState {
+    std::optional<Pose> workpiece;  // pose of the assembly's frame; none: not placed yet
+    std::optional<Pose> panel;      // pose of its centre: x right, y up, z towards the user; none: likewise
     PanelPointer pointer;
     std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};  // in the last frame, by hand
     double height = 0.0;  // m that the user has raised the workpiece
@@ -50,20 +51,23 @@ struct Room {
     bool paused = false;              // the lesson is paused because the user does not see it
 };
 
-// Where the workpiece stands when the user looks straight ahead: in front, on a bench whose floor is the
-// room's, or for a seated user at `seated_eyes` m below the eyes.
-Pose place_workpiece(const Pose& head, const render::BoundingBox& machine, std::optional<double> seated_eyes);
+// The functions below take the bounding box of the workpiece as `box`, in the assembly's frame.
 
-// The workpiece, moved away from the head until a display shows as many corners of the machine as it can
-// within 2.5 m.
-Pose moved_into_view(const Pose& workpiece, const render::BoundingBox& machine, const Pose& head,
+// The pose of the workpiece in front of a user who looks straight ahead. Its bench stands on the floor of the
+// room, or for a seated user `seated_eyes` m below the eyes.
+Pose place_workpiece(const Pose& head, const render::BoundingBox& box, std::optional<double> seated_eyes);
+
+// The pose of the workpiece, moved away from the head by up to 2.5 m until the display shows most corners of
+// the box.
+Pose moved_into_view(const Pose& workpiece, const render::BoundingBox& box, const Pose& head,
                      const std::function<bool(const Vec3&)>& shows);
 
-// In front of the user, upright, a little below the eyes and behind the workpiece.
+// The pose of the panel: in front of the user, upright, a little below the eyes and behind the workpiece.
 Pose place_panel(const Pose& head);
 
-// The workpiece after the user has turned and raised it: about the vertical through its middle.
-Pose adjusted(const Pose& workpiece, const render::BoundingBox& machine, int turns, double height);
+// The pose of the workpiece after the user has turned it by `turns` steps about the vertical through its
+// middle, and raised it by `height` m.
+Pose adjusted(const Pose& workpiece, const render::BoundingBox& box, int turns, double height);
 inline constexpr double turn_step = to_radians(30.0);
 
 // The pose of the scene in the room, when the arm's frame is registered to it: the end of the handle is shown
@@ -75,13 +79,13 @@ inline Pose registered_scene(const Pose& room_from_arm, const Pose& arm_in_scene
 // Where a ray along −z of `aim` meets the panel, px; none: it does not.
 std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim);
 
-// The events of the hands in this frame: pointer and button on the panel, and the keys `pause` and `tool` for
-// the buttons of the controllers. Updates the room: its pointer, and turn and height by the sticks.
+// The keys that the buttons of the controllers stand for.
 struct HandKeys {
     platform::Key pause = platform::Key::escape, tool = platform::Key::unknown;
 };
-// `seconds`: of the frame.
-std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys,
+// The events of the hands in a frame of `seconds`: pointer and button on the panel, and the keys of the
+// buttons. Updates the room: its pointer, and the turns and the height by the sticks.
+std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& hands, const HandKeys& keys,
                                               double seconds);
 
 // The position of an event of the pointer, px; null for other events.
@@ -90,9 +94,9 @@ glm::dvec2* pointer_position(platform::InputEvent& event);
 // Changes the pointer's positions from a window, where the panel's picture covers `shown`, to the panel.
 void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown);
 
-// Draws the scene for each group of eyes of the room. `scene_in_room`: the pose of the scene's frame.
+// Draws the scene for each group of eyes. `scene_in_room`: the pose of the scene's frame.
 Status draw_in_room(render::Renderer& renderer, gpu::FrameContext& frame, const render::Scene& scene,
-                    const Pose& scene_in_room, const view::Immersion& immersion);
+                    const Pose& scene_in_room, const view::ImmersiveFrame& immersive);
 
 // The panel in the scene whose frame is `scene_in_room`.
 render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture);

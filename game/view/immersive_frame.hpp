@@ -18,18 +18,19 @@ struct EyeGroup {
     std::vector<render::Eye> eyes;
 };
 
-struct Immersion {
+struct ImmersiveFrame {
     Pose head;
-    bool tracked = false;    // false: the head's pose is held or estimated
+    bool tracked = false;    // false: the pose is an old or an estimated one
     bool attentive = false;  // false: the user does not see the picture; pause, and output no force
-    // Pose of the head for which workpiece and panel are placed, if the display is fixed in the room. None:
-    // they are placed for the tracked head.
+    // Of a display that is fixed in the room: the pose of the head for which workpiece and panel are placed.
+    // None: they are placed for the tracked head.
     std::optional<Pose> expected_head;
     // Returns true if the display shows a point of the room to the expected head; empty: it shows all points.
     std::function<bool(const Vec3&)> shows;
     bool recentred = false;   // the room's origin has moved since the last frame
     bool floor_known = true;  // y is 0 at the floor; false: at the eyes of a seated user
-    // Group i is drawn as the renderer's group immersive_group + i. May be empty: nothing can be drawn.
+    // Group i is drawn as the renderer's group immersive_group + i. Nothing is drawn without groups, and for
+    // a group without eyes.
     std::vector<EyeGroup> groups;
     xr::Hands hands;
     bool tracks_hands = false;  // the display has hands that can move the tool; false on walls

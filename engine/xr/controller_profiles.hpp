@@ -1,0 +1,34 @@
+// The controllers that the program knows, as OpenXR interaction profiles, for the hands of a lesson
+// (input.hpp) and for a controller that is the tracker of the head (pose_tracker.hpp).
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+#include "engine/xr/openxr.hpp"
+
+namespace bolt::xr {
+
+inline constexpr std::array<const char*, 2> hand_paths{"/user/hand/left", "/user/hand/right"};  // by Side
+
+// The input of a controller for each intent, below the path of the hand; null: it has none.
+struct ControllerProfile {
+    const char* path;  // its interaction profile
+    const char* select;
+    const char* grasp;
+    const char* stick;
+    std::array<const char*, 2> menu, secondary;  // by Side
+    bool vibrates = true;
+    bool needs_hand_interaction = false;  // the extension XR_EXT_hand_interaction: hands, not a controller
+};
+std::span<const ControllerProfile> controller_profiles();
+
+Result<XrPath> path_of(XrInstance instance, const std::string& text);
+
+// Suggests bindings for a controller. Returns false if the runtime does not know the controller; others still
+// work.
+Result<bool> suggest_bindings_of(const ControllerProfile& profile,
+                                 std::span<const XrActionSuggestedBinding> bindings, XrInstance instance);
+
+}  // namespace bolt::xr

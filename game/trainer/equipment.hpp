@@ -1,0 +1,51 @@
+// The devices that a user chooses for a lesson, in the menu or on the command line, and how mouse and
+// keyboard move the hand without one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "content/station/station_file.hpp"
+
+namespace bolt::trainer {
+
+// How mouse and keyboard move the hand if no device does.
+enum class HandMode : std::uint8_t {
+    helped,    // the mouse chooses a nut, and the hand goes there automatically (--hand helped)
+    free,      // the mouse moves the hand, which feels the forces of a simulated arm; runs with the frames
+    keyboard,  // keys move the tool like a puck
+    simulated_arm,  // as `free`, on the threads of a station like a real arm
+    tracked,        // a headset measures the hand; runs with the frames
+};
+
+// The input of a lesson: mouse and keyboard, or a station with devices.
+struct Equipment {
+    std::vector<std::string> devices;  // ids, as boltwright devices lists them
+    content::StationFile station;  // settings of its devices, where `devices` has them; its glove is not used
+    std::filesystem::path wheel_config_file;  // empty: the station's, or the defaults of device::WheelConfig
+    std::filesystem::path glove;              // serial port; empty: no glove
+    double force_scale = 1.0;                 // 0 … 1 of the devices' maximum force
+    HandMode hand = HandMode::helped;         // if none of the devices moves the hand
+
+    // True if its start may take seconds, or last until the user has prepared an arm.
+    [[nodiscard]] bool has_hardware() const { return !devices.empty() || !glove.empty(); }
+    [[nodiscard]] bool needs_station() const { return has_hardware() || hand != HandMode::helped; }
+    bool operator==(const Equipment&) const = default;
+};
+
+// An entry in the menu of devices.
+struct DeviceOption {
+    std::string name;  // names of the devices; empty: mouse and keyboard, as Equipment::hand says
+    Equipment equipment;
+};
+// Mouse and keyboard with a helped and with a free hand, the combinations of the devices that are connected
+// now, and the devices of `chosen`, such as those of a station file.
+std::vector<DeviceOption> device_options(const Equipment& chosen);
+// Adds the hands of a headset to the menu, if they are not in it.
+void offer_tracked_hand(std::vector<DeviceOption>& options);
+// The default: the connected device that moves the tool, together with a wheel if there is one; else the
+// mouse.
+Equipment default_equipment();
+
+}  // namespace bolt::trainer

@@ -1,0 +1,38 @@
+// The user's choice of a lesson, and what follows from it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "content/format/assembly.hpp"
+#include "content/station/station_file.hpp"
+#include "content/trainee/settings.hpp"
+#include "game/lesson/lesson.hpp"
+#include "game/trainer/equipment.hpp"
+
+namespace bolt::trainer {
+
+// The user's choice in the menu or on the command line.
+struct LessonChoice {
+    std::string assembly = "zq350";
+    std::string variant;  // empty: the assembly's default
+    lesson::Mode mode = lesson::Mode::guided;
+    lesson::Task task = lesson::Task::tighten;
+    std::string trainee;   // empty: no name
+    std::string language;  // empty: the desktop's, if its texts exist
+    std::string tool;      // empty: the assembly's first
+    Equipment equipment;
+    std::optional<joint::Law> law;  // from the command line; a choice in the menu resets it
+};
+
+// The tool of the station's arm among those of an assembly, as LessonChoice::tool: empty if it is the first
+// or the station has none. Fails if the assembly does not have it.
+Result<std::string> tool_of_station(const content::StationFile& station,
+                                    std::span<const content::Tool> tools);
+
+// The law of a lesson: the command line's, else the trainee's, else the assembly's.
+joint::Law effective_law(const LessonChoice& choice, const content::TraineeSettings& settings,
+                         joint::Law assembly_law);
+
+}  // namespace bolt::trainer
