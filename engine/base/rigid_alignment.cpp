@@ -210,6 +210,46 @@ std::vector<std::optional<double>> left_out_residuals(std::span<const PointPair>
     return residuals;
 }
 
+// With the means R̄ and p̄ over the poses, c = R̄ t + p̄ minimises the sum for a given t. What is left has the
+// normal equations (1 − R̄ᵀ R̄) t = R̄ᵀ p̄ − mean(Rᵀ p). The eigenvalues of their matrix are the variances of R e
+// for unit vectors e.
+Result<PivotFit> fit_pivot(std::span<const Pose> poses) {
+    const auto n = static_cast<double>(poses.size());
+    glm::dmat3 turn(0.0);
+    Vec3 position(0.0), seen(0.0);  // the means of R, p and Rᵀ p
+    for (const Pose& pose : poses) {
+        if (!(glm::length(pose.position) <= max_coordinate) || !(glm::length(pose.orientation) > 0.5))
+            return fail(ErrorCode::failed, "a pose is not finite", "metres, and a unit quaternion");
+        turn += glm::mat3_cast(pose.orientation) / n;
+        position += pose.position / n;
+        seen += glm::inverse(pose.orientation) * pose.position / n;
+    }
+    const glm::dmat3 back = glm::transpose(turn), variance = glm::dmat3(1.0) - back * turn;
+    Matrix<3> matrix{};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            matrix[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = variance[j][i];
+    const EigenSystem<3> axes = eigen_system(matrix);
+    PivotFit fit;
+    fit.turning = poses.empty() ? 0.0 : std::sqrt(std::max(axes.values[2], 0.0));
+    if (!(fit.turning >= min_turning))
+        return fail(ErrorCode::failed, "the tool was turned too little, or about one axis only",
+                    "turns by 20 degrees or more to each side, about two axes");
+    const Vec3 right = back * position - seen;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& [x, y, z] = axes.vectors[i];
+        const Vec3 axis(x, y, z);
+        fit.tip += axis * (glm::dot(axis, right) / axes.values[i]);
+    }
+    fit.pivot = turn * fit.tip + position;
+    for (const Pose& pose : poses) {
+        const Vec3 error = pose * fit.tip - fit.pivot;
+        fit.rms += glm::dot(error, error) / n;
+    }
+    fit.rms = std::sqrt(fit.rms);
+    return fit;
+}
+
 std::optional<double> largest(std::span<const std::optional<double>> residuals) {
     std::optional<double> most;
     for (const std::optional<double>& residual : residuals) {

@@ -1,5 +1,5 @@
 // Registration: the pose that aligns points measured in one frame with the same points in another, and
-// measures of its quality.
+// measures of its quality; and the tip of a tracked tool, from poses in which it turns about its tip.
 #pragma once
 
 #include <cstdint>
@@ -65,6 +65,25 @@ Result<RigidAlignment> align_points(std::span<const PointPair> pairs, const Alig
 // other points predicts; none if the others cannot be aligned. The rms of the residuals is s·√3·√(1 − 2/n)
 // for noise s, and says little of the error of the pose; these distances include it.
 std::vector<std::optional<double>> left_out_residuals(std::span<const PointPair> pairs);
+
+// A tool that was turned about its tip while the tip stayed on one point.
+struct PivotFit {
+    Vec3 tip{0.0};     // m, in the frame of the tool
+    Vec3 pivot{0.0};   // m, the point, in the frame of the poses
+    double rms = 0.0;  // m, of the distances between the tip and the point
+    // By how much the poses differ: the least standard deviation, over all directions of the tool, of a unit
+    // vector that is fixed to it. Noise of standard deviation s on each axis of n poses gives an error of the
+    // tip below s / (√n · turning) on each axis. 0: all turns have one axis, and the tip may be anywhere
+    // along it.
+    double turning = 0.0;
+};
+// That of turns which are spread evenly from −15° to 15° about each of two axes.
+inline constexpr double min_turning = 0.15;
+
+// The tip t and the point c with the least sum of |R t + p − c|² over the poses (R, p), in closed form:
+// linear least squares, "algebraic one step" of Z. Yaniv (Proc. SPIE 9415 (2015) 941527). Fails if a pose is
+// not finite, or `turning` is below min_turning.
+Result<PivotFit> fit_pivot(std::span<const Pose> poses);
 
 // Returns the largest; none if one of them is none, or without any.
 std::optional<double> largest(std::span<const std::optional<double>> residuals);

@@ -28,7 +28,7 @@ struct RegisterArguments {
     std::vector<double> tip{};  // empty: the stored one for --check, or the origin of the handle
     std::vector<double> controller_tip{0.0, 0.0, 0.0};
     std::size_t count = 7;
-    bool check = false, force = false, yes = false;
+    bool find_tip = false, check = false, force = false, yes = false;
 };
 
 struct FramePair {
@@ -151,6 +151,7 @@ Result<std::vector<PointPair>> touch_with_both(const RegisterArguments& options,
     station_setup::ControllerTip controller({read, [&] { return enter.pressed(); },
                                              [] { return interrupted(); }, show_line, device::steady_timer()},
                                             point_of(options.controller_tip));
+    if (options.find_tip) BOLT_TRY(controller.find_tip());
     return station_setup::measure_pairs(arm, controller, count);
 }
 
@@ -256,9 +257,15 @@ void add_touch_options(CLI::App& command, RegisterArguments& options, CLI::Optio
         "left or right: the headset's controller that touches each point of the user's choice before the arm "
         "does; no file of points is needed");
     controller->check(CLI::IsMember({"left", "right"}))->excludes(points)->excludes(targets);
-    add_tip("--controller-tip", options.controller_tip,
-            "Position x,y,z of the controller's tip in the frame of its grip, m")
-        ->needs(controller);
+    CLI::Option* controller_tip =
+        add_tip("--controller-tip", options.controller_tip,
+                "Position x,y,z of the controller's tip in the frame of its grip, m");
+    controller_tip->needs(controller);
+    command
+        .add_flag("--find-tip", options.find_tip,
+                  "Measure the controller's tip first: the user turns the controller about it")
+        ->needs(controller)
+        ->excludes(controller_tip);
     command
         .add_option("--count", options.count,
                     "Number of points to touch with the controller and the arm; the last is the check point")

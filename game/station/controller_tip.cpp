@@ -44,23 +44,51 @@ Status ControllerTip::wait_for_press() {
 }
 
 // Empty if the controller was not tracked for a moment: the poses around such a gap are unreliable.
-Result<std::vector<Vec3>> ControllerTip::positions() {
-    std::vector<Vec3> positions;
+Result<std::vector<Pose>> ControllerTip::tracked_poses(double seconds) {
+    std::vector<Pose> poses;
     bool tracked = true;
-    for (const double end = io_.timer.now() + options_.duration; io_.timer.now() < end;) {
+    for (const double end = io_.timer.now() + seconds; io_.timer.now() < end;) {
         BOLT_TRY_ASSIGN(const ControllerSample sample, next_sample());
         tracked = tracked && sample.pose;
-        if (sample.pose) positions.push_back(*sample.pose * tip_);
+        if (sample.pose) poses.push_back(*sample.pose);
     }
-    if (!tracked) positions.clear();
-    return positions;
+    if (!tracked) poses.clear();
+    return poses;
+}
+
+Result<PivotFit> ControllerTip::find_tip() {
+    while (true) {
+        io_.show(
+            fmt::format("Hold the tip of the controller on a fixed point, press its trigger or Enter, and "
+                        "turn the controller "
+                        "about the tip in all directions for {:.0f} s; the tip must not slip.",
+                        pivot_time));
+        BOLT_TRY(wait_for_press());
+        BOLT_TRY_ASSIGN(const std::vector<Pose> poses, tracked_poses(pivot_time));
+        const Result<PivotFit> fit = fit_pivot(poses);
+        if (fit && fit->rms <= max_pivot_rms) {
+            tip_ = fit->tip;
+            io_.show(
+                fmt::format("The tip is at {:.4f},{:.4f},{:.4f} m in the frame of the grip; rms {:.1f} mm.",
+                            tip_.x, tip_.y, tip_.z, fit->rms / mm));
+            return fit;
+        }
+        io_.show(fmt::format(
+            "{}. Once more.",
+            poses.empty() ? "The controller was not tracked all the time"
+            : fit         ? fmt::format("The tip has slipped: its rms is {:.1f} mm; expected at most {:.1f}",
+                                        fit->rms / mm, max_pivot_rms / mm)
+                          : fit.error().message()));
+    }
 }
 
 Result<Vec3> ControllerTip::touch(std::size_t number, std::string_view request) {
     while (true) {
         io_.show(request);
         BOLT_TRY(wait_for_press());
-        BOLT_TRY_ASSIGN(const std::vector<Vec3> touched, positions());
+        BOLT_TRY_ASSIGN(const std::vector<Pose> poses, tracked_poses(options_.duration));
+        std::vector<Vec3> touched;
+        for (const Pose& pose : poses) touched.push_back(pose * tip_);
         Result<Vec3> mean = average_touch(touched, options_);
         if (mean) {
             io_.show(fmt::format("Point {}: measured with the controller.", number + 1));

@@ -30,6 +30,10 @@ struct ControllerIo {
 // larger than that of an arm. max_silence: a controller that is not tracked for so long is reported.
 inline constexpr TouchOptions controller_touch{0.3, 3.0e-3, 5, 1.0};
 
+// The user turns the controller about its tip for so long, s. A tip that has slipped by some millimetres
+// leaves a larger rms.
+inline constexpr double pivot_time = 6.0, max_pivot_rms = 2.0e-3;
+
 // The tip of a controller, in the tracker's frame: the user touches a point and presses the controller's
 // button or Enter. The position is averaged; if the hand moved, or the controller was not tracked meanwhile,
 // the point is asked for again. While it is not tracked, the program says so and waits.
@@ -38,6 +42,11 @@ class ControllerTip {
     // `tip`: m, in the frame of the grip.
     ControllerTip(ControllerIo io, const Vec3& tip, const TouchOptions& options = controller_touch);
 
+    // Finds where the tip is in the frame of the grip, and takes it for the touches that follow: the user
+    // keeps the tip on one point and turns the controller about it. Turns that do not determine the tip, or a
+    // tip that slips, are asked for again.
+    Result<PivotFit> find_tip();
+
     // Shows `request` and waits until point `number`, from 0, is measured. Fails if the tracker is lost or
     // the user ends it.
     Result<Vec3> touch(std::size_t number, std::string_view request);
@@ -45,7 +54,7 @@ class ControllerTip {
   private:
     Result<ControllerSample> next_sample();
     Status wait_for_press();
-    Result<std::vector<Vec3>> positions();
+    Result<std::vector<Pose>> tracked_poses(double seconds);
 
     ControllerIo io_;
     Vec3 tip_;

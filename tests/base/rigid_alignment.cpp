@@ -322,4 +322,90 @@ TEST_CASE("Rigid alignment: NaN, infinite and huge coordinates are refused") {
         }
 }
 
+namespace {
+
+// A tool whose tip stays on a point while it is turned by up to `angle` about its x and y axes.
+std::vector<Pose> turned_tool(Random& random, const Vec3& tip, const Vec3& pivot, double angle,
+                              double sigma) {
+    const Quat start = random_turn(random);
+    std::vector<Pose> poses;
+    for (int i = 0; i < 400; ++i) {
+        const Quat turn = start * rotation({random.uniform(-angle, angle), 0.0, 0.0}) *
+                          rotation({0.0, random.uniform(-angle, angle), 0.0});
+        poses.push_back({pivot - turn * tip + noise(random, sigma), turn});
+    }
+    return poses;
+}
+
+double squares_of(std::span<const Pose> poses, const Vec3& tip, const Vec3& pivot) {
+    double squares = 0.0;
+    for (const Pose& pose : poses) squares += glm::dot(pose * tip - pivot, pose * tip - pivot);
+    return squares;
+}
+
+}  // namespace
+
+TEST_CASE("Pivot: exact poses of a tool that turns about its tip give the tip and the point") {
+    Random random(3);
+    for (int i = 0; i < 50; ++i) {
+        const Vec3 tip = noise(random, 0.2), pivot = noise(random, 2.0);
+        const auto fit = fit_pivot(turned_tool(random, tip, pivot, random.uniform(0.5, 2.0), 0.0));
+        REQUIRE(fit);
+        CHECK(glm::length(fit->tip - tip) < 1e-11);
+        CHECK(glm::length(fit->pivot - pivot) < 1e-11);
+        CHECK(fit->rms < 1e-11);
+    }
+}
+
+TEST_CASE("Pivot: the sum of squares is least, and noise has the stated effect") {
+    Random random(4);
+    const Vec3 tip(0.02, -0.03, -0.15), pivot(0.4, 0.9, -0.6);
+    constexpr double sigma = 1e-3;
+    double squares = 0.0, bound = 0.0, rms = 0.0;
+    constexpr int repeats = 100;
+    for (int i = 0; i < repeats; ++i) {
+        const std::vector<Pose> poses = turned_tool(random, tip, pivot, 0.5, sigma);
+        const auto fit = fit_pivot(poses);
+        REQUIRE(fit);
+        const double least = squares_of(poses, fit->tip, fit->pivot);
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double step : {-1e-4, 1e-4}) {
+                Vec3 other(0.0);
+                other[axis] = step;
+                CHECK(squares_of(poses, fit->tip + other, fit->pivot) > least);
+                CHECK(squares_of(poses, fit->tip, fit->pivot + other) > least);
+            }
+        squares += glm::dot(fit->tip - tip, fit->tip - tip) / repeats;
+        bound += 3.0 * square(sigma / fit->turning) / 400.0 / repeats;
+        rms += fit->rms / repeats;
+    }
+    CHECK(squares < bound);
+    CHECK(squares > 0.2 * bound);
+    CHECK(rms == doctest::Approx(std::sqrt(3.0) * sigma).epsilon(0.02));
+}
+
+TEST_CASE("Pivot: turns that do not determine the tip are refused") {
+    Random random(5);
+    const Vec3 tip(0.0, 0.0, -0.1);
+    const auto refused = [](const std::vector<Pose>& poses) {
+        const auto fit = fit_pivot(poses);
+        return !fit && !fit.error().expected.empty();
+    };
+    CHECK(refused({}));
+    CHECK(refused({Pose{}}));
+    CHECK(refused(turned_tool(random, tip, {}, to_radians(14.0), 0.0)));
+    CHECK(!refused(turned_tool(random, tip, {}, to_radians(17.0), 0.0)));
+    std::vector<Pose> one_axis;
+    for (int i = 0; i < 100; ++i) {
+        const Quat turn = rotation({0.03 * i, 0.0, 0.0});
+        one_axis.push_back({turn * -tip, turn});
+    }
+    CHECK(refused(one_axis));
+    std::vector<Pose> lying = turned_tool(random, tip, {}, 1.0, 0.0);
+    lying[7].position.y = std::numeric_limits<double>::quiet_NaN();
+    CHECK(refused(lying));
+    lying[7] = {{}, Quat(0.0, 0.0, 0.0, 0.0)};
+    CHECK(refused(lying));
+}
+
 }  // namespace rigid_alignment_test

@@ -65,6 +65,7 @@ expect 2 'excludes' "${run[@]}" s.json --controller right --targets points.csv
 expect 2 'requires --controller' "${run[@]}" s.json --targets points.csv --count 8
 expect 2 'not in \{left,right\}' "${run[@]}" s.json --controller both
 expect 2 'not in range' "${run[@]}" s.json --controller left --count 3
+expect 2 'excludes' "${run[@]}" s.json --controller left --find-tip --controller-tip 0,0,-0.1
 expect 4 'no OpenXR runtime' env XR_RUNTIME_JSON=/nowhere.json "${run[@]}" s.json --controller left
 echo '{"format": "boltwright station 1"}' > armless.json
 expect 3 'armless.json: the station has no "arm"' "${run[@]}" armless.json --controller left
@@ -169,9 +170,10 @@ touch_with_both() {  # touch_with_both NUMBER X Y Z AX AY AZ: a point of the roo
 start() {  # start OPTION...: registers in the background
     : > log
     place 0 0 0 0
-    "${run[@]}" s.json --controller right --controller-tip 0,0,-0.1 "$@" < /dev/null > out.txt 2> log &
+    "${run[@]}" s.json --controller right "${tip[@]}" "$@" < /dev/null > out.txt 2> log &
     player=$!
 }
+tip=(--controller-tip 0,0,-0.1)
 cp old.json s.json
 control 'hand right active 0'
 start
@@ -205,6 +207,33 @@ touch_with_both 1 0.98 2.01 3.02 0.01 0.02 0.026
 wait $player
 check 'exit code 1 for two points' test $? = 1
 check 'with their distance' grep -q 'off by 6.0 mm; expected at most 5 mm; register it again' log
+
+# The tip of the controller is found by turning the controller about it.
+cat > turn.py <<'END'
+import math, os, sys, time
+# Turns about x, then about y; the tip, 0.1 m before the grip, stays at a point.
+begin = time.monotonic()
+while (now := time.monotonic() - begin) < float(sys.argv[1]):
+    a, b = 0.3 * math.sin(3 * now), 0.3 * math.cos(2 * now)  # half angles
+    w, x, y, z = math.cos(a) * math.cos(b), math.sin(a) * math.cos(b), math.cos(a) * math.sin(b), math.sin(a) * math.sin(b)
+    d = (-0.1 * 2 * (x * z + w * y), -0.1 * 2 * (y * z - w * x), -0.1 * (1 - 2 * (x * x + y * y)))
+    place = [p - q for p, q in zip((0.5, 1.0, 0.2), d)]
+    with open("controller.new", "w") as out:
+        out.write("hand right active 1\nhand right grip %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n" % (*place, x, y, z, w))
+        out.write("hand right trigger %d\n" % (now > 0.5))
+    os.rename("controller.new", "controller")
+    time.sleep(0.01)
+END
+tip=(--find-tip)
+hold 0 0 0 0
+start --check
+check 'the user is asked to turn the controller' eventually grep -q 'turn the controller about the tip in all directions' log
+python3 turn.py 7
+check 'the tip is found' eventually grep -qE 'The tip is at -?0\.0000,-?0\.0000,-0\.1000 m in the frame of the grip; rms 0\.0 mm' log
+touch_with_both 1 0.98 2.01 3.02 0.01 0.02 0.02
+check 'and points that it touches are right' wait $player
+check 'to a tenth of a millimetre' grep -q 'off by 0.0 mm' out.txt
+tip=(--controller-tip 0,0,-0.1)
 
 # An interruption and a runtime that ends stop it, also while a controller is not tracked.
 control 'hand right active 0'

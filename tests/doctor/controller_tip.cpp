@@ -229,4 +229,29 @@ TEST_CASE("Controller tip: a tracker that is lost, and a user who ends it, end t
           "the registration was interrupted");
 }
 
+TEST_CASE("Controller tip: it is found by turning the controller about it, and touches with it are right") {
+    const Vec3 point(0.2, 0.8, -0.3);
+    ScriptedController hand;
+    // The first time the user turns about one axis, the second time the tip slips by 2 cm.
+    hand.at = [&](double now) {
+        const bool one_axis = now<8.0, slips = now> 12.0 && now < 16.0;
+        const Quat turn =
+            rotation({0.6 * std::sin(3.0 * now), one_axis ? 0.0 : 0.6 * std::cos(2.0 * now), 0.0});
+        const Vec3 on = point + Vec3(slips ? 0.02 : 0.0, 0.0, 0.0);
+        return ControllerSample{pose_on(on, turn, controller_end), std::fmod(now, 8.0) > 1.0};
+    };
+    ControllerTip tip(hand.io(), {});
+    const auto fit = tip.find_tip();
+    REQUIRE(fit);
+    CHECK(glm::length(fit->tip - controller_end) < 1e-12);
+    CHECK(glm::length(fit->pivot - point) < 1e-12);
+    CHECK(hand.time.now == doctest::Approx(17.0 + pivot_time).epsilon(0.01));
+    CHECK(has(hand.shown, "the tool was turned too little, or about one axis only; expected"));
+    CHECK(has(hand.shown, "The tip has slipped"));
+    CHECK(has(hand.shown, "The tip is at 0.0100,-0.0200,-0.0800 m in the frame of the grip; rms 0.0 mm."));
+    const auto touched = tip.touch(0, "Touch.");
+    REQUIRE(touched);
+    CHECK(glm::length(*touched - point) < 1e-12);
+}
+
 }  // namespace controller_tip_test
