@@ -53,6 +53,10 @@ Result<FramePair> frames_of(const RegisterArguments& options) {
     if (options.points.empty() && first != content::CoordinateFrame::arm)
         return fail(ErrorCode::usage, fmt::format("--from {}: an arm touches the points", from),
                     "--from arm, or --points FILE");
+    if (!options.controller.empty() && second != content::CoordinateFrame::room)
+        return fail(ErrorCode::usage,
+                    fmt::format("--to {}: a controller measures points in the room", options.to),
+                    "--to room, or --targets FILE");
     return FramePair{first, second};
 }
 

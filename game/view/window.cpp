@@ -102,7 +102,7 @@ class FrameLoop {
     // The display whose refreshes determine when frames are due.
     enum class Display : std::uint8_t { window, headset, walls };
     [[nodiscard]] Display display() const;
-    // Nothing can be drawn in the window.
+    // True if the window has no pixels to draw in.
     [[nodiscard]] bool minimised() const;
     [[nodiscard]] double refresh_rate() const;  // Hz, of window or walls; 0: unknown
 

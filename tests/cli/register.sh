@@ -65,6 +65,7 @@ expect 2 'excludes' "${run[@]}" s.json --controller right --targets points.csv
 expect 2 'requires --controller' "${run[@]}" s.json --targets points.csv --count 8
 expect 2 'not in \{left,right\}' "${run[@]}" s.json --controller both
 expect 2 'not in range' "${run[@]}" s.json --controller left --count 3
+expect 2 'a controller measures points in the room; expected --to room' "${run[@]}" s.json --controller left --to workpiece
 expect 2 'excludes' "${run[@]}" s.json --controller left --find-tip --controller-tip 0,0,-0.1
 expect 4 'no OpenXR runtime' env XR_RUNTIME_JSON=/nowhere.json "${run[@]}" s.json --controller left
 echo '{"format": "boltwright station 1"}' > armless.json
