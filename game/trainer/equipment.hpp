@@ -10,7 +10,7 @@
 
 namespace bolt::trainer {
 
-// How mouse and keyboard move the hand if no device does.
+// The way in which mouse and keyboard move the hand if no device does.
 enum class HandMode : std::uint8_t {
     helped,    // the mouse chooses a nut, and the hand goes there automatically (--hand helped)
     free,      // the mouse moves the hand, which feels the forces of a simulated arm; runs with the frames

@@ -22,8 +22,8 @@ struct ImmersiveFrame {
     Pose head;
     bool tracked = false;    // false: the pose is an old or an estimated one
     bool attentive = false;  // false: the user does not see the picture; pause, and output no force
-    // Workpiece and panel are placed for this pose of the head if the display is fixed in the room. None: they
-    // are placed for the tracked head.
+    // Workpiece and panel are placed for this pose of the head if the display is fixed in the room. None:
+    // they are placed for the tracked head.
     std::optional<Pose> expected_head;
     // Returns true if the display shows a point of the room to the expected head; empty: it shows all points.
     std::function<bool(const Vec3&)> shows;
