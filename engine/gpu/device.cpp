@@ -214,6 +214,7 @@ constexpr RequiredFeature required_features[] = {
     {"multiview", [](DeviceFeatures& f) -> VkBool32& { return f.v11.multiview; }},
     {"depthClamp", [](DeviceFeatures& f) -> VkBool32& { return f.core.features.depthClamp; }},
     {"imageCubeArray", [](DeviceFeatures& f) -> VkBool32& { return f.core.features.imageCubeArray; }},
+    {"independentBlend", [](DeviceFeatures& f) -> VkBool32& { return f.core.features.independentBlend; }},
 };
 
 // Returns a queue family with graphics and compute that can present to the surface; if none can present, any

@@ -337,10 +337,11 @@ Result<Pipeline> make_graphics_pipeline(const Device& device, const PipelineCach
     blend.blendEnable = info.blend ? VK_TRUE : VK_FALSE;
     blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     blend.dstColorBlendFactor = blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-    if (info.color_write)
-        blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                               VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    const std::vector<VkPipelineColorBlendAttachmentState> blends(info.colors.size(), blend);
+    std::vector<VkPipelineColorBlendAttachmentState> blends(info.colors.size(), blend);
+    for (std::size_t i = 0; i < blends.size(); ++i)
+        if ((info.written_colors >> i & 1U) != 0)
+            blends[i].colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                                       VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     VkPipelineColorBlendStateCreateInfo blending{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blending.attachmentCount = static_cast<std::uint32_t>(blends.size());
     blending.pAttachments = blends.data();
@@ -375,8 +376,8 @@ Result<Pipeline> make_graphics_pipeline(const Device& device, const PipelineCach
     return pipeline;
 }
 
-Result<Pipeline> make_compute_pipeline(const Device& device, const PipelineCache& cache,
-                                       const Shader& shader) {
+Result<Pipeline> make_compute_pipeline(const Device& device, const PipelineCache& cache, const Shader& shader,
+                                       std::uint32_t constants) {
     Pipeline pipeline;
     const Shader* shaders[] = {&shader};
     BOLT_TRY(make_pipeline_layout(device, shaders, pipeline));
@@ -389,6 +390,9 @@ Result<Pipeline> make_compute_pipeline(const Device& device, const PipelineCache
                     module.get(),
                     "main",
                     nullptr};
+    const VkSpecializationMapEntry entry{0, 0, sizeof constants};
+    const VkSpecializationInfo specialization{1, &entry, sizeof constants, &constants};
+    if (constants != 0) create.stage.pSpecializationInfo = &specialization;
     create.layout = pipeline.layout.get();
     VkPipeline handle = VK_NULL_HANDLE;
     const VkResult created =

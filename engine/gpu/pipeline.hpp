@@ -67,8 +67,8 @@ struct GraphicsInfo {
     VkCompareOp depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;  // reversed depth: 1 near, 0 far
     bool depth_clamp = false;
     float depth_bias = 0.0F, depth_bias_slope = 0.0F;
-    bool blend = false;  // premultiplied alpha
-    bool color_write = true;
+    bool blend = false;                  // premultiplied alpha
+    std::uint32_t written_colors = ~0U;  // bit i: the fragment stage writes to target i
     std::uint32_t constants = 0;  // value of specialization constant 0 in both shaders; 0: not specialized
 };
 
@@ -105,7 +105,8 @@ Status make_pipeline_layout(const Device& device, std::span<const Shader* const>
 
 Result<Pipeline> make_graphics_pipeline(const Device& device, const PipelineCache& cache,
                                         const GraphicsInfo& info);
-Result<Pipeline> make_compute_pipeline(const Device& device, const PipelineCache& cache,
-                                       const Shader& shader);
+// `constants`: value of specialization constant 0; 0: not specialized.
+Result<Pipeline> make_compute_pipeline(const Device& device, const PipelineCache& cache, const Shader& shader,
+                                       std::uint32_t constants = 0);
 
 }  // namespace bolt::gpu

@@ -54,6 +54,8 @@ Result<Image> Image::create(Device& device, const ImageInfo& requested) {
     image.info_ = requested;
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     if (requested.cube) info.flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
+    if (requested.storage_format != VK_FORMAT_UNDEFINED)
+        info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT | VK_IMAGE_CREATE_EXTENDED_USAGE_BIT;
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = requested.format;
     info.extent = {requested.extent.width, requested.extent.height, 1};
@@ -72,21 +74,39 @@ Result<Image> Image::create(Device& device, const ImageInfo& requested) {
         vkBindImageMemory(device.get(), image.image_, image.allocation_.memory, image.allocation_.offset);
     BOLT_TRY(check(bound, "binding an image"));
 
-    const VkImageViewType type = requested.cube                            ? VK_IMAGE_VIEW_TYPE_CUBE
-                                 : requested.layers > 1 || requested.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
-                                                                           : VK_IMAGE_VIEW_TYPE_2D;
-    BOLT_TRY_ASSIGN(auto view, image.view(type, 0, requested.mips, 0, requested.layers));
-    image.view_ = std::move(view);
+    BOLT_TRY(image.make_whole_views());
     return image;
+}
+
+Status Image::make_whole_views() {
+    const VkImageViewType type = info_.cube                        ? VK_IMAGE_VIEW_TYPE_CUBE
+                                 : info_.layers > 1 || info_.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                                                   : VK_IMAGE_VIEW_TYPE_2D;
+    BOLT_TRY_ASSIGN(view_, view(type, 0, info_.mips, 0, info_.layers));
+    if ((info_.usage & VK_IMAGE_USAGE_STORAGE_BIT) == 0) return {};
+    VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    info.viewType = type;
+    info.format = info_.storage_format != VK_FORMAT_UNDEFINED ? info_.storage_format : info_.format;
+    info.subresourceRange = {info_.aspect(), 0, 1, 0, info_.layers};
+    BOLT_TRY_ASSIGN(storage_view_, make_view(info, VK_IMAGE_USAGE_STORAGE_BIT));
+    return {};
 }
 
 Result<ImageView> Image::view(VkImageViewType type, std::uint32_t first_mip, std::uint32_t mips,
                               std::uint32_t first_layer, std::uint32_t layers) const {
     VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    info.image = image_;
     info.viewType = type;
     info.format = info_.format;
     info.subresourceRange = {info_.aspect(), first_mip, mips, first_layer, layers};
+    return make_view(info, info_.usage & ~VkImageUsageFlags{VK_IMAGE_USAGE_STORAGE_BIT});
+}
+
+// `usage`: that of the view, because not every format allows all of the image's.
+Result<ImageView> Image::make_view(VkImageViewCreateInfo info, VkImageUsageFlags usage) const {
+    VkImageViewUsageCreateInfo usage_info{VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO};
+    usage_info.usage = usage;
+    info.pNext = &usage_info;
+    info.image = image_;
     VkImageView view = VK_NULL_HANDLE;
     BOLT_TRY(check(vkCreateImageView(device_->get(), &info, nullptr, &view), "creating an image view"));
     return ImageView(device_->get(), view);
@@ -98,11 +118,13 @@ void Image::swap(Image& other) noexcept {
     std::swap(info_, other.info_);
     std::swap(allocation_, other.allocation_);
     std::swap(view_, other.view_);
+    std::swap(storage_view_, other.storage_view_);
 }
 
 Image::~Image() {
     if (device_ == nullptr) return;
     view_ = {};
+    storage_view_ = {};
     vkDestroyImage(device_->get(), image_, nullptr);
     device_->memory().free(allocation_);
 }

@@ -47,6 +47,9 @@ struct ImageInfo {
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkImageUsageFlags usage = 0;
     bool array = false;  // viewed as an array even with one layer
+    // Format of storage_view(), of the same texel size as `format`, which may then be one that storage images
+    // cannot have (sRGB). Undefined: `format`. Used only with VK_IMAGE_USAGE_STORAGE_BIT.
+    VkFormat storage_format = VK_FORMAT_UNDEFINED;
 
     [[nodiscard]] VkImageAspectFlags aspect() const;
 };
@@ -67,18 +70,23 @@ class Image {
     [[nodiscard]] const ImageInfo& info() const { return info_; }
     // Returns a view of the whole image: 2D, 2D array or cube, according to its ImageInfo.
     [[nodiscard]] VkImageView view() const { return view_.get(); }
+    // Returns the view of mip 0 through which compute shaders write; null without
+    // VK_IMAGE_USAGE_STORAGE_BIT.
+    [[nodiscard]] VkImageView storage_view() const { return storage_view_.get(); }
     // Creates a view of a part of the image.
     [[nodiscard]] Result<ImageView> view(VkImageViewType type, std::uint32_t first_mip, std::uint32_t mips,
                                          std::uint32_t first_layer, std::uint32_t layers) const;
 
   private:
     void swap(Image& other) noexcept;
+    Result<ImageView> make_view(VkImageViewCreateInfo info, VkImageUsageFlags usage) const;
+    Status make_whole_views();
 
     Device* device_ = nullptr;
     VkImage image_ = VK_NULL_HANDLE;
     ImageInfo info_;
     Allocation allocation_;
-    ImageView view_;
+    ImageView view_, storage_view_;
 };
 
 struct SamplerInfo {
