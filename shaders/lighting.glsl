@@ -41,7 +41,7 @@ vec3 irradiance_from(Light light, vec3 at, out vec3 l) {
 }
 
 // Returns the visibility for diffuse light. It exceeds `ao`, because neighbours that occlude also reflect
-// light; they are assumed to have the same albedo (Jimenez et al. 2016, as in occlusion.frag).
+// light; they are assumed to have the same albedo (Jimenez et al. 2016, as in occlusion.glsl).
 vec3 multi_bounce_visibility(float ao, vec3 albedo) {
     const vec3 a = 2.0404 * albedo - 0.3324, b = -4.7951 * albedo + 0.6417, c = 2.7552 * albedo + 0.6903;
     return max(vec3(ao), ((ao * a + b) * ao + c) * ao);

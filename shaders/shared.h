@@ -121,6 +121,8 @@ struct DeformPart {
 #define SCENE_SECOND_UV (1u << 25)         // a map uses the second set of texture coordinates
 #define SCENE_VIEWS (1u << 26)             // several views are drawn at once
 #define SCENE_COLOR_BACKGROUND (1u << 27)  // the background is one colour, not the environment
+#define SCENE_TRANSPARENT (1u << 28)       // the background has alpha 0
+#define SCENE_HIDDEN_AREA (1u << 29)       // samples of depth 1 are never seen (hidden.vert)
 // Maps that the geometry buffer cannot store.
 #define SCENE_FORWARD_MAPS \
     (SCENE_COAT_MAPS | SCENE_COAT_NORMAL_MAP | SCENE_ANISOTROPY_MAP | SCENE_SPECULAR_MAPS)

@@ -22,8 +22,6 @@ void main() {
         const vec3 mro = metallic_roughness_occlusion(m);
         material_color_out = vec4(base.rgb, mro.x);
         material_roughness_out = vec4(mro.y, mro.z, 0.0, 0.0);
-    } else {
-        material_color_out = material_roughness_out = vec4(0.0);
 #endif
     }
     const vec3 n = mapped_normal(m, plain_normal());

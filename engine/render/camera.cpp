@@ -53,7 +53,7 @@ Eye make_eye(const Pose& pose, const FieldOfView& fov, float znear, float zfar) 
 Eye seen_from(const Eye& eye, const Pose& pose) {
     const glm::mat4 old_from_new = glm::translate(glm::mat4(1.0F), glm::vec3(pose.position)) *
                                    glm::mat4_cast(glm::quat(pose.orientation));
-    return {glm::vec3(inverse(pose) * Vec3(eye.position)), eye.clip_from_world * old_from_new};
+    return {glm::vec3(inverse(pose) * Vec3(eye.position)), eye.clip_from_world * old_from_new, eye.hidden};
 }
 
 Eye make_wall_eye(const glm::vec3& eye, const glm::vec3& lower_left, const glm::vec3& lower_right,

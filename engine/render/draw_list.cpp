@@ -18,8 +18,8 @@ struct Item {
     const Object* object = nullptr;
     std::uint32_t model = 0;  // in order of first use
     std::uint32_t part = 0, level = 0;
-    float distance = 0.0F;  // m, to the first eye; orders blended parts
     bool outlined = false;
+    float distance = 0.0F;  // m, see drawing_distance()
 };
 
 // Features whose values vary over a part, unlike the material's constants.
@@ -91,13 +91,37 @@ bool may_be_visible(const BoundingBox& box, std::span<const Eye> eyes) {
            });
 }
 
-// The order of drawing.
+// Items with the same value are drawn as instances of one draw.
+auto draw_of(const Item& item) {
+    return std::tie(item.kind, item.model, item.part, item.level, item.outlined);
+}
+
+// The order of drawing: opaque parts from near to far, so that few of their pixels are drawn over; then
+// blended parts from far to near.
 bool is_drawn_before(const Item& a, const Item& b) {
     if (a.kind.blends != b.kind.blends) return b.kind.blends;
     if (a.kind.forward != b.kind.forward) return b.kind.forward;
-    if (a.kind.blends && a.distance != b.distance) return a.distance > b.distance;
-    return std::tie(a.kind, a.model, a.part, a.level, a.outlined) <
-           std::tie(b.kind, b.model, b.part, b.level, b.outlined);
+    if (a.distance != b.distance) return (a.distance < b.distance) != a.kind.blends;
+    return draw_of(a) < draw_of(b);
+}
+
+// Opaque items of one draw stay together, at the distance of the nearest of them.
+void sort_for_drawing(std::vector<Item>& items) {
+    std::map<decltype(draw_of(items.front())), float> nearest;
+    for (const Item& item : items) {
+        const auto [known, is_new] = nearest.try_emplace(draw_of(item), item.distance);
+        known->second = std::min(known->second, item.distance);
+    }
+    for (Item& item : items)
+        if (!item.kind.blends) item.distance = nearest.at(draw_of(item));
+    std::stable_sort(items.begin(), items.end(), is_drawn_before);
+}
+
+// Returns the distance by which parts are ordered: for blended ones that of the box's centre; for opaque ones
+// that of its farthest corner, so that floors and walls, whose boxes surround the eye, come last.
+float drawing_distance(const BoundingBox& box, const glm::vec3& eye, bool blends) {
+    if (blends) return glm::distance(0.5F * (box.low + box.high), eye);
+    return glm::length(glm::max(glm::abs(box.low - eye), glm::abs(box.high - eye)));
 }
 
 shared::Instance instance_of(const Object& object) {
@@ -145,17 +169,17 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
             const MeshPart& part = object.model->parts[i];
             const BoundingBox box = bounds(object, part);
             if (!may_be_visible(box, eyes)) continue;
-            const float distance =
-                eyes.empty() ? 0.0F : glm::distance(0.5F * (box.low + box.high), eyes.front().position);
             PipelineKind kind = kind_of(object, part);
+            const float distance =
+                eyes.empty() ? 0.0F : drawing_distance(box, eyes.front().position, kind.blends);
             kind.features |= scene_features;
             Item item{kind,
                       &object,
                       known->second.first,
                       i,
                       level_of(part, box, scale, eyes, detail),
-                      distance,
-                      object.outline.w > 0.0F};
+                      object.outline.w > 0.0F,
+                      distance};
             if (item.outlined) list.outlined.push_back(box);
             if (object.cut && scene.cut_away.strength > 0.0F && may_hide_focus(box, scene.cut_away, eyes)) {
                 // The opaque region is drawn as a surface, the fading region is blended.
@@ -165,6 +189,7 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
                     item.kind.features |= SCENE_CUT_FADING;
                 }
                 item.kind.blends = item.kind.forward = true;
+                item.distance = drawing_distance(box, eyes.front().position, true);
                 if (!kind.forward) list.forward.push_back(cone_end(scene.cut_away));
                 item.kind.ghost = false;  // removed regions hide nothing
                 item.kind.features &= ~SCENE_PER_PIXEL_MATERIAL;
@@ -174,7 +199,7 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
             if (kind.forward) list.forward.push_back(box);
         }
     }
-    std::stable_sort(items.begin(), items.end(), is_drawn_before);
+    sort_for_drawing(items);
     for (const Item& item : items) {
         const MeshPart& part = item.object->model->parts[item.part];
         const auto found = deformed.find({item.object->deformation.get(), &part});

@@ -38,9 +38,9 @@ void add_picture(Overlay& overlay, const Rectangle& rectangle, const ImageLayer&
     add(overlay, rectangle, glm::vec4(1.0F), static_cast<int>(overlay.textures.size()) - 1);
 }
 
-void add_inset(Overlay& overlay, const Rectangle& rectangle, const ImageLayer& picture, float frame_px,
-               const glm::vec4& frame_color) {
-    add_rectangle(overlay, {rectangle.low - frame_px, rectangle.high + frame_px}, frame_color);
+void add_inset(Overlay& overlay, const Rectangle& rectangle, const ImageLayer& picture, float border_px,
+               const glm::vec4& border) {
+    add_rectangle(overlay, {rectangle.low - border_px, rectangle.high + border_px}, border);
     add_picture(overlay, rectangle, picture);
 }
 

@@ -46,8 +46,8 @@ void add_rectangle(Overlay& overlay, const Rectangle& rectangle, const glm::vec4
 // Draws a whole picture of the renderer; one texel a pixel if the rectangle has the picture's size.
 void add_picture(Overlay& overlay, const Rectangle& rectangle, const ImageLayer& picture);
 
-// Draws a picture with a frame of this width around it.
-void add_inset(Overlay& overlay, const Rectangle& rectangle, const ImageLayer& picture, float frame_px,
-               const glm::vec4& frame_color);
+// Draws a picture with a border of this width around it.
+void add_inset(Overlay& overlay, const Rectangle& rectangle, const ImageLayer& picture, float border_px,
+               const glm::vec4& border);
 
 }  // namespace bolt::render

@@ -67,7 +67,8 @@ Status Renderer::prepare() {
                              "mark.frag",   "outline.frag",   "shadow.vert",  "screen.vert",
                              "shrink.frag", "occlusion.frag", "smooth.frag",  "labels.vert",
                              "labels.frag", "overlay.vert",   "overlay.frag", "deform.comp",
-                             "panel.vert",  "panel.frag"}) {
+                             "hidden.vert", "panel.vert",     "panel.frag",   "light.comp",
+                             "shrink.comp", "occlusion.comp", "smooth.comp"}) {
         BOLT_TRY_ASSIGN(auto shader, load_shader(name, options_.shaders));
         shaders_.insert_or_assign(name, std::move(shader));
     }
@@ -79,7 +80,7 @@ Status Renderer::prepare() {
 }
 
 Status Renderer::make_passes() {
-    const PassSetup setup{*device_, cache_, shaders_};
+    const PassSetup setup{*device_, cache_, shaders_, options_.screen_stage};
     occlusion_.clear();
     forward_.clear();
     outline_.clear();
@@ -110,13 +111,14 @@ Status Renderer::resize(gpu::FrameContext& frame, ViewGroup& group, VkExtent2D e
         each_image(targets, [&](gpu::Image& image) { frame.retire(std::move(image)); });
     group.targets.clear();
     group.views = 0;  // so that a failure below leaves no valid group
-    group.views_per_pass = 1;
+    group.views_per_batch = 1;
     if (views > 1) {
         BOLT_TRY_ASSIGN(const bool together, draws_views_together());
-        if (together) group.views_per_pass = views;
+        if (together) group.views_per_batch = views;
     }
-    for (std::uint32_t first = 0; first < views; first += group.views_per_pass) {
-        BOLT_TRY_ASSIGN(auto targets, make_targets(*device_, extent, group.views_per_pass));
+    for (std::uint32_t first = 0; first < views; first += group.views_per_batch) {
+        BOLT_TRY_ASSIGN(auto targets,
+                        make_targets(*device_, extent, group.views_per_batch, options_.screen_stage));
         if (options_.keep_depth) BOLT_TRY(add_kept_depth(*device_, targets));
         group.targets.push_back(std::move(targets));
     }
@@ -135,14 +137,14 @@ Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<
     const EnvironmentLight& environment = scene.environment != nullptr ? *scene.environment : no_environment_;
     shared::FrameData shared = make_frame_data(scene, eyes, extent, environment, options_.level_error_px);
     PassContext context{
-        *device_, frame, scene,  environment,        shared,         {}, group.views_per_pass, extent,
-        {},       {},    white_, white_array_.get(), deform_.parts()};
+        *device_, frame, scene,  environment,        shared,          {},  group.views_per_batch, extent,
+        {},       {},    white_, white_array_.get(), deform_.parts(), eyes};
     const auto upload_frame_data = [&] {
         return assign(context.frame_block, upload_transient<shared::FrameData>(frame, {&shared, 1}));
     };
     BOLT_TRY(upload_frame_data());
 
-    const PassSetup setup{*device_, cache_, shaders_};
+    const PassSetup setup{*device_, cache_, shaders_, options_.screen_stage};
     BOLT_TRY(deform_.draw(context));
     const DrawList list = make_draw_list(
         scene, eyes, {static_cast<float>(extent.height), options_.level_error_px, 0.0F}, deform_.parts());
@@ -156,26 +158,27 @@ Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<
     BOLT_TRY(shadow_.draw(context));
     BOLT_TRY(labels_.prepare(context, eyes));
     LightInputs inputs{&shadow_.map(), VK_NULL_HANDLE};
-    for (std::size_t pass = 0; pass < group.targets.size(); ++pass) {
-        RenderTargets& targets = group.targets[pass];
-        if (pass > 0) {  // a separate view
-            shared.views[0] = {eyes[pass].clip_from_world, glm::inverse(eyes[pass].clip_from_world),
-                               glm::vec4(eyes[pass].position, 1.0F)};
+    for (std::size_t batch = 0; batch < group.targets.size(); ++batch) {
+        RenderTargets& targets = group.targets[batch];
+        context.eyes = eyes.subspan(batch * group.views_per_batch, group.views_per_batch);
+        if (batch > 0) {  // a separate view
+            shared.views[0] = {eyes[batch].clip_from_world, glm::inverse(eyes[batch].clip_from_world),
+                               glm::vec4(eyes[batch].position, 1.0F)};
             BOLT_TRY(upload_frame_data());
         }
         BOLT_TRY(surfaces_.draw(context, targets, list));
         if (scene.occlusion_radius > 0.0F) {
-            BOLT_TRY_ASSIGN(auto occlusion, pass_for_views(occlusion_, setup, group.views_per_pass));
+            BOLT_TRY_ASSIGN(auto occlusion, pass_for_views(occlusion_, setup, group.views_per_batch));
             BOLT_TRY(occlusion->draw(context, targets));
             inputs.occlusion = targets.occlusion.view();
         }
         BOLT_TRY(light_.draw(context, targets, list, inputs));
         if (!list.forward.empty()) {
-            BOLT_TRY_ASSIGN(auto forward, pass_for_views(forward_, setup, group.views_per_pass));
+            BOLT_TRY_ASSIGN(auto forward, pass_for_views(forward_, setup, group.views_per_batch));
             BOLT_TRY(forward->draw(context, targets, list, light_, inputs));
         }
         if (!list.outlined.empty()) {
-            BOLT_TRY_ASSIGN(auto outline, pass_for_views(outline_, setup, group.views_per_pass));
+            BOLT_TRY_ASSIGN(auto outline, pass_for_views(outline_, setup, group.views_per_batch));
             BOLT_TRY(outline->draw(context, targets, list));
         }
         BOLT_TRY(labels_.draw(context, targets));
@@ -208,7 +211,7 @@ Status render_with_insets(Renderer& renderer, gpu::FrameContext& frame, const Sc
         const glm::vec2 size = inset.place.high - inset.place.low;
         const VkExtent2D inset_extent{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)};
         BOLT_TRY(renderer.render(frame, scene, {&inset.eye, 1}, inset_extent, i + 1));
-        add_inset(overlay, inset.place, renderer.picture(0, i + 1), inset.frame_px, inset.frame);
+        add_inset(overlay, inset.place, renderer.picture(0, i + 1), inset.border_px, inset.border);
     }
     for (std::uint32_t view = 0; view < eyes.size(); ++view)
         BOLT_TRY(renderer.draw_over(frame, overlay, renderer.picture(view)));

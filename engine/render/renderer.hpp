@@ -16,10 +16,10 @@
 // Lighting is deferred, because a part's triangles are often smaller than the blocks that a rasteriser
 // shades: with forward lighting the same picture of the reducer took nearly three times as long on lavapipe.
 //
-// Each pass is a class in passes/ with its pipelines. With multiview, one pass draws several views, one layer
-// each. Where the driver draws this wrong (multiview_works), the views are drawn one after the other into
-// separate images, because lavapipe of Mesa 22.3 also resolves always into layer 0, even if the image view
-// begins with another layer.
+// Each pass is a class in passes/ with its pipelines. Views that are drawn together, one layer each, are a
+// batch: with multiview all views of a size. Where the driver draws this wrong (multiview_works), each view
+// is a batch with images of its own. Separate images are needed because lavapipe of Mesa 22.3 always resolves
+// into layer 0, even if the image view begins with another layer.
 #pragma once
 
 #include <optional>
@@ -40,6 +40,9 @@ struct RendererOptions {
     ShaderCode shaders;                    // replacements of built-in shaders
     enum class Multiview : std::uint8_t { where_it_works, always, never };
     Multiview multiview = Multiview::where_it_works;
+    // Compute shaders suit GPUs with few units for graphics. On lavapipe they are slower, because light.vert
+    // saves work that they repeat for each pixel; on a GPU they were not measured yet.
+    ScreenStage screen_stage = ScreenStage::fragment;
     // The error allowed for coarser levels of detail, in pixels of the picture; 0: always draw all triangles.
     float level_error_px = 0.0F;
     bool keep_depth = false;  // required by depth()
@@ -112,8 +115,8 @@ class Renderer {
 struct Inset {
     Eye eye;
     Rectangle place;  // in whole pixels; the view is rendered at this size
-    float frame_px = 2.0F;
-    glm::vec4 frame{0.92F, 0.94F, 0.96F, 1.0F};  // the frame's colour, encoded as overlay colours
+    float border_px = 2.0F;
+    glm::vec4 border{0.92F, 0.94F, 0.96F, 1.0F};  // colour, encoded as overlay colours
 };
 
 // Returns a rectangle in the lower right corner: `share` of the picture's width, with the picture's aspect

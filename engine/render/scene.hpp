@@ -106,6 +106,9 @@ struct Scene {
     float exposure = 1.0F;
     float occlusion_radius = 0.0F;  // m, radius of ambient occlusion; 0: off
     glm::vec4 background{0.0F};     // w: 1 shows this colour, 0 the environment
+    // Leaves the background black with alpha 0, and multiplies colours by alpha: to show the surroundings of
+    // a headset behind the objects.
+    bool transparent = false;
     CutAway cut_away;
     float outline_px = 3.0F;
 };
@@ -114,6 +117,10 @@ struct Scene {
 struct Eye {
     glm::vec3 position{0.0F};
     glm::mat4 clip_from_world{1.0F};
+    // The area of the picture that lenses hide from the user: three corners of each triangle, −1 … 1 from the
+    // left to the right edge, and from the upper to the lower one. Null: there is none. Its pixels are black,
+    // except where an outline or a label that shows through parts is drawn, and their kept depth is 0.
+    std::shared_ptr<const std::vector<glm::vec2>> hidden = nullptr;
 };
 
 // Adds the meshes of a model's default scene with its nodes in a pose, including skins and morph targets,

@@ -1,5 +1,8 @@
-// Multiview: each layer equals a single picture of its view.
+// Multiview: each layer equals a single picture of its view. Compute shaders draw the same as fragment
+// shaders.
 #include <doctest/doctest.h>
+
+#include <cstring>
 
 #include "engine/render/passes/pass.hpp"
 #include "tests/render/support.hpp"
@@ -16,9 +19,11 @@ using Multiview = RendererOptions::Multiview;
 
 constexpr VkExtent2D extent{96, 72};
 
-RendererOptions with(Multiview multiview) {
+RendererOptions with(Multiview multiview, ScreenStage stage = ScreenStage::fragment) {
     RendererOptions options;
     options.multiview = multiview;
+    options.screen_stage = stage;
+    options.keep_depth = true;
     return options;
 }
 
@@ -30,7 +35,8 @@ struct Still {
     EnvironmentLight light = studio.light(shading::studio_environment(64));
     Scene scene;
 
-    explicit Still(Multiview multiview) : studio(with(multiview)) {
+    explicit Still(Multiview multiview, ScreenStage stage = ScreenStage::fragment)
+        : studio(with(multiview, stage)) {
         assets::Material metal;
         metal.base_color = {0.9F, 0.6F, 0.3F, 1.0F};
         metal.roughness = 0.3F;
@@ -140,6 +146,127 @@ TEST_CASE("Multiview: two and four views equal single pictures in every pass") {
     CHECK(largest_difference(together, alone, 2) > 20);
     together.scene.background = {0.6F, 0.32F, 0.35F, 1.0F};
     CHECK(differing_share(together, alone, 2) > 0.2);
+}
+
+TEST_CASE("Screen stage: compute shaders light and occlude as fragment shaders do") {
+    for (const Multiview multiview : {Multiview::never, Multiview::always}) {
+        CAPTURE(multiview);
+        Still computed(multiview, ScreenStage::compute), drawn(multiview);
+        const auto change = [&](auto how) {
+            how(computed.scene);
+            how(drawn.scene);
+        };
+        const auto differ_at_most = [&](std::size_t views) {
+            const std::vector<Eye> from = eyes(views);
+            const std::vector<Picture> a = computed.studio.shoot(computed.scene, from, extent),
+                                       b = drawn.studio.shoot(drawn.scene, from, extent);
+            int largest = 0;
+            for (std::size_t i = 0; i < views; ++i)
+                largest = std::max(largest, test::largest_difference(a[i], b[i]));
+            return largest;
+        };
+        CHECK(differ_at_most(2) <= 1);  // also the sky, in every pixel without a ball or the floor
+        change([](Scene& scene) {
+            scene.background = {0.3F, 0.32F, 0.35F, 1.0F};
+            scene.occlusion_radius = 0.8F;
+            scene.objects[0].tint = {0.1F, 0.5F, 0.9F, 0.7F};  // stored per pixel
+            scene.objects[2].outline = {1.0F, 0.6F, 0.0F, 0.8F};
+        });
+        // Ambient occlusion differs in some pixels on GPUs (see differing_share).
+        CHECK(differing_share(computed, drawn, 1) <= 0.05);
+        CHECK(differing_share(computed, drawn, 2) <= 0.05);
+        // Negative control: without occlusion, and without the tint, the pictures differ.
+        drawn.scene.occlusion_radius = 0.0F;
+        CHECK(differ_at_most(2) > 5);
+        drawn.scene.occlusion_radius = 0.8F;
+        drawn.scene.objects[0].tint.w = 0.0F;
+        CHECK(differ_at_most(2) > 20);
+    }
+}
+
+TEST_CASE("Hidden area: nothing is drawn there, and nothing else changes") {
+    // The left third of the first view, and the right third of the second.
+    const auto strip = [](float left, float right) {
+        return std::make_shared<const std::vector<glm::vec2>>(
+            std::vector<glm::vec2>{{left, -1}, {right, -1}, {left, 1}, {left, 1}, {right, -1}, {right, 1}});
+    };
+    for (const ScreenStage stage : {ScreenStage::fragment, ScreenStage::compute}) {
+        for (const Multiview multiview : {Multiview::never, Multiview::always}) {
+            CAPTURE(stage);
+            CAPTURE(multiview);
+            Still still(multiview, stage);
+            still.scene.occlusion_radius = 0.8F;
+            still.scene.objects[0].tint = {0.1F, 0.5F, 0.9F, 0.7F};
+            std::vector<Eye> from = eyes(2);
+            const std::vector<Picture> whole = still.studio.shoot(still.scene, from, extent);
+            from[0].hidden = strip(-1.0F, -1.0F / 3.0F);
+            from[1].hidden = strip(1.0F / 3.0F, 1.0F);
+            const std::vector<Picture> covered = still.studio.shoot(still.scene, from, extent);
+            // Ambient occlusion sees the strip's edge up to its reach.
+            constexpr std::uint32_t edge = 16;
+            int most_inside = 0, most_outside = 0, visible_before = 0;
+            for (std::size_t view = 0; view < 2; ++view)
+                for (std::size_t at = 0; at < whole[view].rgba.size(); at += 4) {
+                    const auto x = static_cast<std::uint32_t>(at / 4 % extent.width);
+                    const std::uint32_t from_edge = view == 0 ? x : extent.width - 1 - x;
+                    for (std::size_t c = at; c < at + 3; ++c) {
+                        const int now = covered[view].rgba[c], before = whole[view].rgba[c];
+                        if (from_edge < extent.width / 3) {
+                            most_inside = std::max(most_inside, now);
+                            visible_before = std::max(visible_before, before);
+                        } else if (from_edge >= extent.width / 3 + edge) {
+                            most_outside = std::max(most_outside, std::abs(now - before));
+                        }
+                    }
+                }
+            for (std::uint32_t view = 0; view < 2; ++view) {
+                const ImageLayer kept = still.studio.renderer().depth(view);
+                const auto bytes = still.studio.gpu().need(
+                    gpu::download_image(still.studio.device(), *kept.image, gpu::ResourceUse::transfer_from,
+                                        sizeof(float), 0, kept.layer));
+                std::vector<float> depth(bytes.size() / sizeof(float));
+                std::memcpy(depth.data(), bytes.data(), bytes.size());
+                float nearest_inside = 0.0F, nearest_outside = 0.0F;
+                for (std::size_t at = 0; at < depth.size(); ++at) {
+                    const auto x = static_cast<std::uint32_t>(at % extent.width);
+                    const bool inside = (view == 0 ? x : extent.width - 1 - x) < extent.width / 3;
+                    float& nearest = inside ? nearest_inside : nearest_outside;
+                    nearest = std::max(nearest, depth[at]);
+                }
+                CHECK(nearest_inside == 0.0F);
+                CHECK(nearest_outside > 0.0F);
+                CHECK(nearest_outside < 1.0F);
+            }
+            CHECK(most_inside == 0);
+            CHECK(visible_before > 100);
+            CHECK(most_outside <= 1);
+        }
+    }
+}
+
+TEST_CASE("Transparent background: alpha is the covered share of a pixel, and colours are multiplied by it") {
+    for (const ScreenStage stage : {ScreenStage::fragment, ScreenStage::compute}) {
+        CAPTURE(stage);
+        Still still(Multiview::never, stage);
+        still.scene.objects[1].opacity = 1.0F;
+        still.scene.background = {0.0F, 0.0F, 0.0F, 1.0F};
+        const Picture on_black = still.studio.shoot(still.scene, eyes(1)[0], extent);
+        still.scene.transparent = true;
+        const Picture transparent = still.studio.shoot(still.scene, eyes(1)[0], extent);
+        std::size_t clear = 0, covered = 0, partly = 0;
+        int most = 0;
+        for (std::size_t at = 0; at < transparent.rgba.size(); at += 4) {
+            const int alpha = transparent.rgba[at + 3];
+            (alpha == 0 ? clear : alpha == 255 ? covered : partly) += 1;
+            for (std::size_t c = at; c < at + 3; ++c)
+                most = std::max(most, std::abs(int{transparent.rgba[c]} - int{on_black.rgba[c]}));
+            CHECK(on_black.rgba[at + 3] == 255);
+        }
+        CHECK(most <= 1);  // a colour on black is multiplied by the covered share, too
+        CHECK(clear > 1000);
+        CHECK(covered > 1000);
+        CHECK(partly > 20);
+    }
 }
 
 TEST_CASE(

@@ -37,8 +37,9 @@ struct Lesson {
     view::GpuContext gpu;
     std::unique_ptr<trainer::App> app;
 
-    Lesson() {
+    explicit Lesson(render::ScreenStage stage) {
         render::RendererOptions renderer;
+        renderer.screen_stage = stage;
         renderer.level_error_px = 0.7F;
         renderer.keep_depth = true;
         gpu = unwrap(view::make_gpu_context(instance, {}, renderer));
@@ -87,10 +88,11 @@ FrameCost run(Lesson& lesson, const view::WindowFrame& window, int frames) {
     return cost;
 }
 
-// Arguments: width and height of an eye's picture.
+// Arguments: width and height of an eye's picture; the stage of ambient occlusion and lighting (0: fragment,
+// 1: compute).
 void headset_zq350(benchmark::State& state) {
     run_or_skip(state, [&] {
-        Lesson lesson;
+        Lesson lesson(static_cast<render::ScreenStage>(state.range(2)));
         const VkExtent2D size{static_cast<std::uint32_t>(state.range(0)),
                               static_cast<std::uint32_t>(state.range(1))};
         const view::ImmersiveFrame eyes = facing_frame(size);
@@ -124,8 +126,10 @@ void headset_zq350(benchmark::State& state) {
     });
 }
 BENCHMARK(headset_zq350)
-    ->Args({320, 240})
-    ->Args({2064, 2208})
+    ->Args({320, 240, 0})
+    ->Args({320, 240, 1})
+    ->Args({2064, 2208, 0})
+    ->Args({2064, 2208, 1})
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 

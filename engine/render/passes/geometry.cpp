@@ -121,6 +121,15 @@ Status DeformPass::draw(PassContext& context) {
     return {};
 }
 
+namespace {
+
+std::vector<VkFormat> color_formats(bool per_pixel_material) {
+    if (!per_pixel_material) return {surface_format};
+    return {surface_format, material_color_format, material_roughness_format};
+}
+
+}  // namespace
+
 Result<const gpu::Pipeline*> SurfacePass::pipeline(gpu::Device& device, const PipelineKind& kind,
                                                    std::uint32_t views, bool per_pixel_material) {
     // Features that only lighting uses do not need a pipeline of their own.
@@ -130,12 +139,63 @@ Result<const gpu::Pipeline*> SurfacePass::pipeline(gpu::Device& device, const Pi
     const auto known = pipelines_.find(key);
     if (known != pipelines_.end()) return &known->second;
     gpu::GraphicsInfo info = part_pipeline(*shaders_, key.kind, views);
-    info.fragment = &shaders_->at(per_pixel_material ? "surface_material.frag" : "surface.frag");
-    info.colors = {surface_format};
-    if (per_pixel_material)
-        info.colors.insert(info.colors.end(), {material_color_format, material_roughness_format});
+    // Parts of one material leave the material buffer as it is, which saves GPU time.
+    const bool writes_material = (kind.features & SCENE_PER_PIXEL_MATERIAL) != 0;
+    info.fragment = &shaders_->at(writes_material ? "surface_material.frag" : "surface.frag");
+    info.colors = color_formats(per_pixel_material);
+    if (!writes_material) info.written_colors = 1;
     BOLT_TRY_ASSIGN(auto pipeline, gpu::make_graphics_pipeline(device, *cache_, info));
     return &pipelines_.emplace(key, std::move(pipeline)).first->second;
+}
+
+Status SurfacePass::draw_hidden_area(PassContext& context, VkSampleCountFlagBits samples_per_pixel,
+                                     const std::vector<VkFormat>& colors) {
+    std::vector<glm::vec3> corners;  // z: the view
+    for (std::size_t view = 0; view < context.eyes.size(); ++view)
+        if (const auto& hidden = context.eyes[view].hidden)
+            for (const glm::vec2& corner : *hidden) corners.emplace_back(corner, static_cast<float>(view));
+    BOLT_TRY_ASSIGN(const auto vertices,
+                    upload_transient<glm::vec3>(context.frame, std::span<const glm::vec3>(corners)));
+    gpu::Pipeline& pipeline = hidden_areas_[{context.views, samples_per_pixel, colors.size()}];
+    if (!pipeline.handle) {
+        gpu::GraphicsInfo info;
+        info.vertex = &shaders_->at("hidden.vert");
+        info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0}};
+        info.strides = {sizeof(glm::vec3)};
+        info.colors = colors;
+        info.written_colors = 0;
+        info.depth = depth_format;
+        info.depth_compare = VK_COMPARE_OP_ALWAYS;
+        info.samples = samples_per_pixel;
+        info.cull = VK_CULL_MODE_NONE;
+        set_views(info, context.views);
+        BOLT_TRY(assign(pipeline, gpu::make_graphics_pipeline(context.device, *cache_, info)));
+    }
+    const VkCommandBuffer commands = context.frame.commands();
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle.get());
+    vkCmdBindVertexBuffers(commands, 0, 1, &vertices.buffer, &vertices.offset);
+    vkCmdDraw(commands, static_cast<std::uint32_t>(corners.size()), 1, 0, 0);
+    return {};
+}
+
+Status SurfacePass::clear_hidden_depth(PassContext& context, const RenderTargets& targets) {
+    const VkCommandBuffer commands = context.frame.commands();
+    gpu::image_barrier(commands, targets.kept_depth.get(), ResourceUse::depth_target,
+                       ResourceUse::depth_target, depth_range);
+    const VkRenderingAttachmentInfo depth =
+        attachment(targets.kept_depth.view(), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                   VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_STORE);
+    const VkRenderingInfo rendering = rendering_info(context.extent, context.views, {}, &depth);
+    vkCmdBeginRendering(commands, &rendering);
+    set_area(commands, context.extent);
+    // Its depth range makes every depth 0.
+    const VkViewport far{
+        0.0F, 0.0F, static_cast<float>(context.extent.width), static_cast<float>(context.extent.height),
+        0.0F, 0.0F};
+    vkCmdSetViewport(commands, 0, 1, &far);
+    const Status drawn = draw_hidden_area(context, VK_SAMPLE_COUNT_1_BIT, {});
+    vkCmdEndRendering(commands);
+    return drawn;
 }
 
 Status SurfacePass::draw(PassContext& context, RenderTargets& targets, const DrawList& list) {
@@ -184,12 +244,16 @@ Status SurfacePass::draw(PassContext& context, RenderTargets& targets, const Dra
             .range(2, context.materials)
             .finish();
     };
-    const Status drawn = draw_parts(context, list, drawing);
+    Status drawn;
+    if (has_hidden_area(context.eyes))
+        drawn = draw_hidden_area(context, samples, color_formats(per_pixel_material));
+    if (drawn) drawn = draw_parts(context, list, drawing);
     vkCmdEndRendering(commands);
     for (const gpu::Image* image : buffers)
         gpu::image_barrier(commands, image->get(), ResourceUse::color_target, ResourceUse::sampled);
     gpu::image_barrier(commands, targets.depth.get(), ResourceUse::depth_target, ResourceUse::depth_read,
                        depth_range);
+    if (drawn && keeps_depth && has_hidden_area(context.eyes)) drawn = clear_hidden_depth(context, targets);
     if (keeps_depth)
         gpu::image_barrier(commands, targets.kept_depth.get(), ResourceUse::depth_target,
                            ResourceUse::transfer_from, depth_range);

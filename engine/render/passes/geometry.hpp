@@ -48,6 +48,12 @@ class SurfacePass {
     explicit SurfacePass(const PassSetup& setup) : cache_(&setup.cache), shaders_(&setup.shaders) {}
     Result<const gpu::Pipeline*> pipeline(gpu::Device& device, const PipelineKind& kind, std::uint32_t views,
                                           bool per_pixel_material);
+    // Draws Eye::hidden at the nearest depth, without colour.
+    Status draw_hidden_area(PassContext& context, VkSampleCountFlagBits samples_per_pixel,
+                            const std::vector<VkFormat>& colors);
+    // Sets the kept depth there to 0, the farthest, because a runtime that moves the picture by its depth
+    // would move near black pixels into the visible area.
+    Status clear_hidden_depth(PassContext& context, const RenderTargets& targets);
 
     struct PipelineKey {
         PipelineKind kind;
@@ -58,6 +64,8 @@ class SurfacePass {
     const gpu::PipelineCache* cache_ = nullptr;
     const Shaders* shaders_ = nullptr;
     std::map<PipelineKey, gpu::Pipeline> pipelines_;
+    // By number of views, samples per pixel, and number of colour targets.
+    std::map<std::tuple<std::uint32_t, VkSampleCountFlagBits, std::size_t>, gpu::Pipeline> hidden_areas_;
 };
 
 }  // namespace bolt::render

@@ -11,6 +11,7 @@ Result<LightPass> LightPass::create(const PassSetup& setup) {
     LightPass pass;
     pass.cache_ = &setup.cache;
     pass.shaders_ = &setup.shaders;
+    pass.stage_ = setup.screen_stage;
     BOLT_TRY(assign(pass.albedo_table_, upload_albedo_table(setup.device)));
     gpu::ImageInfo no_material_buffer;
     no_material_buffer.format = material_roughness_format;
@@ -37,6 +38,14 @@ Result<const gpu::Pipeline*> LightPass::light_pipeline(gpu::Device& device, std:
                                                        std::uint32_t views) {
     const auto known = lights_.find({features, views});
     if (known != lights_.end()) return &known->second;
+    const auto keep = [&](gpu::Pipeline pipeline) {
+        return &lights_.emplace(std::pair{features, views}, std::move(pipeline)).first->second;
+    };
+    if (stage_ == ScreenStage::compute) {
+        BOLT_TRY_ASSIGN(auto pipeline,
+                        gpu::make_compute_pipeline(device, *cache_, shaders_->at("light.comp"), features));
+        return keep(std::move(pipeline));
+    }
     gpu::GraphicsInfo info;
     info.vertex = &shaders_->at("light.vert");
     info.fragment = &shaders_->at("light.frag");
@@ -46,7 +55,7 @@ Result<const gpu::Pipeline*> LightPass::light_pipeline(gpu::Device& device, std:
     info.depth_test = info.depth_write = false;
     info.constants |= features;
     BOLT_TRY_ASSIGN(auto pipeline, gpu::make_graphics_pipeline(device, *cache_, info));
-    return &lights_.emplace(std::pair{features, views}, std::move(pipeline)).first->second;
+    return keep(std::move(pipeline));
 }
 
 void LightPass::bind_inputs(PassContext& context, gpu::DescriptorWriter& writer,
@@ -66,6 +75,8 @@ Result<VkDescriptorSet> LightPass::light_set(PassContext& context, const RenderT
     BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, pipeline, 0));
     bind_inputs(context, writer, inputs);
     const VkSampler nearest = nearest_.get();
+    if (stage_ == ScreenStage::compute)
+        writer.image(11, targets.picture.storage_view(), VK_NULL_HANDLE, VK_IMAGE_LAYOUT_GENERAL);
     return writer.image(7, targets.depth.view(), nearest, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL)
         .image(8, targets.surfaces.view(), nearest)
         .image(9, per_pixel_material ? targets.material_colors.view() : no_material_buffer_.view(), nearest)
@@ -74,35 +85,48 @@ Result<VkDescriptorSet> LightPass::light_set(PassContext& context, const RenderT
         .finish();
 }
 
-Status LightPass::draw_surfaces(PassContext& context, const RenderTargets& targets, const DrawList& list,
-                                const LightInputs& inputs) {
+Status LightPass::shade_surfaces(PassContext& context, const RenderTargets& targets, const DrawList& list,
+                                 const LightInputs& inputs) {
     constexpr std::uint32_t lighting_features =
         SCENE_TANGENTS | SCENE_COAT | SCENE_ANISOTROPY | SCENE_OCCLUSION_MAP | SCENE_PER_PIXEL_MATERIAL;
     const std::uint32_t features = (list.features & lighting_features) | features_of(context.scene) |
-                                   (context.scene.background.w > 0.5F ? SCENE_COLOR_BACKGROUND : 0U);
+                                   (context.scene.background.w > 0.5F ? SCENE_COLOR_BACKGROUND : 0U) |
+                                   (context.scene.transparent ? SCENE_TRANSPARENT : 0U) |
+                                   (has_hidden_area(context.eyes) ? SCENE_HIDDEN_AREA : 0U);
     BOLT_TRY_ASSIGN(const auto pipeline, light_pipeline(context.device, features, context.views));
     BOLT_TRY_ASSIGN(const auto set, light_set(context, targets, *pipeline, inputs,
                                               (list.features & SCENE_PER_PIXEL_MATERIAL) != 0));
-    bind(context.frame.commands(), *pipeline, set);
-    draw_screen(context.frame.commands());
+    const VkCommandBuffer commands = context.frame.commands();
+    if (stage_ == ScreenStage::compute) {
+        dispatch_screen(commands, *pipeline, set, context.extent, context.views);
+    } else {
+        bind(commands, *pipeline, set);
+        draw_screen(commands);
+    }
     return {};
 }
 
 Status LightPass::draw(PassContext& context, RenderTargets& targets, const DrawList& list,
                        const LightInputs& inputs) {
     const VkCommandBuffer commands = context.frame.commands();
-    gpu::image_barrier_discarding(commands, targets.picture.get(), ResourceUse::transfer_from,
-                                  ResourceUse::color_target);
+    const bool computed = stage_ == ScreenStage::compute;
+    const ResourceUse written = computed ? ResourceUse::storage_write : ResourceUse::color_target;
+    gpu::image_barrier_discarding(commands, targets.picture.get(), ResourceUse::transfer_from, written);
     context.frame.begin_timing("light");
-    const VkRenderingAttachmentInfo color =
-        attachment(targets.picture.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                   VK_ATTACHMENT_LOAD_OP_DONT_CARE, VK_ATTACHMENT_STORE_OP_STORE);
-    const VkRenderingInfo rendering = rendering_info(context.extent, context.views, {&color, 1});
-    vkCmdBeginRendering(commands, &rendering);
-    set_area(commands, context.extent);
-    const Status done = draw_surfaces(context, targets, list, inputs);
-    vkCmdEndRendering(commands);
+    if (!computed) {
+        const VkRenderingAttachmentInfo color =
+            attachment(targets.picture.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                       VK_ATTACHMENT_LOAD_OP_DONT_CARE, VK_ATTACHMENT_STORE_OP_STORE);
+        const VkRenderingInfo rendering = rendering_info(context.extent, context.views, {&color, 1});
+        vkCmdBeginRendering(commands, &rendering);
+        set_area(commands, context.extent);
+    }
+    const Status done = shade_surfaces(context, targets, list, inputs);
+    if (!computed) vkCmdEndRendering(commands);
     context.frame.end_timing();
+    if (computed)
+        gpu::image_barrier(commands, targets.picture.get(), ResourceUse::storage_write,
+                           ResourceUse::color_target);
     return done;
 }
 
@@ -145,7 +169,7 @@ Result<const gpu::Pipeline*> ForwardPass::ghost_pipeline(gpu::Device& device, co
     if (known != ghosts_.end()) return &known->second;
     gpu::GraphicsInfo info = part_pipeline(*shaders_, shape, views_);
     info.colors = {layer_format};
-    info.color_write = false;
+    info.written_colors = 0;
     BOLT_TRY_ASSIGN(auto pipeline, gpu::make_graphics_pipeline(device, *cache_, info));
     return &ghosts_.emplace(shape, std::move(pipeline)).first->second;
 }

@@ -31,11 +31,13 @@ class LightPass {
     Result<VkDescriptorSet> light_set(PassContext& context, const RenderTargets& targets,
                                       const gpu::Pipeline& pipeline, const LightInputs& inputs,
                                       bool per_pixel_material);
-    Status draw_surfaces(PassContext& context, const RenderTargets& targets, const DrawList& list,
-                         const LightInputs& inputs);
+    // Records the drawing or the dispatch for all pixels.
+    Status shade_surfaces(PassContext& context, const RenderTargets& targets, const DrawList& list,
+                          const LightInputs& inputs);
 
     const gpu::PipelineCache* cache_ = nullptr;
     const Shaders* shaders_ = nullptr;
+    ScreenStage stage_ = ScreenStage::fragment;
     std::map<std::pair<std::uint32_t, std::uint32_t>, gpu::Pipeline> lights_;  // by features and views
     gpu::Image albedo_table_;
     gpu::Image no_material_buffer_;  // bound if there is no material buffer

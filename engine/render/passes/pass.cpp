@@ -12,7 +12,8 @@ namespace bolt::render {
 namespace {
 
 Status add(gpu::Device& device, const RenderTargets& targets, gpu::Image& to, VkFormat format,
-           VkImageUsageFlags usage, VkSampleCountFlagBits samples, std::uint32_t divisor = 1) {
+           VkImageUsageFlags usage, VkSampleCountFlagBits samples, std::uint32_t divisor = 1,
+           VkFormat storage_format = VK_FORMAT_UNDEFINED) {
     if (to.get() != VK_NULL_HANDLE) return {};
     gpu::ImageInfo info;
     info.extent = {(targets.extent.width + divisor - 1) / divisor,
@@ -22,6 +23,7 @@ Status add(gpu::Device& device, const RenderTargets& targets, gpu::Image& to, Vk
     info.format = format;
     info.samples = samples;
     info.usage = usage;
+    info.storage_format = storage_format;
     return assign(to, gpu::Image::create(device, info));
 }
 
@@ -31,14 +33,21 @@ constexpr VkImageUsageFlags depth_and_read =
 
 }  // namespace
 
-Result<RenderTargets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers) {
+Result<RenderTargets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers,
+                                   ScreenStage stage) {
     RenderTargets t;
     t.extent = extent;
     t.layers = layers;
     BOLT_TRY(add(device, t, t.depth, depth_format, depth_and_read, samples));
     BOLT_TRY(add(device, t, t.surfaces, surface_format, drawn_and_read, samples));
-    const VkImageUsageFlags picture_usage = drawn_and_read | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    BOLT_TRY(add(device, t, t.picture, color_format, picture_usage, VK_SAMPLE_COUNT_1_BIT));
+    VkImageUsageFlags picture_usage = drawn_and_read | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    VkFormat storage_format = VK_FORMAT_UNDEFINED;
+    if (stage == ScreenStage::compute) {
+        picture_usage |= VK_IMAGE_USAGE_STORAGE_BIT;
+        storage_format = storage_color_format;
+    }
+    BOLT_TRY(
+        add(device, t, t.picture, color_format, picture_usage, VK_SAMPLE_COUNT_1_BIT, 1, storage_format));
     return t;
 }
 
@@ -56,8 +65,14 @@ Status add_mark_target(gpu::Device& device, RenderTargets& t) {
     return add(device, t, t.marks, mark_format, drawn_and_read, VK_SAMPLE_COUNT_1_BIT);
 }
 
-Status add_occlusion_targets(gpu::Device& device, RenderTargets& t) {
+Status add_occlusion_targets(gpu::Device& device, RenderTargets& t, ScreenStage stage) {
     constexpr VkSampleCountFlagBits one = VK_SAMPLE_COUNT_1_BIT;
+    if (stage == ScreenStage::compute) {
+        constexpr VkImageUsageFlags computed = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+        BOLT_TRY(add(device, t, t.small_depth, computed_depth_format, computed, one, 2));
+        BOLT_TRY(add(device, t, t.raw_occlusion, computed_occlusion_format, computed, one, 2));
+        return add(device, t, t.occlusion, computed_occlusion_format, computed, one, 2);
+    }
     BOLT_TRY(add(device, t, t.small_depth, depth_format, depth_and_read, one, 2));
     BOLT_TRY(add(device, t, t.raw_occlusion, occlusion_format, drawn_and_read, one, 2));
     return add(device, t, t.occlusion, occlusion_format, drawn_and_read, one, 2);
@@ -125,6 +140,11 @@ VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkA
     return info;
 }
 
+bool has_hidden_area(std::span<const Eye> eyes) {
+    return std::any_of(eyes.begin(), eyes.end(),
+                       [](const Eye& eye) { return eye.hidden != nullptr && !eye.hidden->empty(); });
+}
+
 VkRect2D area_of(const PassContext& context, std::span<const BoundingBox> boxes, float margin_px) {
     const glm::vec2 size(static_cast<float>(context.extent.width), static_cast<float>(context.extent.height));
     glm::vec2 low(1e30F), high(-1e30F);
@@ -155,6 +175,15 @@ VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
     info.pColorAttachments = colors.data();
     info.pDepthAttachment = depth;
     return info;
+}
+
+void dispatch_screen(VkCommandBuffer commands, const gpu::Pipeline& pipeline, VkDescriptorSet set,
+                     VkExtent2D extent, std::uint32_t views) {
+    constexpr std::uint32_t group = 8;  // pixels, as in compute.glsl
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle.get());
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0, 1, &set, 0,
+                            nullptr);
+    vkCmdDispatch(commands, (extent.width + group - 1) / group, (extent.height + group - 1) / group, views);
 }
 
 void draw_screen(VkCommandBuffer commands) { vkCmdDraw(commands, 6, 1, 0, 0); }
@@ -203,6 +232,7 @@ Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing&
     const gpu::Pipeline* pipeline = nullptr;
     const Draw* bound = nullptr;
     const MaterialMaps* maps = nullptr;
+    std::map<const gpu::Pipeline*, VkDescriptorSet> frame_sets;  // parts of one pipeline may be apart
     for (const Draw& d : list.draws) {
         if (!drawing.wanted(d.kind)) continue;
         BOLT_TRY_ASSIGN(auto wanted, drawing.pipeline(d.kind));
@@ -211,7 +241,10 @@ Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing&
                 const VkRect2D area = drawing.area(d.kind);
                 vkCmdSetScissor(commands, 0, 1, &area);
             }
-            BOLT_TRY_ASSIGN(auto set, drawing.frame_set(*wanted));
+            VkDescriptorSet& set = frame_sets[wanted];
+            if (set == VK_NULL_HANDLE) {
+                BOLT_TRY_ASSIGN(set, drawing.frame_set(*wanted));
+            }
             bind(commands, *wanted, set);
             maps = nullptr;
         }

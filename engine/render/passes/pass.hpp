@@ -10,7 +10,7 @@
 
 namespace bolt::render {
 
-// Images of a picture's size with one layer per view of a pass. They have four samples per pixel unless the
+// Images of a picture's size with one layer per view of a batch. They have four samples per pixel unless the
 // comment says otherwise. Optional ones are created when a scene first needs them.
 struct RenderTargets {
     gpu::Image depth;
@@ -27,11 +27,15 @@ struct RenderTargets {
     std::uint32_t layers = 1;
 };
 
-Result<RenderTargets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers);
+// The stage that runs the passes over the whole picture: ambient occlusion and lighting.
+enum class ScreenStage : std::uint8_t { fragment, compute };
+
+Result<RenderTargets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers,
+                                   ScreenStage stage);
 Status add_material_targets(gpu::Device& device, RenderTargets& targets);
 Status add_forward_targets(gpu::Device& device, RenderTargets& targets);
 Status add_mark_target(gpu::Device& device, RenderTargets& targets);
-Status add_occlusion_targets(gpu::Device& device, RenderTargets& targets);
+Status add_occlusion_targets(gpu::Device& device, RenderTargets& targets, ScreenStage stage);
 Status add_kept_depth(gpu::Device& device, RenderTargets& targets);
 
 // One layer of an image: the picture of a view.
@@ -42,15 +46,15 @@ struct ImageLayer {
 
 // The render targets of views of one size, kept from frame to frame.
 struct ViewGroup {
-    std::vector<RenderTargets> targets;  // one per pass
+    std::vector<RenderTargets> targets;  // one per batch
     VkExtent2D extent{};
-    std::uint32_t views = 0, views_per_pass = 1;
+    std::uint32_t views = 0, views_per_batch = 1;
 
     [[nodiscard]] ImageLayer picture(std::uint32_t view) const {
-        return {&targets[view / views_per_pass].picture, view % views_per_pass};
+        return {&targets[view / views_per_batch].picture, view % views_per_batch};
     }
     [[nodiscard]] ImageLayer depth(std::uint32_t view) const {
-        return {&targets[view / views_per_pass].kept_depth, view % views_per_pass};
+        return {&targets[view / views_per_batch].kept_depth, view % views_per_batch};
     }
 };
 
@@ -68,13 +72,18 @@ void each_image(RenderTargets& targets, const Visit& visit) {
 inline constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;
 // For layers that are blended over a picture; with 8 bits, premultiplied colours would show banding.
 inline constexpr VkFormat layer_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+// That of the picture in compute shaders, which encode sRGB themselves (light.comp).
+inline constexpr VkFormat storage_color_format = VK_FORMAT_R8G8B8A8_UNORM;
 inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
+inline constexpr VkFormat computed_depth_format = VK_FORMAT_R32_SFLOAT;  // depth written by compute shaders
 inline constexpr VkFormat surface_format = VK_FORMAT_R16G16B16A16_UNORM;
 inline constexpr VkFormat material_color_format = VK_FORMAT_R8G8B8A8_SRGB;
 inline constexpr VkFormat material_roughness_format = VK_FORMAT_R8G8_UNORM;
 inline constexpr VkFormat occlusion_format = VK_FORMAT_R8_UNORM;
+// The same written by compute shaders, in a format that every GPU allows for this.
+inline constexpr VkFormat computed_occlusion_format = VK_FORMAT_R8G8B8A8_UNORM;
 inline constexpr VkFormat mark_format = VK_FORMAT_R8G8B8A8_UNORM;
-// light.frag depends on this number.
+// shade_pixel.glsl depends on this number.
 inline constexpr VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
 inline constexpr gpu::ImageRange depth_range{VK_IMAGE_ASPECT_DEPTH_BIT};
 
@@ -86,6 +95,7 @@ struct PassSetup {
     gpu::Device& device;
     const gpu::PipelineCache& cache;
     const Shaders& shaders;
+    ScreenStage screen_stage = ScreenStage::fragment;
 };
 
 // State shared by the passes of one frame and one group of views.
@@ -96,12 +106,13 @@ struct PassContext {
     const EnvironmentLight& environment;
     shared::FrameData& shared;
     gpu::TransientRange frame_block;  // the uploaded copy of `shared`
-    std::uint32_t views;              // number of views that one pass draws
+    std::uint32_t views;              // number of views of the batch
     VkExtent2D extent;
     gpu::TransientRange instances, materials;  // of the draw list
     const GpuTexture& white;                   // replaces missing maps of a material
     VkImageView white_array;                   // the same texture, viewed as an array
     const DeformedParts& deformed;
+    std::span<const Eye> eyes;  // of the views
 };
 
 // Uploads values for this frame's shaders. The range is at least as large as one value, because empty ranges
@@ -157,6 +168,9 @@ void draw_all(VkCommandBuffer commands, const DrawList& list, const Wanted& want
 VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkAttachmentLoadOp load,
                                      VkAttachmentStoreOp store);
 
+// Returns true if an eye has an area that is never seen.
+bool has_hidden_area(std::span<const Eye> eyes);
+
 // Returns the rectangle of pixels that the boxes may cover in any of the context's views, widened by a margin
 // and clamped to the picture.
 VkRect2D area_of(const PassContext& context, std::span<const BoundingBox> boxes, float margin_px);
@@ -169,6 +183,10 @@ VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
 // Draws a rectangle at the far plane over the whole image, with the bound pipeline, which must use
 // screen.vert.
 void draw_screen(VkCommandBuffer commands);
+
+// Runs a compute pipeline once for each pixel of an image and each view (shaders/compute.glsl).
+void dispatch_screen(VkCommandBuffer commands, const gpu::Pipeline& pipeline, VkDescriptorSet set,
+                     VkExtent2D extent, std::uint32_t views);
 
 // Returns the vertex stage of a pipeline that draws parts with scene.vert.
 gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const PipelineKind& kind, std::uint32_t views);

@@ -164,6 +164,21 @@ Result<VkDescriptorSet> make_set(PassContext& context, const gpu::Pipeline& pipe
 
 Result<OcclusionPass> OcclusionPass::create(const PassSetup& setup, std::uint32_t views) {
     OcclusionPass pass;
+    pass.stage_ = setup.screen_stage;
+    gpu::SamplerInfo nearest;
+    nearest.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    nearest.filter = VK_FILTER_NEAREST;
+    BOLT_TRY(assign(pass.nearest_, gpu::make_sampler(setup.device, nearest)));
+    if (pass.stage_ == ScreenStage::compute) {
+        const auto make = [&](gpu::Pipeline& to, const char* shader) {
+            return assign(to,
+                          gpu::make_compute_pipeline(setup.device, setup.cache, setup.shaders.at(shader)));
+        };
+        BOLT_TRY(make(pass.shrink_, "shrink.comp"));
+        BOLT_TRY(make(pass.slices_, "occlusion.comp"));
+        BOLT_TRY(make(pass.smooth_, "smooth.comp"));
+        return pass;
+    }
     gpu::GraphicsInfo info;
     set_views(info, views);
     info.vertex = &setup.shaders.at("screen.vert");
@@ -180,18 +195,10 @@ Result<OcclusionPass> OcclusionPass::create(const PassSetup& setup, std::uint32_
     info.colors = {occlusion_format};
     BOLT_TRY(make(pass.slices_, "occlusion.frag"));
     BOLT_TRY(make(pass.smooth_, "smooth.frag"));
-    gpu::SamplerInfo nearest;
-    nearest.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    nearest.filter = VK_FILTER_NEAREST;
-    BOLT_TRY(assign(pass.nearest_, gpu::make_sampler(setup.device, nearest)));
     return pass;
 }
 
-Status OcclusionPass::shrink(PassContext& context, const RenderTargets& targets) {
-    BOLT_TRY_ASSIGN(const auto set, make_set(context, shrink_, [&](gpu::DescriptorWriter& w) {
-                        w.image(3, targets.depth.view(), nearest_.get(),
-                                VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
-                    }));
+void OcclusionPass::shrink(PassContext& context, const RenderTargets& targets, VkDescriptorSet set) {
     const VkCommandBuffer commands = context.frame.commands();
     const gpu::Image& small = targets.small_depth;
     gpu::image_barrier_discarding(commands, small.get(), ResourceUse::depth_read, ResourceUse::depth_target,
@@ -207,7 +214,6 @@ Status OcclusionPass::shrink(PassContext& context, const RenderTargets& targets)
     vkCmdEndRendering(commands);
     gpu::image_barrier(commands, small.get(), ResourceUse::depth_target, ResourceUse::depth_read,
                        depth_range);
-    return {};
 }
 
 void OcclusionPass::draw_into(PassContext& context, const RenderTargets& targets,
@@ -230,26 +236,51 @@ void OcclusionPass::draw_into(PassContext& context, const RenderTargets& targets
     gpu::image_barrier(commands, target.get(), ResourceUse::color_target, ResourceUse::sampled);
 }
 
+void OcclusionPass::compute(PassContext& context, const gpu::Pipeline& pipeline, VkDescriptorSet set,
+                            const gpu::Image& target) {
+    const VkCommandBuffer commands = context.frame.commands();
+    gpu::image_barrier_discarding(commands, target.get(), ResourceUse::sampled, ResourceUse::storage_write);
+    dispatch_screen(commands, pipeline, set, target.info().extent, context.views);
+    gpu::image_barrier(commands, target.get(), ResourceUse::storage_write, ResourceUse::sampled);
+}
+
 Status OcclusionPass::draw(PassContext& context, RenderTargets& targets) {
-    BOLT_TRY(add_occlusion_targets(context.device, targets));
+    BOLT_TRY(add_occlusion_targets(context.device, targets, stage_));
+    const bool computed = stage_ == ScreenStage::compute;
     const VkSampler nearest = nearest_.get();
-    constexpr VkImageLayout depth_layout = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
+    constexpr VkImageLayout read_depth = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
+    const VkImageLayout read_small_depth = computed ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : read_depth;
+    const auto writes = [&](gpu::DescriptorWriter& w, const gpu::Image& image) {
+        if (computed) w.image(6, image.storage_view(), VK_NULL_HANDLE, VK_IMAGE_LAYOUT_GENERAL);
+    };
+    BOLT_TRY_ASSIGN(const auto shrink_set, make_set(context, shrink_, [&](gpu::DescriptorWriter& w) {
+                        w.image(3, targets.depth.view(), nearest, read_depth);
+                        writes(w, targets.small_depth);
+                    }));
     BOLT_TRY_ASSIGN(const auto slices_set, make_set(context, slices_, [&](gpu::DescriptorWriter& w) {
                         w.range(0, context.frame_block)
-                            .image(3, targets.small_depth.view(), nearest, depth_layout)
+                            .image(3, targets.small_depth.view(), nearest, read_small_depth)
                             .image(5, targets.surfaces.view(), nearest);
+                        writes(w, targets.raw_occlusion);
                     }));
     BOLT_TRY_ASSIGN(const auto smooth_set, make_set(context, smooth_, [&](gpu::DescriptorWriter& w) {
                         w.range(0, context.frame_block)
-                            .image(3, targets.small_depth.view(), nearest, depth_layout)
+                            .image(3, targets.small_depth.view(), nearest, read_small_depth)
                             .image(4, targets.raw_occlusion.view(), nearest)
                             .image(5, targets.surfaces.view(), nearest);
+                        writes(w, targets.occlusion);
                     }));
 
     context.frame.begin_timing("occlusion");
-    BOLT_TRY(shrink(context, targets));
-    draw_into(context, targets, slices_, slices_set, targets.raw_occlusion);
-    draw_into(context, targets, smooth_, smooth_set, targets.occlusion);
+    if (computed) {
+        compute(context, shrink_, shrink_set, targets.small_depth);
+        compute(context, slices_, slices_set, targets.raw_occlusion);
+        compute(context, smooth_, smooth_set, targets.occlusion);
+    } else {
+        shrink(context, targets, shrink_set);
+        draw_into(context, targets, slices_, slices_set, targets.raw_occlusion);
+        draw_into(context, targets, smooth_, smooth_set, targets.occlusion);
+    }
     context.frame.end_timing();
     return {};
 }

@@ -33,7 +33,7 @@ class ShadowPass {
 };
 
 // Ambient occlusion at half size: halves the depth buffer, integrates the unoccluded angle between the
-// horizons of one slice per pixel, and smooths the result. Pixels without geometry are skipped.
+// horizons of one slice per pixel, and smooths the result. Pixels without geometry are not computed.
 class OcclusionPass {
   public:
     static Result<OcclusionPass> create(const PassSetup& setup, std::uint32_t views);
@@ -42,11 +42,15 @@ class OcclusionPass {
     Status draw(PassContext& context, RenderTargets& targets);
 
   private:
-    Status shrink(PassContext& context, const RenderTargets& targets);
+    void shrink(PassContext& context, const RenderTargets& targets, VkDescriptorSet set);
     // Runs a pipeline for every pixel with geometry and writes to `target`.
     void draw_into(PassContext& context, const RenderTargets& targets, const gpu::Pipeline& pipeline,
                    VkDescriptorSet set, const gpu::Image& target);
+    // The same in a compute shader, also for pixels without geometry.
+    static void compute(PassContext& context, const gpu::Pipeline& pipeline, VkDescriptorSet set,
+                        const gpu::Image& target);
 
+    ScreenStage stage_ = ScreenStage::fragment;
     gpu::Pipeline shrink_, slices_, smooth_;
     gpu::Sampler nearest_;
 };
