@@ -151,7 +151,8 @@ void Headset::record(VkCommandBuffer commands, std::span<const EyePicture> pictu
 void Headset::end_frame(const HeadsetFrame& frame, bool drawn, const DepthRange& depth) {
     if (pending_error_) (void)drop_on_error(fail(*std::exchange(pending_error_, std::nullopt)));
     if (session_)
-        (void)drop_on_error(session_->end_frame(frame.timing, {drawn ? &frame.view : nullptr, depth}));
+        (void)drop_on_error(
+            session_->end_frame(frame.timing, {drawn ? &frame.view : nullptr, depth, frame.surroundings}));
 }
 
 void Headset::vibrate(Side side, const Vibration& vibration) {

@@ -25,7 +25,8 @@ struct HeadsetFrame {
     FrameTiming timing;
     HeadView view;  // without eyes: nothing can be drawn
     Hands hands;
-    bool focused = false;  // false: pause the lesson, output no force, hide the hands
+    bool focused = false;       // false: pause the lesson, output no force, hide the hands
+    bool surroundings = false;  // to be set: show them behind transparent pictures, if the headset can
     // Since the last frame. Recentred comes with the first frame whose poses are in the new space.
     std::vector<SessionEvent> events;
 };

@@ -22,7 +22,7 @@ class PoseTracker {
     PoseTracker& operator=(const PoseTracker&) = delete;
     ~PoseTracker();
 
-    // The pose now, in the runtime's stage, or where it has none in its local space: x right, y up, m. None:
+    // The pose now, in the runtime's stage; if it has none, in its local space: x right, y up, m. None:
     // it is not tracked at the moment. Fails if the runtime has ended; the tracker must then be destroyed.
     Result<std::optional<Pose>> read();
 

@@ -247,9 +247,11 @@ Status Session::poll(std::vector<SessionEvent>& events) {
                 events.emplace_back(BindingsChanged{});
                 break;
             case XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR:
+                hidden_known_ = false;
                 events.emplace_back(VisibilityMaskChanged{});
                 break;
             case XR_TYPE_EVENT_DATA_EVENTS_LOST:
+                hidden_known_ = false;
                 events.emplace_back(EventsLost{});
                 break;
             default:

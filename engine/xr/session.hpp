@@ -24,9 +24,14 @@
 
 namespace bolt::xr {
 
+// Three corners of each triangle that covers what an eye never sees, because its lens hides it: x right, y
+// up, on the plane 1 m in front of the eye.
+using HiddenArea = std::vector<glm::vec2>;
+
 struct EyeView {
     Pose pose;  // of the eye, in the session's base space: x right, y up, z towards the viewer
     FieldOfView fov;
+    std::shared_ptr<const HiddenArea> hidden = nullptr;  // null: the runtime has no mask
 };
 
 // Where the head and its eyes are when a frame is displayed.
@@ -79,7 +84,6 @@ constexpr const char* name(BaseSpace space) {
 struct SessionOptions {
     bool seated = false;         // prefer BaseSpace::seated, else stage, then floor
     bool submit_depth = true;    // if the runtime uses depth to correct the picture
-    bool passthrough = false;    // show the surroundings, if the headset can
     bool separate_eyes = false;  // a swapchain for each eye even if one with two layers can be created
 };
 
@@ -149,6 +153,9 @@ class Session {
     struct Drawn {
         const HeadView* view = nullptr;  // the views that were drawn and recorded; null: none
         DepthRange depth;
+        // Show the surroundings behind the pictures, whose colours are multiplied by alpha, if the headset
+        // can.
+        bool surroundings = false;
     };
     // Ends the frame.
     Status end_frame(const FrameTiming& frame, const Drawn& drawn);
@@ -186,6 +193,7 @@ class Session {
     Result<Swapchain> make_swapchain(VkFormat format, std::uint32_t layers, XrSwapchainUsageFlags usage);
     Status handle_state_change(const XrEventDataSessionStateChanged& event);
     void count(XrTime display_time);
+    void find_hidden_areas();
     Status acquire(Swapchain& swapchain);
     Status release(Swapchain& swapchain);
     template <class Visit>
@@ -209,6 +217,8 @@ class Session {
     std::optional<XrTime> last_display_time_;  // of this run of the session
     XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
     bool running_ = false, ended_ = false, abandoned_ = false;
+    std::array<std::shared_ptr<const HiddenArea>, 2> hidden_;  // by eye
+    bool hidden_known_ = false;                                // queried since the last change
 };
 
 }  // namespace bolt::xr

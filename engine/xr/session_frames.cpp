@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "engine/xr/frame_waiter.hpp"
 #include "engine/xr/session.hpp"
@@ -64,7 +65,46 @@ Result<std::optional<FrameTiming>> Session::begin_frame(double timeout) {
     return timing;
 }
 
+namespace {
+
+constexpr std::uint32_t max_mask_size = 65536;  // vertices and indices
+
+// Null: the runtime has no mask for this eye, or one that is not made of triangles.
+std::shared_ptr<const HiddenArea> hidden_area(const Runtime& runtime, XrSession session, std::uint32_t eye) {
+    const auto query = [&](XrVisibilityMaskKHR& mask) {
+        return runtime.functions().visibility_mask(session, runtime.view_configuration(), eye,
+                                                   XR_VISIBILITY_MASK_TYPE_HIDDEN_TRIANGLE_MESH_KHR, &mask);
+    };
+    XrVisibilityMaskKHR mask{XR_TYPE_VISIBILITY_MASK_KHR};
+    if (query(mask) != XR_SUCCESS || mask.indexCountOutput == 0) return nullptr;
+    if (mask.vertexCountOutput > max_mask_size || mask.indexCountOutput > max_mask_size) return nullptr;
+    std::vector<XrVector2f> vertices(mask.vertexCountOutput);
+    std::vector<std::uint32_t> indices(mask.indexCountOutput);
+    mask.vertexCapacityInput = mask.vertexCountOutput;
+    mask.vertices = vertices.data();
+    mask.indexCapacityInput = mask.indexCountOutput;
+    mask.indices = indices.data();
+    if (query(mask) != XR_SUCCESS || mask.indexCountOutput != indices.size() || indices.size() % 3 != 0)
+        return nullptr;
+    HiddenArea corners;
+    for (const std::uint32_t index : indices) {
+        if (index >= vertices.size()) return nullptr;
+        corners.emplace_back(vertices[index].x, vertices[index].y);
+    }
+    return std::make_shared<const HiddenArea>(std::move(corners));
+}
+
+}  // namespace
+
+// A runtime without the extension, or whose mask is invalid, shows the whole pictures.
+void Session::find_hidden_areas() {
+    if (std::exchange(hidden_known_, true) || runtime_->functions().visibility_mask == nullptr) return;
+    for (std::uint32_t eye = 0; eye < runtime_->views().size(); ++eye)
+        hidden_[eye] = hidden_area(*runtime_, session_.get(), eye);
+}
+
 Result<HeadView> Session::locate(const FrameTiming& frame) {
+    find_hidden_areas();
     XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO};
     info.viewConfigurationType = runtime_->view_configuration();
     info.displayTime = frame.display_time;
@@ -92,7 +132,8 @@ Result<HeadView> Session::locate(const FrameTiming& frame) {
         const XrFovf& fov = views[eye].fov;
         result.eyes.push_back({to_pose(views[eye].pose),
                                {static_cast<double>(fov.angleLeft), static_cast<double>(fov.angleRight),
-                                static_cast<double>(fov.angleUp), static_cast<double>(fov.angleDown)}});
+                                static_cast<double>(fov.angleUp), static_cast<double>(fov.angleDown)},
+                               hidden_[eye]});
     }
     return result;
 }
@@ -237,7 +278,7 @@ Status Session::end_frame(const FrameTiming& frame, const Drawn& drawn) {
         depths[eye].farZ = drawn.depth.near;
         views[eye].next = &depths[eye];
     }
-    const bool blends = options_.passthrough && runtime_->passthrough().has_value();
+    const bool blends = drawn.surroundings && runtime_->passthrough().has_value();
     XrCompositionLayerProjection projection{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
     projection.layerFlags = blends ? XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT : 0;
     projection.space = space_.get();

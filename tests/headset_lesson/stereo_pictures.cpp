@@ -138,6 +138,15 @@ TEST_CASE("Stereo pictures: those in the headset are those that are drawn withou
             CHECK(shown.pictures[eye].width == drawn[eye].width);
             CHECK(shown.pictures[eye].rgba == drawn[eye].rgba);
         }
+        // The mock's visibility mask hides the upper left corner, a part of which is in both pictures.
+        const auto black = [&](std::size_t eye, std::size_t x, std::size_t y) {
+            const std::uint8_t* pixel = &drawn[eye].rgba[4 * (y * drawn[eye].width + x)];
+            return pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0;
+        };
+        CHECK(black(0, 8, 11));
+        CHECK(black(1, 7, 7));
+        CHECK_FALSE(black(0, 100, 11));
+        CHECK_FALSE(black(1, 100, 7));
         // Controls: the eyes differ, and so do the positions.
         CHECK(drawn[0].rgba != drawn[1].rgba);
         CHECK(drawn[0].rgba != before);

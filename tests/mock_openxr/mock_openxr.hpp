@@ -20,7 +20,7 @@
 //   0 config passthrough 1               the blend mode ALPHA_BLEND is offered
 //   0 config realtime 0|1                xrWaitFrame waits in real time
 //   0 report FILE          writes a summary at each xrDestroyInstance and at exit: "frames N", "drawn N",
-//                          "vibrations N", then "violation TEXT" for each violation
+//                          "blended N", "vibrations N", then "violation TEXT" for each violation
 //   F head POSE            POSE: x y z qx qy qz qw
 //   F head valid|tracked 0|1
 //   F hand left|right grip|aim POSE

@@ -225,7 +225,11 @@ void write_report(const State& s) {
     std::ofstream file(s.script.report);
     const auto drawn =
         std::count_if(s.frames.begin(), s.frames.end(), [](const Frame& frame) { return frame.has_layer; });
-    file << fmt::format("frames {}\ndrawn {}\nvibrations {}\n", s.frames.size(), drawn, s.vibrations.size());
+    const auto blended = std::count_if(s.frames.begin(), s.frames.end(), [](const Frame& frame) {
+        return frame.blend_mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
+    });
+    file << fmt::format("frames {}\ndrawn {}\nblended {}\nvibrations {}\n", s.frames.size(), drawn, blended,
+                        s.vibrations.size());
     for (const std::string& violation : s.violations) file << "violation " << violation << '\n';
 }
 

@@ -189,8 +189,8 @@ TEST_CASE("Pictures: the options switch depth off and the surroundings on") {
     for (const bool on : {false, true}) {
         xr::HeadsetOptions options;
         options.session.submit_depth = false;
-        options.session.passthrough = on;
         test::Program program(options);
+        program.set_surroundings(on);
         REQUIRE(program.connect());
         CHECK_FALSE(program.headset().session().uses_depth());
         (void)program.focus();
@@ -204,9 +204,8 @@ TEST_CASE("Pictures: the options switch depth off and the surroundings on") {
 
 TEST_CASE("Pictures: surroundings that the headset cannot show are not requested") {
     const test::MockRuntime mock;
-    xr::HeadsetOptions options;
-    options.session.passthrough = true;
-    test::Program program(options);
+    test::Program program;
+    program.set_surroundings(true);
     REQUIRE(program.connect());
     (void)program.focus();
     CHECK(mock->take_frames().back().blend_mode == XR_ENVIRONMENT_BLEND_MODE_OPAQUE);

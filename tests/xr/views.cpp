@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/xr/support.hpp"
@@ -134,6 +135,44 @@ TEST_CASE(
         REQUIRE(program.connect());
         CHECK(program.headset().session().base_space() == c.expected);
         check_at(program.focus().view.head, c.head);
+    }
+}
+
+TEST_CASE("Hidden areas: the triangles of the runtime's mask, queried again when it changes") {
+    const test::MockRuntime mock;
+    test::Program program;
+    REQUIRE(program.connect());
+    const xr::HeadsetFrame frame = program.focus();
+    const xr::HiddenArea expected{{-1.0F, 1.0F}, {-0.6F, 1.0F}, {-1.0F, 0.6F}};
+    REQUIRE(frame.view.eyes.size() == 2);
+    for (const xr::EyeView& eye : frame.view.eyes) {
+        REQUIRE(eye.hidden != nullptr);
+        CHECK(*eye.hidden == expected);
+    }
+    const auto queries = [&] { return mock->calls("xrGetVisibilityMaskKHR"); };
+    const std::uint64_t before = queries();
+    (void)frame_of(program);
+    CHECK(queries() == before);
+    mock->send(mock::Event::mask_changed);
+    (void)frame_of(program);
+    CHECK(queries() == before + 4);  // sizes and triangles of two eyes
+    mock->send(mock::Event::events_lost);
+    (void)frame_of(program);
+    CHECK(queries() == before + 8);
+}
+
+TEST_CASE(
+    "Hidden areas: none without the extension, without a mask, or of a mask that is not made of triangles") {
+    mock::Config without, empty, torn;
+    without.extensions.erase(
+        std::find(without.extensions.begin(), without.extensions.end(), "XR_KHR_visibility_mask"));
+    empty.hidden_triangles.clear();
+    torn.hidden_triangles.push_back({0.0F, 0.0F});
+    for (const mock::Config& config : {without, empty, torn}) {
+        const test::MockRuntime mock(config);
+        test::Program program;
+        REQUIRE(program.connect());
+        for (const xr::EyeView& eye : program.focus().view.eyes) CHECK(eye.hidden == nullptr);
     }
 }
 
