@@ -207,6 +207,7 @@ inline constexpr KeyRow key_rows[] = {
     {"menu.palette.distinct", ""},
     {"menu.force_scale", ""},
     {"menu.force_arrow", ""},
+    {"menu.surroundings", ""},
     {"menu.seated", ""},
     {"menu.sound", ""},
     {"menu.vibration", ""},

@@ -97,7 +97,7 @@ void add_device_options(CLI::App& train, TrainArguments& options) {
         "--displays", options.displays,
         "Display file: shows the lesson on projection walls. `boltwright displays new` makes one");
     train.add_flag("--full-resolution", options.full_resolution,
-                   "Keep the headset's resolution although the GPU is too slow for its frame rate");
+                   "Keep the resolution of headset and window even if the GPU is too slow for it");
     train.add_flag("--headless", options.headless,
                    "No window: a simulated trainee performs the lesson in virtual time");
 }

@@ -29,7 +29,7 @@ struct TrainArguments {
     // The word after --hmd: "required" (or nothing), "optional", or the assembly; none: no headset is used.
     std::optional<std::string> hmd;
     std::string displays;          // display file of projection walls; empty: there are none
-    bool full_resolution = false;  // of the headset, also if the GPU is too slow for it
+    bool full_resolution = false;  // of headset and window, also if the GPU is too slow for it
     bool headless = false;
     bool start = false, full_screen = false, validate = false, silent = false;
     std::string trainee, language, settings;

@@ -17,9 +17,9 @@
 #include "game/session/lesson_session.hpp"
 #include "game/sound/playback.hpp"
 #include "game/trainer/controls.hpp"
+#include "game/trainer/helped_hand.hpp"
 #include "game/trainer/hud.hpp"
 #include "game/trainer/lesson_view.hpp"
-#include "game/trainer/mouse_hand.hpp"
 #include "game/trainer/pointing.hpp"
 #include "game/trainer/station_client.hpp"
 #include "game/trainer/step_undo.hpp"
@@ -35,7 +35,7 @@ struct PointerState {
     bool drags_hand = false;         // the drag of the left button moves the hand, not the view
     glm::dvec2 press_position{0.0};  // px, where the left button was pressed
     std::optional<std::size_t> nut;  // under the pointer
-    // Mouse: the wrench at rest is under the pointer. Station: it is within reach of the hand.
+    // The helped hand: the wrench at rest is under the pointer. A station: it is within reach of the hand.
     bool on_wrench = false;
 };
 
@@ -76,7 +76,7 @@ struct LessonVibration {
 struct ActiveLesson {
     std::unique_ptr<session::LessonSession> session;
     std::optional<StationClient> station;  // none: the mouse moves the hand
-    MouseHand mouse;
+    HelpedHand mouse;
     scene::Workplace workplace;  // contains the world
     render::Scene scene;
 

@@ -7,6 +7,7 @@
 
 #include "game/sound/event_detection.hpp"
 #include "game/trainer/hud.hpp"
+#include "game/view/resolution.hpp"
 
 namespace bolt::trainer {
 
@@ -32,6 +33,17 @@ void add_language_characters(ui::Ui& ui, std::span<const words::Words> languages
     }
     for (const std::string_view sign : {"▼", "●", "▲", "◆", "▶", "✓", "✗", "–", "‹", "›"})
         ui.add_characters(sign);
+}
+
+// The scene for a picture that has this share of the window's width and height: lengths in pixels are
+// scaled.
+render::Scene with_fewer_pixels(render::Scene scene, float share) {
+    scene.outline_px *= share;
+    for (render::Label& label : scene.labels) {
+        label.offset_px *= share;
+        if (label.placement == render::LabelPlacement::on_screen) label.height *= share;
+    }
+    return scene;
 }
 
 }  // namespace
@@ -317,15 +329,45 @@ Status App::draw_interface(gpu::FrameContext& frame, const render::ImageLayer& s
 }
 
 // Draws the lesson, or the pictures of the menu.
-Status App::draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale) {
+Status App::draw_pictures(gpu::FrameContext& frame, const view::WindowFrame& window) {
     static const render::Scene empty_scene;
-    const glm::dvec2 extent(size.width, size.height);
-    const render::Eye eye = active_ ? projection_of(*active_, extent).eye : render::Eye{};
     render::Renderer& renderer = *gpu_->context->renderer;
-    BOLT_TRY(renderer.render(frame, active_ ? active_->scene : empty_scene, std::span(&eye, 1), size));
+    gpu_->shows_enlarged = active_ && window.resolution < 1.0F;
+    if (gpu_->shows_enlarged) {
+        const VkExtent2D size = view::scaled(window.resolution, window.size);
+        const render::Eye eye = projection_of(*active_, glm::dvec2(size.width, size.height)).eye;
+        BOLT_TRY(renderer.render(frame, with_fewer_pixels(active_->scene, window.resolution),
+                                 std::span(&eye, 1), size));
+        return enlarge_scene(frame, window.size);
+    }
+    if (gpu_->enlarged) {
+        frame.retire(gpu_->enlarged->release());
+        gpu_->enlarged.reset();
+    }
+    const glm::dvec2 extent(window.size.width, window.size.height);
+    const render::Eye eye = active_ ? projection_of(*active_, extent).eye : render::Eye{};
+    BOLT_TRY(renderer.render(frame, active_ ? active_->scene : empty_scene, std::span(&eye, 1), window.size));
     if (active_) return {};
     return pictures_.draw(*gpu_->context->device, renderer, frame,
-                          picture_request(menu_, options_.choice.assembly, size, scale));
+                          picture_request(menu_, options_.choice.assembly, window.size, window.scale));
+}
+
+// Enlarges the scene to all pixels of the window, over which the interface is then drawn.
+Status App::enlarge_scene(gpu::FrameContext& frame, VkExtent2D size) {
+    std::optional<render::PanelPicture>& to = gpu_->enlarged;
+    if (to && (to->extent().width != size.width || to->extent().height != size.height)) {
+        frame.retire(to->release());
+        to.reset();
+    }
+    if (!to) {
+        BOLT_TRY_ASSIGN(auto picture, render::PanelPicture::create(*gpu_->context->device, size));
+        to.emplace(std::move(picture));
+    }
+    to->clear(frame);
+    render::Renderer& renderer = *gpu_->context->renderer;
+    render::Overlay overlay;
+    render::add_picture(overlay, {glm::vec2(0.0F), glm::vec2(size.width, size.height)}, renderer.picture(0));
+    return renderer.draw_over(frame, overlay, to->layer());
 }
 
 Status App::update(const view::WindowFrame& window) {
@@ -386,6 +428,13 @@ Status App::draw_panel(gpu::FrameContext& frame) {
 Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& immersive) {
     const Pose place = scene_in_room();
     render::Scene scene = active_ ? active_->scene : empty_room();
+    if (immersive.can_show_surroundings && shows_surroundings()) {
+        scene.transparent = true;
+        if (active_)
+            std::erase_if(scene.objects, [&](const render::Object& object) {
+                return object.model == &gpu_->models->workshop;
+            });
+    }
     if (in_room() && room_->panel)
         scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
     return draw_in_room(*gpu_->context->renderer, frame, scene, place, immersive);
@@ -396,8 +445,8 @@ Status App::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
         BOLT_TRY(draw_panel(frame));
         if (sender_) BOLT_TRY(sender_->panel.record(*gpu_->context->device, frame, *gpu_->panel));
     } else if (window.size.width > 0 && window.size.height > 0) {
-        BOLT_TRY(draw_pictures(frame, window.size, window.scale));
-        BOLT_TRY(draw_interface(frame, gpu_->context->renderer->picture(0)));
+        BOLT_TRY(draw_pictures(frame, window));
+        BOLT_TRY(draw_interface(frame, window_picture(*gpu_->context->renderer)));
     }
     if (window.immersive != nullptr) BOLT_TRY(draw_room(frame, *window.immersive));
     return std::exchange(end_requested_, false) ? end_lesson() : Status{};

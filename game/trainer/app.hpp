@@ -70,8 +70,11 @@ class App : public view::WindowContent {
     Status end() override { return end_lesson(); }
 
     [[nodiscard]] bool closed() const override { return closed_; }
+    [[nodiscard]] bool scales_scene() const override { return active_.has_value() && !in_room(); }
+    [[nodiscard]] bool shows_surroundings() const override { return preferences_.settings.surroundings; }
     [[nodiscard]] render::ImageLayer window_picture(const render::Renderer& renderer) const override {
-        return in_room() ? gpu_->panel->layer() : renderer.picture(0);
+        if (in_room()) return gpu_->panel->layer();
+        return gpu_->shows_enlarged ? gpu_->enlarged->layer() : renderer.picture(0);
     }
     [[nodiscard]] bool take_full_screen_request() override {
         return std::exchange(full_screen_requested_, false);
@@ -99,6 +102,9 @@ class App : public view::WindowContent {
         std::unique_ptr<scene::GpuLessonModels> models;
         std::optional<text::Fonts> fonts;
         std::optional<render::PanelPicture> panel;  // since the first immersive frame
+        // The window's picture, if the scene was drawn with fewer pixels.
+        std::optional<render::PanelPicture> enlarged;
+        bool shows_enlarged = false;
     };
     // The picture of the interface: that of the window, or of the panel in a room.
     struct Picture {
@@ -118,13 +124,14 @@ class App : public view::WindowContent {
     [[nodiscard]] bool in_room() const { return room_ && room_->shown; }
     void pause_unseen(bool seen);
     void place_in_room(const view::ImmersiveFrame& immersive);
-    void find_arm(const view::ImmersiveFrame& immersive);
+    void start_registered_arm(const view::ImmersiveFrame& immersive);
     void follow_touch_check(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);
     void end_touch_check();
     [[nodiscard]] RoomInput room_input(const view::ImmersiveFrame& immersive) const;
     void follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events);
     [[nodiscard]] Pose scene_in_room() const;
-    Status draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale);
+    Status draw_pictures(gpu::FrameContext& frame, const view::WindowFrame& window);
+    Status enlarge_scene(gpu::FrameContext& frame, VkExtent2D size);
     Status draw_interface(gpu::FrameContext& frame, const render::ImageLayer& picture);
     Status draw_panel(gpu::FrameContext& frame);
     Status draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& immersive);

@@ -65,8 +65,9 @@ void App::pause_unseen(bool seen) {
     if (std::exchange(room_->paused, false)) paused = false;
 }
 
-// The arm's frame in the room; none: the picture does not depend on where the arm is. Logs the reason once.
-void App::find_arm(const view::ImmersiveFrame& immersive) {
+// Once a lesson: sets the place of a registered arm, or logs why the picture does not depend on it, and
+// begins the touch check.
+void App::start_registered_arm(const view::ImmersiveFrame& immersive) {
     RoomState& room = *room_;
     if (!active_ || !active_->station) {
         room.arm.reset();
@@ -87,7 +88,7 @@ void App::find_arm(const view::ImmersiveFrame& immersive) {
     const double scale = client.link->layout().workspace.scale;
     if (scale != 1.0 || !immersive.floor_known) {
         log(fmt::format(
-            "the picture is not where the arm feels: {}",
+            "picture and arm are not aligned: {}",
             scale != 1.0
                 ? fmt::format("the scale of the arm is {:.2f}; expected 1 (\"scale\" in the station file)",
                               scale)
@@ -95,11 +96,11 @@ void App::find_arm(const view::ImmersiveFrame& immersive) {
         return;
     }
     room.arm = found->from == content::CoordinateFrame::arm ? found->pose : inverse(found->pose);
-    log(fmt::format(
-        "the picture is where the arm feels: registered on {} with {:.1f} mm rms; `boltwright station "
-        "register FILE --check` checks it",
-        found->date, found->rms / mm));
-    if (!room.touch_asked && active_->session->time() == 0.0) room.touch = touch_check_of(*found);
+    log(
+        fmt::format("picture and arm are aligned: registered on {} with {:.1f} mm rms; `boltwright station "
+                    "register FILE --check` checks it",
+                    found->date, found->rms / mm));
+    if (!room.touch_done && active_->session->time() == 0.0) room.touch = touch_check_of(*found);
     if (room.touch) active_->clock.paused = true;
 }
 
@@ -119,7 +120,7 @@ void App::follow_touch_check(std::span<const platform::InputEvent> events, doubl
     const bool started = trainer::update(touch, active_->station->latest.mover, answer.confirmed, seconds);
     if (asked && !waits_for_touch(touch))
         log(fmt::format("a touch of the registration's check point is off by {:.1f} mm{}", touch.error / mm,
-                        touch.phase == TouchPhase::wrong ? "; register the arm again" : ""));
+                        touch.phase == TouchPhase::failed ? "; register the arm again" : ""));
     if (started || answer.ended) end_touch_check();
 }
 
@@ -128,7 +129,7 @@ void App::end_touch_check() {
     if (!room_ || !room_->touch) return;
     if (waits_for_touch(*room_->touch)) log("the check of the arm's registration was skipped");
     room_->touch.reset();
-    room_->touch_asked = true;
+    room_->touch_done = true;
     active_->clock.paused = room_->paused = !room_->seen;
 }
 
@@ -139,7 +140,7 @@ void App::place_in_room(const view::ImmersiveFrame& immersive) {
     const bool placed = immersive.tracked || immersive.expected_head || room.panel;
     if (placed && !room.panel) room.panel = place_panel(viewer);
     if (!active_) room.workpiece.reset();
-    find_arm(immersive);
+    start_registered_arm(immersive);
     if (placed && active_ && !room.workpiece) {
         const render::BoundingBox& box = active_->workplace.workpiece;
         room.workpiece = place_workpiece(
@@ -165,7 +166,7 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     if (immersive->tracks_hands) offer_tracked_hand(menu_.devices);
     if (immersive->recentred) {
         room.panel = room.workpiece = std::nullopt;
-        room.touch_asked = false;  // the registration may be wrong from now on
+        room.touch_done = false;  // the registration may be wrong from now on
     }
     place_in_room(*immersive);
     if (!room.shown) return;

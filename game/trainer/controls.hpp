@@ -1,8 +1,9 @@
 // Input of the trainer: key bindings, and window events as input for a lesson and for the interface.
 //
-// Mouse in a lesson: the left button on a nut or the wrench moves the hand; elsewhere it turns the view, as
-// the right button does. The middle button pans, the mouse wheel zooms. Escape always pauses, whatever the
-// key map says. A game controller moves through the menus and pauses a lesson; it does not move the hand.
+// Mouse in a lesson with the helped hand: the left button on a nut or the wrench moves the hand; elsewhere it
+// turns the view, as the right button does. The middle button pans, the mouse wheel zooms. Escape always
+// pauses, whatever the key map says. A game controller moves through the menus and pauses a lesson; it does
+// not move the hand.
 #pragma once
 
 #include <array>

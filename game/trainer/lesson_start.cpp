@@ -189,7 +189,7 @@ void place_trainee(ActiveLesson& active, const LessonContext& context, float asp
         if (station.tracked) station.tracked->side = worker.side;
         const hand::Skeleton& open = active.postures.open;
         const Pose fingers = scene::frame_towards(station.home, active.shoulder, 0.0);
-        station.bare_wrist =
+        station.empty_hand_wrist =
             inverse(station.home) * fingers * Pose{open.position[hand::wrist], open.rotation[hand::wrist]};
     }
     active.view.close_up.enabled = context.options.mode == lesson::Mode::guided;

@@ -35,7 +35,7 @@ struct PanelPointer {
 // workpiece and panel stay where they are.
 struct RoomState {
     std::optional<Pose> workpiece;  // pose of the assembly's frame; none: not placed yet
-    std::optional<Pose> panel;      // pose of its centre: x right, y up, z towards the user; none: likewise
+    std::optional<Pose> panel;  // pose of its centre: x right, y up, z towards the user; none: not placed yet
     PanelPointer pointer;
     std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};  // in the last frame, by hand
     double height = 0.0;  // m that the user has raised the workpiece
@@ -43,9 +43,9 @@ struct RoomState {
     // The arm's frame in the room, if the station file has the registration and the arm's scale is 1; else
     // the workpiece stands where the user looks.
     std::optional<Pose> arm;
-    std::uint32_t arm_lesson = 0;     // number of the lesson in which that was decided; 0: none
+    std::uint32_t arm_lesson = 0;     // number of the lesson for which `arm` was set; 0: none
     std::optional<TouchCheck> touch;  // checks that registration before the lesson begins
-    bool touch_asked = false;         // it was checked or skipped since the room was centred
+    bool touch_done = false;          // it was checked or skipped since the room was centred
     bool shown = false;               // the display surrounds the user in this frame
     bool seen = false;                // the user saw the lesson in the last frame
     bool paused = false;              // the lesson is paused because the user does not see it

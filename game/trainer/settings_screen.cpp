@@ -111,6 +111,8 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     note_widget(context, "menu.force_scale");
     ImGui::Checkbox(words["menu.force_arrow"].c_str(), &settings.force_arrow);
     note_widget(context, "menu.force_arrow");
+    ImGui::Checkbox(words["menu.surroundings"].c_str(), &settings.surroundings);
+    note_widget(context, "menu.surroundings");
 }
 
 void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {

@@ -113,7 +113,7 @@ void update_client(StationClient& client, const session::LessonSession& session)
     client.gloved = hand != nullptr;
     client.has_gripper = client.link->layout().mover && client.link->layout().mover->senses_gripper;
     client.glove_lost = hand != nullptr && hand->lost;
-    if (hand != nullptr && hand->has_frame) client.fingers = hand->joints;
+    if (hand != nullptr && hand->has_angles) client.fingers = hand->finger_joints;
     const double within = client.near_nut ? nut_release_distance : nut_capture_distance;
     client.near_nut = nearest_nut(session, client.latest.output.constrained_tool.position, within);
     const Vec3& hand_at = client.latest.commanded_tool.position;
@@ -190,7 +190,7 @@ Status send_actions(StationClient& client, const session::LessonSession& session
                         (client.gloved && !held && pinches(client.fingers));
     controls.pause = actions.paused;
     controls.wrench_rest_pose = client.rest;
-    controls.bare_wrist = client.bare_wrist;
+    controls.empty_hand_wrist = client.empty_hand_wrist;
     controls.grip = grip_of(client, closes, actions);
     // A glove that sends no valid samples keeps the wrench, but releases the dead-man switch.
     const bool hand_closed = client.gloved && !client.glove_lost && (held || closes);

@@ -16,7 +16,7 @@
 #include "game/trainer/controls.hpp"
 #include "game/trainer/dragged_hand.hpp"
 #include "game/trainer/equipment.hpp"
-#include "game/trainer/mouse_hand.hpp"
+#include "game/trainer/helped_hand.hpp"
 #include "game/trainer/tracked_hand.hpp"
 #include "haptics/device/virtual_devices.hpp"
 
@@ -46,8 +46,8 @@ class KeyboardPuck {
 // opening.
 struct StationClient {
     std::unique_ptr<station_setup::LessonStation> link;
-    Pose home, rest;                 // initial pose of the tool, and where the wrench lies
-    std::optional<Pose> bare_wrist;  // station::StationControls
+    Pose home, rest;                       // initial pose of the tool, and where the wrench lies
+    std::optional<Pose> empty_hand_wrist;  // station::StationControls
     KeyboardPuck keyboard;
     std::optional<DraggedHand> dragged;  // the mouse moves a simulated arm
     std::optional<TrackedHand> tracked;  // a headset's hand moves it

@@ -25,15 +25,15 @@ void show_phase(TouchCheck& check, TouchPhase phase) {
 }
 
 // Collects positions for the time of a touch, and for more if the pictures are slow.
-void measure(TouchCheck& check, const std::optional<station::HeldMover>& mover) {
+void measure(TouchCheck& check, const std::optional<station::MoverSample>& mover) {
     const station_setup::TouchOptions options;
     if (mover) check.touched.push_back(check.room_from_arm * (mover->pose * check.tip));
     if (mover && (check.shown < options.duration || check.touched.size() < options.min_samples)) return;
     const Result<Vec3> mean = station_setup::average_touch(check.touched, options);
     check.moved = !mover || !mean;
-    if (check.moved) return show_phase(check, TouchPhase::asks);
+    if (check.moved) return show_phase(check, TouchPhase::waiting);
     check.error = glm::length(*mean - check.marker);
-    show_phase(check, check.error <= max_check_error ? TouchPhase::right : TouchPhase::wrong);
+    show_phase(check, check.error <= max_check_error ? TouchPhase::passed : TouchPhase::failed);
 }
 
 words::Number millimetres(double length) { return {length / mm, 1}; }
@@ -51,21 +51,21 @@ std::optional<TouchCheck> touch_check_of(const content::Registration& registrati
     return check;
 }
 
-bool update(TouchCheck& check, const std::optional<station::HeldMover>& mover, bool confirmed,
+bool update(TouchCheck& check, const std::optional<station::MoverSample>& mover, bool confirmed,
             double seconds) {
     check.shown += seconds;
     const std::uint32_t buttons = mover ? mover->buttons : ~0U;
     const bool pressed = (buttons & ~std::exchange(check.held, buttons)) != 0 && mover;
-    if (check.phase == TouchPhase::measures) {
+    if (check.phase == TouchPhase::measuring) {
         measure(check, mover);
         return false;
     }
     if (!pressed && !confirmed) return false;
-    if (check.phase != TouchPhase::asks) return true;
+    if (check.phase != TouchPhase::waiting) return true;
     if (!mover) return false;
     check.touched.clear();
     check.moved = false;
-    show_phase(check, TouchPhase::measures);
+    show_phase(check, TouchPhase::measuring);
     return false;
 }
 
@@ -90,7 +90,7 @@ ScreenAction draw_touch_check(const ScreenContext& context, const TouchCheck& ch
     if (asks) {
         draw_wrapped(words["touch.ask"], muted_text);
         if (check.moved) draw_wrapped(words["touch.moved"], warning_text);
-    } else if (check.phase == TouchPhase::right) {
+    } else if (check.phase == TouchPhase::passed) {
         draw_wrapped(words::format_text(words, "touch.right", {{"error", millimetres(check.error)}}),
                      muted_text);
     } else {

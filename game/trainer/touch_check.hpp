@@ -16,18 +16,18 @@
 namespace bolt::trainer {
 
 enum class TouchPhase : std::uint8_t {
-    asks,      // until a button of the arm, or Enter, is pressed
-    measures,  // the positions of the tip are collected
-    right,     // the result, until the user starts the lesson
-    wrong,     // off by more than station_setup::max_check_error
+    waiting,    // until a button of the arm, or Enter, is pressed
+    measuring,  // the positions of the tip are collected
+    passed,     // the result, until the user starts the lesson
+    failed,     // off by more than station_setup::max_check_error
 };
 
 struct TouchCheck {
     Vec3 marker{0.0};    // m, the check point in the room
     Pose room_from_arm;  // the registration
-    Vec3 tip{0.0};       // m, in the frame of the handle
+    Vec3 tip{0.0};       // m, in the frame of the arm's handle
 
-    TouchPhase phase = TouchPhase::asks;
+    TouchPhase phase = TouchPhase::waiting;
     bool moved = false;         // the hand moved in the last touch
     double error = 0.0;         // m, of the result
     double shown = 0.0;         // s for which the phase is shown
@@ -37,7 +37,7 @@ struct TouchCheck {
 
 // True until there is a result.
 inline bool waits_for_touch(const TouchCheck& check) {
-    return check.phase == TouchPhase::asks || check.phase == TouchPhase::measures;
+    return check.phase == TouchPhase::waiting || check.phase == TouchPhase::measuring;
 }
 
 // None if the registration, between an arm and the room in either direction, has no check point.
@@ -45,7 +45,7 @@ std::optional<TouchCheck> touch_check_of(const content::Registration& registrati
 
 // Call once a frame. `mover`: StationTick::mover; while there is none, nothing is measured. `confirmed`: the
 // user has pressed Enter. Returns true when the user starts the lesson.
-bool update(TouchCheck& check, const std::optional<station::HeldMover>& mover, bool confirmed,
+bool update(TouchCheck& check, const std::optional<station::MoverSample>& mover, bool confirmed,
             double seconds);
 
 // The events that confirm, or end the check. `enter_answers`: as action_of() of ArmScreen.
@@ -57,8 +57,9 @@ TouchAnswer answer_of(const TouchCheck& check, std::span<const platform::InputEv
 
 ScreenAction draw_touch_check(const ScreenContext& context, const TouchCheck& check);
 
-// Shows arrows whose tips meet at the marker, and no workpiece and no hand: the user would bring the drawn
-// hand to the marker, which fits whatever the registration is. `arrows`: scene::GpuLessonModels::arrows.
+// Shows arrows whose tips meet at the marker, and no workpiece and no hand: the drawn hand follows the arm,
+// so the user could bring it to the marker even with a wrong registration. `arrows`:
+// scene::GpuLessonModels::arrows.
 void show_touch_marker(render::Scene& scene, const render::GpuModel& arrows, const Pose& scene_in_room,
                        const Vec3& marker);
 

@@ -1,13 +1,30 @@
 #include "game/view/immersive_frame.hpp"
 
+#include <cmath>
+
 namespace bolt::view {
+
+// The corners of the hidden area in the picture, as render::Eye has them.
+static std::shared_ptr<const std::vector<glm::vec2>> in_picture(const xr::EyeView& eye) {
+    if (eye.hidden == nullptr) return nullptr;
+    const auto f = [](double angle) { return static_cast<float>(std::tan(angle)); };
+    const glm::vec2 upper_left(f(eye.fov.left), f(eye.fov.up)),
+        lower_right(f(eye.fov.right), f(eye.fov.down));
+    auto corners = std::make_shared<std::vector<glm::vec2>>();
+    corners->reserve(eye.hidden->size());
+    for (const glm::vec2& corner : *eye.hidden)
+        corners->push_back(2.0F * (corner - upper_left) / (lower_right - upper_left) - 1.0F);
+    return corners;
+}
 
 EyeGroup eye_group(const xr::HeadView& view, VkExtent2D size) {
     EyeGroup group{size, {}};
-    for (const xr::EyeView& eye : view.eyes)
+    for (const xr::EyeView& eye : view.eyes) {
         group.eyes.push_back(render::make_eye(eye.pose,
                                               {eye.fov.left, eye.fov.right, eye.fov.up, eye.fov.down},
                                               immersive_range.near, immersive_range.far));
+        group.eyes.back().hidden = in_picture(eye);
+    }
     return group;
 }
 

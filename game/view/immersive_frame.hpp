@@ -33,7 +33,8 @@ struct ImmersiveFrame {
     // a group without eyes.
     std::vector<EyeGroup> groups;
     xr::Hands hands;
-    bool tracks_hands = false;  // the display has hands that can move the tool; false on walls
+    bool can_show_surroundings = false;  // where the picture is transparent
+    bool tracks_hands = false;           // the display has hands that can move the tool; false on walls
     std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
 };
 

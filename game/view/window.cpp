@@ -24,14 +24,19 @@ VkExtent2D size_of(const platform::Window& window) {
     return {size.width, size.height};
 }
 
+// At half of the width and height labels in the scene can still be read.
+constexpr ResolutionControl full_in_window{.coarsest = 4};
+constexpr double window_period = 1.0 / 30;  // s; a smooth lesson, with more pixels than at 60 Hz
+
 // The GPU and the swapchain of the window. The destructor waits until the GPU is idle.
 struct Canvas {
     GpuContext gpu_context;
     std::unique_ptr<gpu::Swapchain> swapchain;
-    double last_frame = 0.0;       // s, when it began
-    ResolutionControl resolution;  // of the headset
-    int old_frames = 0;            // frames in flight that were drawn at another resolution
-    double late_since = 0.0;       // s, since when the headset's runtime has released no frame; 0: it did
+    double last_frame = 0.0;  // s, when it began
+    ResolutionControl headset_resolution, window_resolution = full_in_window;
+    const ResolutionControl* adapted = nullptr;  // the one of these that the last frame adapted
+    int old_frames = 0;                          // frames in flight that were drawn at another resolution
+    double late_since = 0.0;  // s, since when the headset's runtime has released no frame; 0: it did
     std::vector<platform::InputEvent> events;  // for the next frame
 
     Canvas() = default;
@@ -110,9 +115,12 @@ class FrameLoop {
     // waits for them. Returns false if that was closed, because its content gets no frame to see it.
     bool poll_events(bool only_minimised);
     Status draw();
-    Status draw_window(const WindowFrame& window);
+    Status draw_window(WindowFrame window);
     Status draw_headset(xr::HeadsetFrame& frame, WindowFrame window);
     Status draw_walls(WindowFrame window);
+    // Adapts the resolution to the time that the GPU took for the last frame. `period`: s, that a frame may
+    // take; `elapsed`: s, since the last call.
+    void adapt(ResolutionControl& resolution, double period, double elapsed);
 
     WindowContent& content_;
     Canvas& canvas_;
@@ -134,13 +142,27 @@ double FrameLoop::refresh_rate() const {
     return options_.walls != nullptr ? options_.walls->refresh_rate() : window_.refresh_rate();
 }
 
-Status FrameLoop::draw_window(const WindowFrame& window) {
+void FrameLoop::adapt(ResolutionControl& resolution, double period, double elapsed) {
+    const bool other_display = std::exchange(canvas_.adapted, &resolution) != &resolution;
+    if (!other_display && canvas_.old_frames > 0)
+        --canvas_.old_frames;
+    else if (other_display || update(resolution, {gpu_time(canvas_.gpu_context),
+                                                  options_.adapts_resolution ? period : 0.0, elapsed}))
+        canvas_.old_frames = gpu::frames_in_flight + 1;
+}
+
+Status FrameLoop::draw_window(WindowFrame window) {
+    window.resolution = share_of(canvas_.window_resolution);
     BOLT_TRY(content_.update(window));
     BOLT_TRY_ASSIGN(const auto frame, canvas_.gpu_context.frames->begin());
     BOLT_TRY(content_.draw(*frame, window));
-    const render::ImageLayer picture = canvas_.gpu_context.renderer->picture(0);
+    const render::ImageLayer picture = content_.window_picture(*canvas_.gpu_context.renderer);
     BOLT_TRY(canvas_.swapchain->present(*canvas_.gpu_context.frames, *frame,
                                         {picture.image, picture.layer, {}, {}}));
+    if (content_.scales_scene())
+        adapt(canvas_.window_resolution, window_period, window.seconds);
+    else
+        canvas_.window_resolution = full_in_window;
     return {};
 }
 
@@ -148,13 +170,14 @@ Status FrameLoop::draw_window(const WindowFrame& window) {
 Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
     xr::Headset& headset = *options_.headset;
     GpuContext& gpu = canvas_.gpu_context;
-    const VkExtent2D size = scaled(canvas_.resolution, headset.session().extent());
+    const VkExtent2D size = scaled(share_of(canvas_.headset_resolution), headset.session().extent());
     ImmersiveFrame immersive;
     immersive.head = frame.view.head;
     immersive.tracked = frame.view.tracked;
     immersive.attentive = frame.focused;
     immersive.recentred = has_recentred(frame);
     immersive.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
+    immersive.can_show_surroundings = headset.runtime().passthrough().has_value();
     immersive.hands = frame.hands;
     immersive.tracks_hands = true;
     immersive.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
@@ -170,6 +193,8 @@ Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
         immersive.groups = {eye_group(frame.view, size)};
     }
     BOLT_TRY(content_.draw(*recorded, window));
+    // The user may have changed it while the interface was drawn.
+    frame.surroundings = immersive.can_show_surroundings && content_.shows_surroundings();
     const bool drawn = !immersive.groups.empty() && !immersive.groups.front().eyes.empty();
     if (!drawn) {
         BOLT_TRY(gpu.frames->submit(*recorded));
@@ -181,12 +206,7 @@ Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
             {picture.image, picture.layer, filling_part(size, canvas_.swapchain->plan().extent), {}}, false));
     }
     headset.end_frame(frame, drawn, immersive_range);
-    if (canvas_.old_frames > 0) {
-        --canvas_.old_frames;
-    } else if (update(canvas_.resolution, gpu_time(gpu),
-                      options_.adapts_resolution ? frame.timing.period : 0.0)) {
-        canvas_.old_frames = gpu::frames_in_flight + 1;
-    }
+    adapt(canvas_.headset_resolution, frame.timing.period, frame.timing.period);
     return {};
 }
 

@@ -22,6 +22,9 @@ struct WindowFrame {
     float scale = 1.0F;                         // px per point
     double seconds = 0.0;                       // since the last frame
     const ImmersiveFrame* immersive = nullptr;  // null: the window is the only display
+    // The share of the window's width and height at which a scene is drawn, below 1 if the GPU is too slow
+    // for all pixels. The interface has all of them.
+    float resolution = 1.0F;
 };
 
 // The content of a window. All its GPU objects can be released and created again after a lost GPU.
@@ -38,11 +41,11 @@ class WindowContent {
     virtual void release() = 0;
     // Applies the input and advances by the time of the frame.
     virtual Status update(const WindowFrame& window) = 0;
-    // Records the commands of the frame. Without an immersive frame its picture is the renderer's picture 0;
+    // Records the commands of the frame. Without an immersive frame it makes window_picture();
     // with one, each group of eyes is drawn as a group of the renderer. The poses of the eyes may be newer
     // than those of update().
     virtual Status draw(gpu::FrameContext& frame, const WindowFrame& window) = 0;
-    // With an immersive frame: the picture for the window, when drawn. The window shows all of it.
+    // The picture for the window, when drawn. With an immersive frame the window shows all of it.
     [[nodiscard]] virtual render::ImageLayer window_picture(const render::Renderer& renderer) const {
         return renderer.picture(0);
     }
@@ -56,6 +59,10 @@ class WindowContent {
     virtual Status end() { return {}; }
 
     [[nodiscard]] virtual bool closed() const = 0;
+    // The picture of the window uses WindowFrame::resolution at the moment.
+    [[nodiscard]] virtual bool scales_scene() const { return false; }
+    // The background of immersive pictures is transparent, to show the surroundings of a headset that can.
+    [[nodiscard]] virtual bool shows_surroundings() const { return false; }
     // True once after each request to switch between window and full screen.
     [[nodiscard]] virtual bool take_full_screen_request() { return false; }
 };
@@ -88,7 +95,8 @@ struct WindowRunOptions {
     std::function<bool()> stop{};    // polled every frame; true closes the window
     xr::Headset* headset = nullptr;  // null: none is used
     Walls* walls = nullptr;          // null: there are none; not together with a headset
-    // With a headset: lower its resolution if the GPU cannot keep its frame rate.
+    // Lower the resolution of a headset if the GPU cannot keep its frame rate, and that of scenes in the
+    // window if it cannot draw 30 frames a second.
     bool adapts_resolution = true;
     // With a headset: how `instance` was created. It is created again by the headset's runtime when that is
     // found, and with the same log.

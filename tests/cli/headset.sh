@@ -45,6 +45,33 @@ assert len(set(left)) > 60                 # a scene, not a colour
 END
 done
 
+# The user wants to see the real room, with a headset that can show it and with one that cannot.
+echo '{"format": "boltwright settings 1", "trainee": "Ada", "language": "en", "volume": 1, "captions": false, "palette": "usual",
+ "left_handed": false, "force_scale": 1, "surroundings": true, "seated_height_m": null, "keys": {}}' >settings.json
+for passthrough in 1 0; do
+    cat >script <<END
+0 config width 64
+0 config height 60
+0 config passthrough $passthrough
+0 report $work/report
+1 head 0 1.65 0 -0.2164 0 0 0.9763
+12 picture $work/room-$passthrough.ppm
+20 exit
+END
+    rm -f report
+    expect 0 'headset: Mock headset' timeout 200 "${train[@]}" --settings settings.json --hmd first-nut --out "room-$passthrough"
+    check 'the runtime was used correctly' test "$(violations report)" = 0
+    [[ $passthrough = 0 ]] || check 'a headset that can is told to show the room' grep -q '^blended [1-9]' report
+done
+check 'a headset that cannot show the room shows the workshop' grep -q '^blended 0$' report
+check 'in one that can, most of the picture is the real room' python3 - room-1.ppm room-0.ppm <<'END'
+import sys
+def black(name):
+    data = open(name, 'rb').read()[-3 * 128 * 60:]
+    return sum(data[i:i + 3] == b'\0\0\0' for i in range(0, len(data), 3)) / (128 * 60)
+assert black(sys.argv[1]) > 0.4 and black(sys.argv[2]) < 0.05, [black(name) for name in sys.argv[1:]]
+END
+
 # The session ends in the middle of a lesson: it goes on in the window, and the headset is found again.
 cat >script <<END
 0 config width 64
@@ -101,7 +128,7 @@ END
 place 0 0 0 0
 "${train[@]}" --hmd first-nut --station station.json --out touched >log 2>&1 &
 player=$!
-check 'the arm is registered to the room' eventually grep -q 'the picture is where the arm feels' log
+check 'the arm is registered to the room' eventually grep -q 'picture and arm are aligned' log
 place 0.02 0.016 0.03 0
 sleep 1
 place 0.02 0.016 0.03 1

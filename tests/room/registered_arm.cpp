@@ -83,8 +83,7 @@ TEST_CASE(
         REQUIRE(at.lesson().view.head);
         const Pose expected = registered_scene(arm_in_room, at.lesson().station->latest.mover_in_assembly);
         CHECK(distance(at.scene_in_room(), expected) < 1e-9);
-        CHECK(at.logged(
-            "the picture is where the arm feels: registered on 2026-11-20T10:00:00Z with 1.2 mm rms"));
+        CHECK(at.logged("picture and arm are aligned: registered on 2026-11-20T10:00:00Z with 1.2 mm rms"));
         CHECK(!at.driver->app().room()->touch);  // there is no check point
         CHECK(!at.lesson().clock.paused);
         // The arm's directions are those of the room, wherever the user looks.
@@ -101,11 +100,11 @@ TEST_CASE(
         const RegisteredArm none(std::nullopt);
         before_user = none.scene_in_room();
         CHECK(distance(before_user, *none.driver->app().room()->workpiece) < 1e-9);
-        CHECK(!none.logged("where the arm feels"));
+        CHECK(!none.logged("picture and arm"));
     }
     const RegisteredArm scaled(registration(), 1.5);
     CHECK(distance(scaled.scene_in_room(), before_user) < 1e-9);
-    CHECK(scaled.logged("the picture is not where the arm feels: the scale of the arm is 1.50; expected 1"));
+    CHECK(scaled.logged("picture and arm are not aligned: the scale of the arm is 1.50; expected 1"));
 }
 
 TEST_CASE("Registered arm: after the workpiece was turned, right is still the user's right") {

@@ -5,8 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "content/trainee/settings.hpp"
+#include "engine/base/file.hpp"
 #include "game/view/pictures.hpp"
 #include "tests/room/immersive_driver.hpp"
+#include "tests/support/folder.hpp"
+#include "tests/support/need.hpp"
 #include "tests/trainer/one_joint.hpp"
 
 using namespace bolt;
@@ -40,6 +44,39 @@ TEST_CASE("Room: workpiece and panel stand in front of the user, and stay when t
     CHECK(driver.app().room()->workpiece->position == room.workpiece->position);
     CHECK(driver.app().room()->panel->position == room.panel->position);
     test::save_eyes(driver, "lesson");
+}
+
+TEST_CASE("Room: the trainee's setting shows the surroundings in place of the workshop, if the headset can") {
+    AppOptions options = tracked_hand("cover-m8");
+    const test::Folder folder;
+    options.settings_file = folder.path() / "surroundings.json";
+    content::TraineeSettings settings;
+    settings.language = "en";
+    settings.trainee = "Ada";
+    settings.surroundings = true;
+    test::need(write_file(options.settings_file, content::settings_text(settings)));
+    HeadlessTrainer driver(std::move(options), {eye_size, 0.3F, 0.02});
+    REQUIRE_MESSAGE(driver.app().preferences().settings.surroundings,
+                    driver.app().preferences().file_error_message);
+    driver.immersive = test::standing_user(eye_size);
+    driver.draw_interval = 1;
+    for (const bool possible : {false, true}) {
+        CAPTURE(possible);
+        driver.immersive->can_show_surroundings = possible;
+        driver.frame();
+        driver.frame();
+        const render::Picture picture = driver.room_picture(0);
+        std::size_t clear = 0, covered = 0;
+        for (std::size_t alpha = 3; alpha < picture.rgba.size(); alpha += 4) {
+            clear += picture.rgba[alpha] == 0 ? 1U : 0U;
+            covered += picture.rgba[alpha] == 255 ? 1U : 0U;
+        }
+        const std::size_t pixels = picture.rgba.size() / 4;
+        if (!possible) CHECK(covered == pixels);
+        if (possible) CHECK(clear > pixels / 3);
+        if (possible) CHECK(covered > pixels / 100);  // workpiece and hand
+        test::save_eyes(driver, possible ? "surroundings" : "workshop");
+    }
 }
 
 TEST_CASE("Room: the menu is a panel that the hand points at, and its buttons are pressed by the trigger") {

@@ -123,7 +123,7 @@ TEST_CASE("Touch check: a lesson waits for a touch of the marker, states the err
 
     at.touch(marker + Vec3(0.0, 0.003, 0.0));
     REQUIRE(at.check());
-    CHECK(at.check()->phase == TouchPhase::right);
+    CHECK(at.check()->phase == TouchPhase::passed);
     CHECK(at.check()->error == doctest::Approx(0.003).epsilon(1e-3));
     CHECK(at.offers("touch.start"));
     CHECK(at.lesson().scene.objects.size() > 4);
@@ -140,7 +140,7 @@ TEST_CASE("Touch check: an arm that was moved gives a warning, and the lesson ca
     TouchedLesson at(registration());
     at.touch(marker + Vec3(0.006, 0.0, 0.0));
     REQUIRE(at.check());
-    CHECK(at.check()->phase == TouchPhase::wrong);
+    CHECK(at.check()->phase == TouchPhase::failed);
     CHECK(at.logged("is off by 6.0 mm; register the arm again"));
     test::save_eyes(*at.driver, "touch-wrong");
     test::press_on_panel(*at.driver, "touch.start");
@@ -158,7 +158,7 @@ TEST_CASE(
         CHECK(!skipped.check());
         CHECK(skipped.lesson().session->time() > 0.0);
         CHECK(skipped.logged("the check of the arm's registration was skipped"));
-        CHECK(skipped.driver->app().room()->touch_asked);
+        CHECK(skipped.driver->app().room()->touch_done);
     }
     {
         TouchedLesson skipped(registration());
@@ -175,35 +175,35 @@ TEST_CASE(
     at.bench->hold({handle_at(marker + Vec3(0.0, 0.0, 0.01)), 0});
     at.play(0.5);
     REQUIRE(at.check());
-    CHECK(at.check()->phase == TouchPhase::asks);
+    CHECK(at.check()->phase == TouchPhase::waiting);
     CHECK(at.check()->moved);
     at.bench->unplugged_ = true;  // nothing is measured without samples
     at.play(0.1);
     at.press(platform::Key::enter);
     at.play(0.5);
-    CHECK(at.check()->phase == TouchPhase::asks);
+    CHECK(at.check()->phase == TouchPhase::waiting);
     at.bench->unplugged_ = false;
     at.bench->hold({handle_at(marker), 0});
     at.play(0.6);
     at.press(platform::Key::enter);
     at.play(0.5);
-    CHECK(at.check()->phase == TouchPhase::right);
+    CHECK(at.check()->phase == TouchPhase::passed);
     CHECK(at.check()->error < 1e-9);
 }
 
 TEST_CASE("Touch check: slow pictures measure for longer, and a held button is no press") {
     TouchCheck check = *touch_check_of(registration());
-    const std::optional<station::HeldMover> held{station::HeldMover{handle_at(marker), button}};
-    const std::optional<station::HeldMover> open{station::HeldMover{handle_at(marker), 0}};
+    const std::optional<station::MoverSample> held{station::MoverSample{handle_at(marker), button}};
+    const std::optional<station::MoverSample> open{station::MoverSample{handle_at(marker), 0}};
     CHECK(!update(check, held, false, 0.2));
-    CHECK(check.phase == TouchPhase::asks);
+    CHECK(check.phase == TouchPhase::waiting);
     CHECK(!update(check, open, false, 0.2));
     CHECK(!update(check, held, false, 0.2));
-    CHECK(check.phase == TouchPhase::measures);
+    CHECK(check.phase == TouchPhase::measuring);
     for (int i = 0; i < 4; ++i) CHECK(!update(check, held, false, 0.2));
-    CHECK(check.phase == TouchPhase::measures);
+    CHECK(check.phase == TouchPhase::measuring);
     CHECK(!update(check, held, false, 0.2));
-    CHECK(check.phase == TouchPhase::right);
+    CHECK(check.phase == TouchPhase::passed);
     CHECK(!update(check, held, false, 0.2));
     CHECK(!update(check, open, false, 0.2));
     CHECK(update(check, held, false, 0.2));

@@ -164,9 +164,9 @@ bool TraineeInRoom::lower(std::size_t joint, const Pose& seated) {
         const Pose at = tool();
         const Vec3 error = seated.position - at.position;
         const Vec3 level = error - glm::dot(error, up) * up;
-        const collision::JawFit fit =
-            collision::jaw_fit(setup().wrench.jaw, servo::prism_of(geometry),
-                               servo::on_nut(geometry, state().joints[joint].nut.angle, servo::at_pose(at)));
+        const collision::JawFit fit = collision::jaw_fit(
+            setup().wrench.jaw, servo::prism_of(geometry),
+            servo::pose_in_nut_frame(geometry, state().joints[joint].nut.angle, servo::tool_pose(at)));
         const Vec3 handle = at.orientation * Vec3(setup().wrench.handle_length, 0.0, 0.0);
         const Vec3 swing = fit.misalignment * glm::cross(up, handle);
         const bool fits = std::abs(fit.misalignment) < aligned && glm::length(level) < level_error;

@@ -3,7 +3,7 @@
 
 #include "game/scene/postures.hpp"
 #include "game/scene/workplace.hpp"
-#include "game/trainer/mouse_hand.hpp"
+#include "game/trainer/helped_hand.hpp"
 #include "tests/collision/support.hpp"
 
 using namespace bolt;
@@ -71,7 +71,7 @@ TEST_CASE("Left hand: wrench, waiting hand and shoulder are on the other side of
     for (const double along : {0.0, 0.1, 0.25})
         CHECK(glm::distance(left * Vec3(along, 0, 0), in_mirror(right * Vec3(along, 0, 0))) < 1e-12);
     CHECK(glm::distance(left.orientation * Vec3(0, 0, 1), Vec3(0, 1, 0)) < 1e-12);  // the normal points up
-    const trainer::MouseHand r = trainer::make_hand(right), l = trainer::make_hand(left, Side::left);
+    const trainer::HelpedHand r = trainer::make_hand(right), l = trainer::make_hand(left, Side::left);
     CHECK(glm::distance(l.pose.position, in_mirror(r.pose.position)) < 1e-12);
     const Vec3 shoulder = shoulder_position(machine, {Side::left, std::nullopt});
     CHECK(glm::distance(shoulder, in_mirror(shoulder_position(machine))) < 1e-6);

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "game/session/lesson_session.hpp"
-#include "game/trainer/mouse_hand.hpp"
+#include "game/trainer/helped_hand.hpp"
 
 namespace trainer_test {
 
 using namespace bolt;
 
 struct Player {
-    trainer::MouseHand hand;
+    trainer::HelpedHand hand;
     bool button_down = false;
     double wait_left = 0.0;  // s that remain until the next press
     double peak = 0.0;       // N·m, largest torque of this step

@@ -9,7 +9,7 @@
 #include "content/format/assembly.hpp"
 #include "game/session/replay.hpp"
 #include "game/session/session_file.hpp"
-#include "game/trainer/mouse_hand.hpp"
+#include "game/trainer/helped_hand.hpp"
 #include "game/trainer/station_client.hpp"
 #include "game/trainer/step_undo.hpp"
 #include "tests/station/virtual_bench.hpp"
@@ -63,9 +63,9 @@ struct StationLesson {
         if (closes == Closes::by_gripper) bench->add_gripper();
         if (closes == Closes::in_glove) {
             station::DisplayedHand hand;
-            hand.has_frame = true;
+            hand.has_angles = true;
             bench->wear(hand, Pose{Vec3(0.12, 0.02, -0.03), rotation(Vec3(0.1, 0.2, 1.5))});
-            client.bare_wrist = Pose{Vec3(0.02, 0.1, 0.05), rotation(Vec3(-1.0, 0.2, 0.3))};
+            client.empty_hand_wrist = Pose{Vec3(0.02, 0.1, 0.05), rotation(Vec3(-1.0, 0.2, 0.3))};
             pinch(false);
         }
 
@@ -91,8 +91,8 @@ struct StationLesson {
     }
     // Sets thumb and index finger of the gloved hand together or apart.
     void pinch(bool together) const {
-        bench->hand_->joints.position[hand::thumb_tip] = Vec3(0.0);
-        bench->hand_->joints.position[hand::index_tip] = Vec3(together ? 0.02 : 0.09, 0.0, 0.0);
+        bench->hand_->finger_joints.position[hand::thumb_tip] = Vec3(0.0);
+        bench->hand_->finger_joints.position[hand::index_tip] = Vec3(together ? 0.02 : 0.09, 0.0, 0.0);
     }
     void next_frame() {
         bench->advance(frame_time);

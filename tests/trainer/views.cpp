@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "game/scene/postures.hpp"
-#include "game/trainer/mouse_hand.hpp"
+#include "game/trainer/helped_hand.hpp"
 #include "game/view/camera.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/trainer/player.hpp"

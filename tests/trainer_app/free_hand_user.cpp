@@ -306,7 +306,7 @@ bool FreeHandUser::lower(const Pose& seated) {
         const Vec3 level = error - glm::dot(error, up) * up;
         const collision::JawFit seat = collision::jaw_fit(
             setup().wrench.jaw, servo::prism_of(geometry),
-            servo::on_nut(geometry, state().joints[joint].nut.angle, servo::at_pose(tool)));
+            servo::pose_in_nut_frame(geometry, state().joints[joint].nut.angle, servo::tool_pose(tool)));
         const Vec3 handle = grip_of(tool) - tool.position;
         // Turning about −axis tightens; the misalignment is positive if the jaw is ahead.
         const Vec3 swing = seat.misalignment * glm::cross(up, handle);

@@ -68,8 +68,8 @@ bool HeadlessTrainer::is_due(const std::vector<platform::InputEvent>& events) {
 }
 
 Status HeadlessTrainer::run_frame(const std::vector<platform::InputEvent>& events, double seconds) {
-    const view::WindowFrame window{events, display_.size, display_.scale, seconds,
-                                   immersive ? &*immersive : nullptr};
+    const view::WindowFrame window{
+        events, display_.size, display_.scale, seconds, immersive ? &*immersive : nullptr, resolution};
     BOLT_TRY(app_->update(window));
     drawn_ = draws && is_due(events);
     return drawn_ ? draw(window) : Status{};
@@ -134,9 +134,10 @@ glm::dvec2 HeadlessTrainer::hold(std::size_t joint) {
 
 render::Picture HeadlessTrainer::picture() {
     if (!std::exchange(drawn_, true))
-        need(draw({{}, display_.size, display_.scale, 0.0, immersive ? &*immersive : nullptr}));
+        need(draw({{}, display_.size, display_.scale, 0.0, immersive ? &*immersive : nullptr, resolution}));
     need(gpu_context_.frames->finish());
-    const render::ImageLayer made = gpu_context_.renderer->picture(0);
+    const render::Renderer& renderer = *gpu_context_.renderer;
+    const render::ImageLayer made = immersive ? renderer.picture(0) : app_->window_picture(renderer);
     const auto texels = gpu::download_image(*gpu_context_.device, *made.image,
                                             gpu::ResourceUse::transfer_from, 4, 0, made.layer);
     if (!texels) FAIL(texels.error().message());

@@ -54,7 +54,8 @@ class HeadlessTrainer : public TrainerDriver {
 
     // The display that surrounds the user in the next frames; none: the window alone.
     std::optional<view::ImmersiveFrame> immersive;
-    bool draws = true;  // false: the next frames are not drawn, which is faster
+    float resolution = 1.0F;  // as in view::WindowFrame
+    bool draws = true;        // false: the next frames are not drawn, which is faster
     // While a lesson runs without input, one of this many frames is drawn: drawing takes most of the time.
     int draw_interval = 5;
     // A picture of a view of the last immersive frame.

@@ -57,6 +57,44 @@ bool straight_arrow_shown(const ActiveLesson& p) {
 
 }  // namespace
 
+TEST_CASE("Resolution: a scene with fewer pixels fills the window, under an interface that has all of them") {
+    test::HeadlessTrainer driver(options(lesson::Mode::guided, false, "resolution"), big_letters);
+    driver.frame();
+    driver.frame();
+    const auto take = [&](float resolution) {
+        driver.resolution = resolution;
+        driver.frame({}, 0.0);
+        return driver.picture();
+    };
+    const auto mean_difference = [](const render::Picture& a, const render::Picture& b) {
+        REQUIRE(a.rgba.size() == b.rgba.size());
+        double sum = 0.0;
+        for (std::size_t at = 0; at < a.rgba.size(); ++at) sum += std::abs(int{a.rgba[at]} - int{b.rgba[at]});
+        return sum / static_cast<double>(a.rgba.size());
+    };
+    const render::Picture full = take(1.0F), half = take(0.5F), again = take(1.0F);
+    CHECK(full.rgba == again.rgba);
+    CHECK(half.rgba != full.rgba);
+    CHECK(mean_difference(half, full) < 6.0);  // the same scene at the same place
+    // The window of the pause screen is opaque but for its rim: its texts are the same.
+    driver.resolution = 1.0F;
+    driver.key(platform::Key::escape);
+    REQUIRE(driver.lesson().clock.paused);
+    const render::Picture sharp = take(1.0F), paused = take(0.5F);
+    const auto widgets = driver.app().drawn_widgets();
+    REQUIRE(!widgets.empty());
+    for (const DrawnWidget& widget : widgets) {
+        const glm::vec2 middle(widget.middle);
+        CHECK(share_changed(sharp, paused, {middle - 4.0F, middle + 4.0F}) == 0.0);
+    }
+    // Control: in front of the scene they differ.
+    CHECK(share_changed(sharp, paused, {{0.0F, 0.0F}, {320.0F, 180.0F}}) > 0.1);
+    take(0.5F);
+    driver.lose_gpu();
+    (void)take(0.5F);  // the interface measures its windows in its first frame
+    CHECK(mean_difference(take(0.5F), paused) < 1.0);
+}
+
 TEST_CASE("Close-up: shown with the wrench at a nut, from above; hidden by its key and without the wrench") {
     test::HeadlessTrainer driver(options(lesson::Mode::guided, false, "seen-guided"), big_letters);
     take_wrench(driver);

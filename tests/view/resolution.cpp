@@ -1,4 +1,4 @@
-// The resolution that keeps a headset's frame rate.
+// The resolution that keeps the frame rate of a headset or a window.
 #include "game/view/resolution.hpp"
 
 #include <doctest/doctest.h>
@@ -13,8 +13,8 @@ constexpr double period = 1.0 / 90.0;
 int run(ResolutionControl& control, double full_time, int frames) {
     int changes = 0;
     for (int i = 0; i < frames; ++i) {
-        const auto share = static_cast<double>(resolution_steps[control.step]);
-        changes += update(control, full_time * share * share, period) ? 1 : 0;
+        const auto side = static_cast<double>(share_of(control));
+        changes += update(control, {full_time * side * side, period, period}) ? 1 : 0;
     }
     return changes;
 }
@@ -24,9 +24,9 @@ int run(ResolutionControl& control, double full_time, int frames) {
 TEST_CASE("Resolution: a fast GPU keeps all pixels, and one slow frame changes nothing") {
     ResolutionControl control;
     CHECK(run(control, 0.5 * period, 500) == 0);
-    CHECK_FALSE(update(control, 3.0 * period, period));
+    CHECK_FALSE(update(control, {3.0 * period, period, period}));
     CHECK(run(control, 0.5 * period, 100) == 0);
-    CHECK(scaled(control, {2064, 2208}).width == 2064);
+    CHECK(scaled(share_of(control), {2064, 2208}).width == 2064);
 }
 
 TEST_CASE("Resolution: a slow GPU gets at once as few pixels as it can draw in time, and keeps them") {
@@ -34,10 +34,10 @@ TEST_CASE("Resolution: a slow GPU gets at once as few pixels as it can draw in t
         CAPTURE(factor);
         ResolutionControl control;
         CHECK(run(control, factor * period, 3) == 1);
-        const auto share = static_cast<double>(resolution_steps[control.step]);
-        CHECK(factor * share * share <= 0.9);
+        const auto side = static_cast<double>(share_of(control));
+        CHECK(factor * side * side <= 0.9);
         CHECK(run(control, factor * period, 2000) <= 1);  // one step up at most, no oscillation
-        const VkExtent2D size = scaled(control, {2064, 2208});
+        const VkExtent2D size = scaled(share_of(control), {2064, 2208});
         CHECK(size.width % 2 == 0);
         CHECK(size.width < 2064);
     }
@@ -58,8 +58,15 @@ TEST_CASE("Resolution: it is never below the last step, and unknown times change
     (void)run(control, 1000.0 * period, 10);
     CHECK(resolution_steps[control.step] == doctest::Approx(0.35));
     const int low = control.step;
-    CHECK_FALSE(update(control, 0.0, period));
-    CHECK_FALSE(update(control, 0.01, 0.0));
+    CHECK_FALSE(update(control, {0.0, period, period}));
+    CHECK_FALSE(update(control, {0.01, 0.0, period}));
     CHECK(control.step == low);
-    CHECK(scaled(control, {1, 1}).width == 1);
+    CHECK(scaled(share_of(control), {1, 1}).width == 1);
+}
+
+TEST_CASE("Resolution: a control with a coarsest step stops there") {
+    ResolutionControl control;
+    control.coarsest = 4;
+    (void)run(control, 1000.0 * period, 10);
+    CHECK(control.step == 4);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "game/view/camera.hpp"
+#include "game/view/immersive_frame.hpp"
 
 using namespace bolt;
 
@@ -46,4 +47,27 @@ TEST_CASE("Stereo: side_by_side joins the rows of the pictures") {
     CHECK(both.height == 2);
     CHECK(both.rgba ==
           std::vector<std::uint8_t>{1, 1, 1, 1, 3, 3, 3, 3, 4, 4, 4, 4, 2, 2, 2, 2, 5, 5, 5, 5, 6, 6, 6, 6});
+}
+
+TEST_CASE(
+    "Stereo: the hidden area of a lens is at the same place of the picture as the corners of its view") {
+    xr::HeadView view;
+    const FieldOfView fov{-0.8, 0.7, 0.75, -0.85};
+    const auto tangent = [](double angle) { return static_cast<float>(std::tan(angle)); };
+    view.eyes = {{{}, fov, nullptr}, {{}, fov, nullptr}};
+    view.eyes[1].hidden = std::make_shared<const xr::HiddenArea>(
+        xr::HiddenArea{{tangent(fov.left), tangent(fov.up)},
+                       {tangent(fov.right), tangent(fov.down)},
+                       {0.5F * (tangent(fov.left) + tangent(fov.right)), tangent(fov.down)}});
+    const view::EyeGroup group = view::eye_group(view, {64, 48});
+    REQUIRE(group.eyes.size() == 2);
+    CHECK(group.eyes[0].hidden == nullptr);
+    REQUIRE(group.eyes[1].hidden != nullptr);
+    const glm::vec2 expected[] = {{-1.0F, -1.0F}, {1.0F, 1.0F}, {0.0F, 1.0F}};
+    REQUIRE(group.eyes[1].hidden->size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(glm::distance((*group.eyes[1].hidden)[i], expected[i]) < 1e-5F);
+    // The view of the eye itself puts a point at the first corner there, too.
+    const glm::vec4 clip = group.eyes[1].clip_from_world *
+                           glm::vec4(2.0F * tangent(fov.left), 2.0F * tangent(fov.up), -2.0F, 1.0F);
+    CHECK(glm::distance(glm::vec2(clip) / clip.w, expected[0]) < 1e-5F);
 }

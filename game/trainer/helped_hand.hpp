@@ -29,7 +29,7 @@ struct MouseCommand {
     double spin = 0.0;     // −1 … 1 of the fastest twist of the fingers
 };
 
-struct MouseHand {
+struct HelpedHand {
     HandAction action = HandAction::resting;
     bool wrench = false;             // in the hand
     std::optional<std::size_t> nut;  // joint that the hand moves to, is at or holds
@@ -60,12 +60,12 @@ struct MouseHand {
 
 // A resting hand beside the wrench at `rest`, which must be the resting place for that side
 // (scene::wrench_rest_pose).
-MouseHand make_hand(const Pose& rest, hand::Side side = hand::Side::right);
+HelpedHand make_hand(const Pose& rest, hand::Side side = hand::Side::right);
 
-WorkingHand hand_of(const MouseHand& hand);
+WorkingHand hand_of(const HelpedHand& hand);
 
 // Call once a frame.
-void apply_command(MouseHand& hand, const MouseCommand& command, const servo::Setup& setup,
+void apply_command(HelpedHand& hand, const MouseCommand& command, const servo::Setup& setup,
                    const servo::State& state);
 
 // The pose in which this hand would put the wrench that lies at `rest` onto a nut now.
@@ -73,6 +73,6 @@ Pose wrench_pose_on_nut(const Pose& rest, const servo::Setup& setup, const servo
                         std::size_t joint, bool loosens);
 
 // Advances the hand by one tick and returns the servo's input, except `guide`, which the lesson sets.
-servo::TickInput step_hand(MouseHand& hand, const servo::Setup& setup, const servo::State& state);
+servo::TickInput step_hand(HelpedHand& hand, const servo::Setup& setup, const servo::State& state);
 
 }  // namespace bolt::trainer

@@ -1,4 +1,4 @@
-#include "game/trainer/mouse_hand.hpp"
+#include "game/trainer/helped_hand.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,22 +31,22 @@ constexpr double max_pull_speed = to_radians(150.0);   // rad/s
 // Conveys effort: at the greatest torque a drag turns the handle by only 1/(1 + this) of its length.
 constexpr double drag_resistance = 2.0;
 
-const servo::NutGeometry& nut_of(const MouseHand& hand, const servo::Setup& setup) {
+const servo::NutGeometry& nut_of(const HelpedHand& hand, const servo::Setup& setup) {
     return setup.nuts[hand.nut.value()];
 }
 
-Pose at_nut(const MouseHand& hand, const servo::Setup& setup, const servo::State& state, double above) {
+Pose at_nut(const HelpedHand& hand, const servo::Setup& setup, const servo::State& state, double above) {
     const servo::NutGeometry& nut = nut_of(hand, setup);
     const double angle = state.joints[hand.nut.value()].nut.angle;
     return {servo::nut_centre(nut, angle) + above * nut.axis,
             motion::tool_orientation(nut, hand.handle_angle, hand.flipped)};
 }
 
-bool engaged(const MouseHand& hand, const servo::State& state) {
+bool engaged(const HelpedHand& hand, const servo::State& state) {
     return hand.nut && state.engagement.joint == static_cast<int>(*hand.nut);
 }
 
-void start_movement(MouseHand& hand, const Pose& to, double seconds, HandAction action) {
+void start_movement(HelpedHand& hand, const Pose& to, double seconds, HandAction action) {
     hand.from = hand.pose;
     hand.to = to;
     hand.bulge = Vec3(0.0);
@@ -62,7 +62,7 @@ double reach_time(const Pose& from, const Pose& to, const Vec3& bulge) {
 }
 
 // Starts a reach. The wrench follows a path free of visible obstacles; an empty hand does not collide.
-void reach(MouseHand& hand, const Pose& to, MouseHand::OnArrival on_arrival, const servo::Setup& setup,
+void reach(HelpedHand& hand, const Pose& to, HelpedHand::OnArrival on_arrival, const servo::Setup& setup,
            const servo::State& state, const Vec3& up) {
     const double distance = glm::distance(hand.pose.position, to.position);
     motion::ReachPath path{(std::min(0.05, 0.3 * distance) + miss_height * std::min(hand.misses, 5)) * up,
@@ -79,7 +79,7 @@ void reach(MouseHand& hand, const Pose& to, MouseHand::OnArrival on_arrival, con
 }
 
 // Chooses the side from which the handle approaches the nut.
-void choose_side(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+void choose_side(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     const double sign = hand.loosens ? -1.0 : 1.0;
     const servo::NutGeometry& nut = nut_of(hand, setup);
     // The handle points towards the trainee in the middle of the pull; each second miss turns it by a further
@@ -100,7 +100,7 @@ void choose_side(MouseHand& hand, const servo::Setup& setup, const servo::State&
                             : max_hover;
 }
 
-void go_to_nut(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+void go_to_nut(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     hand.turn = 0.0;
     hand.missed = false;
     if (hand.wrench) {
@@ -110,11 +110,11 @@ void go_to_nut(MouseHand& hand, const servo::Setup& setup, const servo::State& s
         hand.handle_angle = 0.0;
         hand.hover_height = max_hover;
     }
-    reach(hand, at_nut(hand, setup, state, hand.hover_height), MouseHand::OnArrival::lower, setup, state,
+    reach(hand, at_nut(hand, setup, state, hand.hover_height), HelpedHand::OnArrival::lower, setup, state,
           nut_of(hand, setup).axis);
 }
 
-void lift(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+void lift(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     hand.pose = hand.wrench && state.tool_contact && state.tool_contact->in_hand
                     ? state.tool_contact->god_object.constrained_tool
                     : hand.pose;
@@ -128,15 +128,15 @@ void lift(MouseHand& hand, const servo::Setup& setup, const servo::State& state)
 }
 
 // Moves the hand towards the trainee, with whatever it holds.
-void withdraw(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+void withdraw(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     hand.nut.reset();
     const Vec3 up = setup.nuts.empty() ? Vec3(0, 1, 0) : setup.nuts.front().axis;
     const Vec3 near_trainee = hand.rest * Vec3(0.0, hand.trainee_side * retreat_distance, 0.0);
-    reach(hand, {near_trainee + retreat_distance * up, hand.rest.orientation}, MouseHand::OnArrival::rest,
+    reach(hand, {near_trainee + retreat_distance * up, hand.rest.orientation}, HelpedHand::OnArrival::rest,
           setup, state, up);
 }
 
-void arrive(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+void arrive(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     if (!hand.waypoints.empty()) {
         const Pose next = hand.waypoints.back();
         hand.waypoints.pop_back();
@@ -145,15 +145,15 @@ void arrive(MouseHand& hand, const servo::Setup& setup, const servo::State& stat
     }
     hand.action = HandAction::resting;
     switch (hand.on_arrival) {
-        case MouseHand::OnArrival::rest:
+        case HelpedHand::OnArrival::rest:
             break;
-        case MouseHand::OnArrival::take:
+        case HelpedHand::OnArrival::take:
             hand.wrench = true;
             break;
-        case MouseHand::OnArrival::lay_down:
+        case HelpedHand::OnArrival::lay_down:
             hand.wrench = false;
             break;
-        case MouseHand::OnArrival::lower:
+        case HelpedHand::OnArrival::lower:
             if (hand.button_down)
                 start_movement(hand, at_nut(hand, setup, state, 0.0), lowering_time, HandAction::lowering);
             break;
@@ -161,7 +161,7 @@ void arrive(MouseHand& hand, const servo::Setup& setup, const servo::State& stat
 }
 
 // Turns the handle by the pending drag, limited by the speed of an arm and the room to swing.
-void pull(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+void pull(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     const double torque = std::abs(state.joints[*hand.nut].torque), dt = setup.dt;
     const double greatest = setup.wrench.stiffness * to_radians(2.5);
     const double gain = 1.0 / (1.0 + drag_resistance * torque / greatest);
@@ -174,7 +174,7 @@ void pull(MouseHand& hand, const servo::Setup& setup, const servo::State& state)
     hand.handle_angle = to;
 }
 
-void spin(MouseHand& hand, const servo::Setup& setup) {
+void spin(HelpedHand& hand, const servo::Setup& setup) {
     hand.handle_angle += twist_speed * hand.spin * setup.dt;
     if (std::abs(hand.handle_angle - hand.stroke_begin) < twist_range) return;
     hand.action = HandAction::returning;
@@ -183,7 +183,7 @@ void spin(MouseHand& hand, const servo::Setup& setup) {
     hand.twist_end = hand.handle_angle;
 }
 
-void hold(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+void hold(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     const bool on = engaged(hand, state);
     if (!on) hand.stroke_begin = hand.handle_angle;
     hand.elapsed = on ? 0.0 : hand.elapsed + setup.dt;
@@ -213,14 +213,14 @@ void hold(MouseHand& hand, const servo::Setup& setup, const servo::State& state)
 }
 
 // Lets the wrench spring back until it transmits no torque.
-void ease(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+void ease(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     hand.elapsed += setup.dt;
     hand.handle_angle -= state.joints[*hand.nut].torque / setup.wrench.stiffness *
                          std::min(1.0, setup.dt / 0.03) * std::min(1.0, hand.elapsed / 0.03);
     if (hand.elapsed > ease_time) lift(hand, setup, state);
 }
 
-void travel(MouseHand& hand, double dt) {
+void travel(HelpedHand& hand, double dt) {
     hand.elapsed += dt;
     const double done = hand.duration > 0.0 ? hand.elapsed / hand.duration : 1.0;
     hand.pose = arc_pose(hand.from, hand.to, minimum_jerk(done), hand.bulge);
@@ -228,8 +228,8 @@ void travel(MouseHand& hand, double dt) {
 
 }  // namespace
 
-MouseHand make_hand(const Pose& rest, hand::Side side) {
-    MouseHand hand;
+HelpedHand make_hand(const Pose& rest, hand::Side side) {
+    HelpedHand hand;
     hand.rest = rest;
     hand.trainee_side = side == hand::Side::left ? 1.0 : -1.0;
     // Beside the handle and slightly above it.
@@ -237,7 +237,7 @@ MouseHand make_hand(const Pose& rest, hand::Side side) {
     return hand;
 }
 
-WorkingHand hand_of(const MouseHand& mouse) {
+WorkingHand hand_of(const HelpedHand& mouse) {
     WorkingHand hand;
     hand.action = mouse.action;
     hand.wrench = mouse.wrench;
@@ -254,7 +254,7 @@ WorkingHand hand_of(const MouseHand& mouse) {
     return hand;
 }
 
-void apply_command(MouseHand& hand, const MouseCommand& command, const servo::Setup& setup,
+void apply_command(HelpedHand& hand, const MouseCommand& command, const servo::Setup& setup,
                    const servo::State& state) {
     hand.button_down = command.button_down;
     hand.spin = std::clamp(command.spin, -1.0, 1.0);
@@ -269,10 +269,10 @@ void apply_command(MouseHand& hand, const MouseCommand& command, const servo::Se
         withdraw(hand, setup, state);
     } else if (command.take_wrench && !hand.wrench) {
         hand.nut.reset();
-        reach(hand, hand.rest, MouseHand::OnArrival::take, setup, state, up);
+        reach(hand, hand.rest, HelpedHand::OnArrival::take, setup, state, up);
     } else if (command.lay_down && hand.wrench) {
         hand.nut.reset();
-        reach(hand, hand.rest, MouseHand::OnArrival::lay_down, setup, state, up);
+        reach(hand, hand.rest, HelpedHand::OnArrival::lay_down, setup, state, up);
     } else if (command.nut && *command.nut < setup.nuts.size()) {
         hand.nut = command.nut;
         hand.loosens = command.loosens;
@@ -282,14 +282,14 @@ void apply_command(MouseHand& hand, const MouseCommand& command, const servo::Se
 
 Pose wrench_pose_on_nut(const Pose& rest, const servo::Setup& setup, const servo::State& state,
                         std::size_t joint, bool loosens) {
-    MouseHand other = make_hand(rest);
+    HelpedHand other = make_hand(rest);
     other.nut = joint;
     other.loosens = loosens;
     choose_side(other, setup, state);
     return at_nut(other, setup, state, 0.0);
 }
 
-servo::TickInput step_hand(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+servo::TickInput step_hand(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     servo::Grip grip = hand.wrench ? servo::Grip::wrench : servo::Grip::none;
     switch (hand.action) {
         case HandAction::resting:

@@ -1,4 +1,4 @@
-#include "game/trainer/mouse_hand.hpp"
+#include "game/trainer/helped_hand.hpp"
 
 #include <doctest/doctest.h>
 
@@ -56,7 +56,7 @@ Outcome play_through(const char* name, session::LessonOptions options, double lo
 
 }  // namespace
 
-TEST_CASE("Mouse hand: a lesson is played from beginning to end") {
+TEST_CASE("Helped hand: a lesson is played from beginning to end") {
     session::LessonOptions options;
     SUBCASE("among obstacles") { options.obstacles = session::Obstacles::required; }
     SUBCASE("without obstacles") {}
