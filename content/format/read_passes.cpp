@@ -69,9 +69,8 @@ std::string suggest_joint(std::string_view id, const std::vector<std::string>& m
                              nearest_name(id, missing).empty() ? "expected " : "", suggest(id, missing));
 }
 
-// Reads an order, which must contain every joint once. An unknown name most likely denotes a missing joint,
-// so both are reported as one mistake; or it denotes a joint without a valid id, and the order may be
-// correct.
+// Reads an order, which must contain every joint once. An unknown name probably stands for a missing joint
+// (one mistake is reported), or for a joint without a valid id (none is).
 std::vector<std::size_t> read_order(JsonReader& reader, const JsonNode& node, const JointIds& ids) {
     std::vector<std::size_t> order;
     std::vector<JsonNode> unknown;

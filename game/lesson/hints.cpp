@@ -43,7 +43,7 @@ constexpr HintRow hint_rows[] = {
     {Situation::check, "hint.check", HintMotion::pull_on},
     {Situation::checked, "hint.checked", HintMotion::lift},
     {Situation::break_loose, "hint.break_loose", HintMotion::pull_off},
-    {Situation::turn_off, "hint.turn_off", HintMotion::pull_off},
+    {Situation::unscrew, "hint.turn_off", HintMotion::pull_off},
     {Situation::free, "hint.free", HintMotion::lift},
     {Situation::wrong_joint, "hint.wrong_joint", HintMotion::lift},
     {Situation::other_way_on, "hint.other_way_on", HintMotion::pull_on},
@@ -351,7 +351,7 @@ WorkPhase phase(Situation s) {
         case Situation::pull_to_click:
         case Situation::check:
         case Situation::break_loose:
-        case Situation::turn_off:
+        case Situation::unscrew:
             return WorkPhase::work;
         case Situation::ease:
         case Situation::ease_to_yield:

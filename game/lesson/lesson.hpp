@@ -46,17 +46,6 @@ std::vector<LessonStep> make_plan(const content::Assembly& assembly, Task task);
 // the torque in N·m that fingers can apply.
 bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, double finger_torque);
 
-// A step is due until it is done. The hand may leave the nut in between (an open-end wrench comes off for
-// each stroke). A step is done when the hand releases a nut that meets the step's condition:
-//   run down    the fingers have turned the nut onto its seat
-//   tighten     the torque reached the low edge of the step's window. A step to the whole target with
-//               strategy `yield` also needs one of: the joint yields, the torque exceeds its window, the
-//               torque wrench clicks
-//   re-check    the wrench turned the nut further, or reached the window without turning it
-//   loosen      the nut is free of clamp force
-// In assessment, work on the next joint ends the due step, fulfilled or not. In other modes the step
-// stays due.
-
 // The record of one joint between ticks. A hold lasts from the tick in which the hand engages the nut until
 // it releases it; an analysis::Visit may have several. Exception: `worked` is kept if fingers grip the same
 // nut again within a second.
@@ -64,8 +53,8 @@ struct JointTrack {
     JointResult result;
     bool snug = false;           // the snug torque has been reached
     double snug_angle = 0.0;     // rad, nut angle when it was reached first
-    double peak_torque = 0.0;    // N·m, of the step that is due
-    double turned_torque = 0.0;  // N·m, highest that tightened the nut further since it last left its seat
+    double peak_torque = 0.0;    // N·m, since the last step of this joint began
+    double turned_torque = 0.0;  // N·m, highest at which the nut turned, since it was last off its seat
     double begin_angle = 0.0;    // rad, nut angle when the step began
     bool yielded = false;        // the yield stage was reached
     bool clicked = false;        // the torque wrench clicked in the due step
@@ -112,6 +101,17 @@ bool requires_yield(const Lesson& lesson, const LessonStep& step);
 // Set torque of the torque wrench for the due step, N·m; 0 for other tools and for steps without a torque.
 double wrench_set_torque(const Lesson& lesson);
 
+// A step is due until it is done. The hand may leave the nut in between (an open-end wrench comes off for
+// each stroke). A step is done when the hand releases a nut that meets the step's condition:
+//   run down    the fingers have turned the nut onto its seat
+//   tighten     the torque reached the low edge of the step's window. A step to the whole target with
+//               strategy `yield` also needs one of: the joint yields, the torque exceeds its window, the
+//               torque wrench clicks
+//   re-check    the wrench turned the nut further, or reached the window without turning it
+//   loosen      the nut is free of clamp force
+// In assessment, work on the next step's joint ends the due step, fulfilled or not, once the due joint has
+// been loaded. In other modes the step stays due.
+//
 // True if releasing the nut now completes the due step.
 bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world);
 

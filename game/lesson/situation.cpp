@@ -79,7 +79,7 @@ Situation loosening(const ObservedLesson& s, const LessonStep& due, const world:
     if (joint.torque > wrong_torque + wrong_share * s.lesson.assembly->joints[due.joint].spec.torque.target)
         return Situation::other_way_off;
     if (out_of_room(s)) return Situation::set_back;
-    return turned > broken_loose ? Situation::turn_off : Situation::break_loose;
+    return turned > broken_loose ? Situation::unscrew : Situation::break_loose;
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ enum class Situation : std::uint8_t {
     check,  // re-check: pull until the nut moves or the torque is reached
     checked,
     break_loose,
-    turn_off,
+    unscrew,
     free,  // the nut is loose
     wrong_joint,
     other_way_on,

@@ -123,14 +123,14 @@ class LessonSession {
     // outputs. Fails also if they differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::TickInput& input,
                   const servo::Output& output);
-    // Number of SaveCheckpoint commands due so far: checkpoints saved plus steps begun whose checkpoint is
+    // The number of checkpoints that must exist by now: those saved, plus steps begun whose checkpoint is
     // still pending. Undo does not reduce it. A caller of repeat() sends one station::SaveCheckpoint
     // whenever the number rises by one; step() does it itself.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - current_.state.checkpoint_count;
     }
-    // The servo::TickInput::checkpoint_action that restores the start of the step `steps` steps before the
-    // due one; 0: not allowed.
+    // The servo::TickInput::checkpoint_action that goes back `steps` steps before the due one; 0: not
+    // allowed.
     [[nodiscard]] std::uint8_t restore_action(std::size_t steps) const;
 
     // Makes the next step() return the nuts and the lesson to the start of the due step (0) or of the step

@@ -274,7 +274,8 @@ Result<std::span<const TickRecord>> ChunkDecoder::decode(std::uint64_t first_tic
     if (bytes.size() < header_bytes) return damaged(first_tick, "they are cut short");
     if (bytes[0] < std::byte{1} || bytes[0] > newest_chunk_version)
         return damaged(first_tick,
-                       fmt::format("newest_chunk_version {} is not known", static_cast<int>(bytes[0])));
+                       fmt::format("version {} is unknown; expected 1 to {}", static_cast<int>(bytes[0]),
+                                   static_cast<int>(newest_chunk_version)));
     const std::byte* in = bytes.data() + 1;
     if (get<std::uint32_t>(in) != count) return damaged(first_tick, "the count is wrong");
     if (get<std::uint64_t>(in) != first_tick) return damaged(first_tick, "the first tick is wrong");

@@ -60,7 +60,7 @@ bool is_valid(const TickRecord& record);
 // A chunk encodes consecutive ticks as bytes. It is a header (version u8, count u32, first tick u64,
 // little-endian) and one zstd frame with a checksum. The frame stores the ticks by column. A value is stored
 // as the difference of its bits from the previous value's (the first one from zero), zigzag-encoded, so that
-// small steps up or down have high zero bits. Each column is split into byte planes, lowest bytes first.
+// small steps up or down have leading zero bits. Each column is split into byte planes, lowest bytes first.
 // Each version adds columns at the end: version 1 ends with the clamp force, 2 with the fault, 3 with the
 // checkpoint action, 4 with the set torque. Version 4 is written. In an older chunk the missing columns have
 // their defaults.

@@ -8,7 +8,7 @@ namespace bolt::world {
 namespace {
 
 Pose pose_of_input(const servo::TickInput& input) {
-    const servo::ToolPose pose = servo::pose_of(input.commanded_tool);
+    const servo::ToolPose pose = servo::tool_pose(input.commanded_tool);
     return {pose.position, pose.orientation};
 }
 

@@ -81,8 +81,8 @@ struct ContactQueryResult {
 // permitted angle grows with the difference of the two distances.
 //
 // Error bound: let a motion move no point by more than `merge_stride` and be permitted by the kept contacts.
-// A merged contact then goes deeper into its obstacle than the kept one by at most merge_angle × merge_stride
-// plus the merge distance times the angle of the motion.
+// A merged contact can then penetrate more than the kept one, by at most merge_angle × merge_stride plus the
+// merge distance times the angle of the motion.
 inline constexpr double merge_angle = 4.0 * pi / 180.0;  // rad
 inline constexpr double merge_stride = 0.5e-3;           // m
 inline constexpr double first_merge_distance = 2e-3;     // m

@@ -60,7 +60,8 @@ struct EdgeCache {
     FacingEdges facing;
 };
 
-// m; radius beyond the necessary one that is searched for a piece that had an edge within this distance.
+// m, added to the search radius of a piece that had an edge within this distance at its last query, so that
+// the candidates stay valid longer.
 inline constexpr double short_lookahead = 2e-3;
 
 // As `query_edges`, with the cached candidates where they suffice. `turned`: rad, the piece's accumulated

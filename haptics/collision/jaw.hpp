@@ -59,7 +59,7 @@ Result<Convex> hexagon(const HexagonPrism& prism);
 // The position of a jaw on a hexagon.
 struct JawFit {
     double misalignment = 0.0;  // rad, −30° … 30°, of the jaw to the hexagon, tightening positive
-    double overlap = 0.0;       // m, height over which jaw and nut overlap at every corner that can bear
+    double overlap = 0.0;       // m, height over which the flats bear at each loaded corner
     // m along the flats from the axis to the two ends of the contact.
     double toward_throat = 0.0, toward_mouth = 0.0;
     double lateral_offset = 0.0;  // m, from the middle of the slot to the bolt's axis

@@ -47,8 +47,8 @@ struct ContactMesh {
     std::vector<RoundEdge> round_edges;
 
     // For each corner of each triangle the unit normal of the round surface that the facets approximate: the
-    // mean of the faces around the vertex that are connected across edges blunter than `crease`, weighted by
-    // angle and area.
+    // mean of the normals of the faces around the vertex that are connected across edges blunter than
+    // `crease`, weighted by angle and area.
     std::vector<std::array<glm::vec3, 3>> smooth_normals;
     // By triangle, one bit per Region (closest.hpp): set for corners at which a crease ends and for edges
     // that are creases, where no smooth surface is defined.

@@ -1,6 +1,6 @@
 // The world that the tool collides with, the tool's own shape, and the visible fraction of a body. Fixed
 // obstacles are joined into one solid; bodies that move keep frames of their own. World and tool are built at
-// load; Body::pose and Body::on may change between ticks, which does not allocate.
+// load; Body::pose and Body::enabled may change between ticks, which does not allocate.
 #pragma once
 
 #include <optional>

@@ -57,10 +57,10 @@ struct GodObjectParameters {
     double stride = 0.4e-3;
     double max_band = 5e-3;        // m, widest band of a query
     double recovery_speed = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
-    // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The cost of
-    // the first query, at the pose of the last tick, is charged only if its band is wider than a stride, and
-    // `max_query_cost` limits only queries after the tick's first motion. Once the budget is spent, the tool
-    // moves only as far as earlier queries proved free, and continues in the next tick.
+    // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The first
+    // query of a tick, at the pose of the last one, is not charged if its band is one stride.
+    // `max_query_cost` applies after the first motion of the tick. Once the budget is spent, the tool moves
+    // only as far as earlier queries proved free, and continues in the next tick.
     int max_queries = 5;
     std::uint32_t max_query_cost = 800;
 };
@@ -94,8 +94,8 @@ GodObjectState start_god_object(const Pose& pose);
 // Advances by one tick of `dt` (s). A motion is accepted in one of two cases. Either no point of the tool
 // travels further than the distance to the nearest obstacle, less the skin. Or no point travels further than
 // `stride`, and a query at the end of the motion finds no contact below a fifth of the skin to which the
-// motion brought the tool closer. A finder may detect features up to 0.25 mm late. Ignores a pose that is not
-// finite. Does not allocate.
+// motion brought the tool closer. Features that the finder detects up to 0.25 mm late are tolerated. Ignores
+// a pose that is not finite. Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
                               const Pose& commanded_tool, ContactFinder finder, double dt);
 

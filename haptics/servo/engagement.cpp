@@ -48,7 +48,7 @@ bool fits(const Setup& setup, const NutGeometry& nut, const NutOffset& o, const 
 
 }  // namespace
 
-ToolPose pose_of(const CommandedTool& commanded) {
+ToolPose tool_pose(const CommandedTool& commanded) {
     ToolPose tool;
     for (int i = 0; i < 3; ++i) {
         tool.position[i] = static_cast<double>(commanded.position[i]);
@@ -60,10 +60,10 @@ ToolPose pose_of(const CommandedTool& commanded) {
     const double norm = std::sqrt(glm::dot(q, q));
     tool.valid = tool.valid && norm > 0.5 && norm < 2.0;
     if (!tool.valid) return {Vec3(0.0), Quat(1, 0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), false};
-    return at_pose({tool.position, q / norm});
+    return tool_pose({tool.position, q / norm});
 }
 
-ToolPose at_pose(const Pose& pose) {
+ToolPose tool_pose(const Pose& pose) {
     return {pose.position, pose.orientation, pose.orientation * Vec3(1, 0, 0),
             pose.orientation * Vec3(0, 0, 1), true};
 }
@@ -154,7 +154,7 @@ double azimuth_of(const Setup& setup, const NutGeometry& nut, const ToolPose& to
 
 }  // namespace
 
-Pose on_nut(const NutGeometry& nut, double nut_angle, const ToolPose& tool) {
+Pose pose_in_nut_frame(const NutGeometry& nut, double nut_angle, const ToolPose& tool) {
     return inverse(nut_pose(nut, nut_angle)) * Pose{tool.position, tool.orientation};
 }
 
@@ -167,7 +167,7 @@ void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState
     const collision::Jaw& jaw = setup.wrench.jaw;
     const auto fit_on = [&](std::size_t i) {
         const NutGeometry& nut = setup.nuts[i];
-        return collision::jaw_fit(jaw, prism_of(nut), on_nut(nut, joints[i].nut.angle, tool));
+        return collision::jaw_fit(jaw, prism_of(nut), pose_in_nut_frame(nut, joints[i].nut.angle, tool));
     };
     if (!tool.valid) {
         e = {};

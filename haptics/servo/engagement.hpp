@@ -19,8 +19,8 @@ struct ToolPose {
 };
 
 // `valid` is false if the command is not finite, is beyond 1 km or has no unit quaternion.
-ToolPose pose_of(const CommandedTool& commanded);
-ToolPose at_pose(const Pose& pose);
+ToolPose tool_pose(const CommandedTool& commanded);
+ToolPose tool_pose(const Pose& pose);
 
 struct Engagement {
     int joint = -1;  // −1: no nut is held
@@ -29,7 +29,7 @@ struct Engagement {
     // it.
     double azimuth = 0.0;
     // rad, the nut's angle at which the tool would apply no torque: the nut's angle at engagement, plus the
-    // misalignment of the jaw, plus the tool's rotation about the bolt since then (more than a turn counts).
+    // misalignment of the jaw, plus the tool's rotation about the bolt since then (not wrapped).
     double hand_angle = 0.0;
     // m, tool minus nut centre at engagement; decays with a time constant of 0.05 s.
     Vec3 offset_at_engagement{0.0};
@@ -67,7 +67,7 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
 // are zero.
 
 // Pose of the wrench in the nut's frame.
-Pose on_nut(const NutGeometry& nut, double nut_angle, const ToolPose& tool);
+Pose pose_in_nut_frame(const NutGeometry& nut, double nut_angle, const ToolPose& tool);
 
 collision::HexagonPrism prism_of(const NutGeometry& nut);
 

@@ -166,7 +166,7 @@ struct ConstrainedTool {
     force::ForceRequest contacts;
 };
 
-// Stage 1. Without contact simulation, or without a wrench in the hand, the constrained tool is the commanded
+// Part 1. Without contact simulation, or without a wrench in the hand, the constrained tool is the commanded
 // one.
 ConstrainedTool constrain_tool(const Setup& setup, State& state, const ToolPose& commanded_tool, Grip grip) {
     ConstrainedTool constrained{commanded_tool, {}};
@@ -178,7 +178,7 @@ ConstrainedTool constrain_tool(const Setup& setup, State& state, const ToolPose&
                                              grip == Grip::wrench, state.engagement.joint);
     if (grip != Grip::wrench) return constrained;
     const Pose& constrained_now = state.tool_contact->god_object.constrained_tool;
-    constrained.pose = at_pose(constrained_now);
+    constrained.pose = tool_pose(constrained_now);
     if (was_in_hand)
         constrained.contacts.injected_energy +=
             relative_work(state.guiding_command, {before.commanded_tool, commanded_now},
@@ -186,7 +186,7 @@ ConstrainedTool constrain_tool(const Setup& setup, State& state, const ToolPose&
     return constrained;
 }
 
-// Stage 2.
+// Part 2.
 void update_engagement(const Setup& setup, State& state, const ToolPose& tool, Grip grip) {
     if (state.tool_contact && grip == Grip::wrench)
         update_jaw_engagement(setup, state.joints, state.rounded, tool, state.engagement);
@@ -194,7 +194,7 @@ void update_engagement(const Setup& setup, State& state, const ToolPose& tool, G
         update_pose_engagement(setup, state.joints, tool, grip, state.engagement);
 }
 
-// Stage 3. Returns true if the torque wrench clicks.
+// Part 3. Returns true if the torque wrench clicks.
 bool step_joints(const Setup& setup, State& state, float set_torque) {
     update_set_torque(setup, state.engagement, set_torque);
     const joint::ClickStep click =
@@ -203,7 +203,7 @@ bool step_joints(const Setup& setup, State& state, float set_torque) {
     return click.clicked;
 }
 
-// Stage 4, without a nut in the hand: the guiding force. It fades out if `guide` is −1.
+// Part 4, without a nut in the hand: the guiding force. It fades out if `guide` is −1.
 force::ForceRequest guiding_request(const Setup& setup, State& state, const ToolPose& tool, Grip grip,
                                     int guide, force::IsSegmentFree free) {
     force::ForceRequest guiding = force::guide(setup.guiding, state.guide, guided_tool(setup, tool),
@@ -214,7 +214,7 @@ force::ForceRequest guiding_request(const Setup& setup, State& state, const Tool
     return guiding;
 }
 
-// Stage 4, with a nut in the hand: its force. Writes what the joint does to `output`. `held_before`: the same
+// Part 4, with a nut in the hand: its force. Writes what the joint does to `output`. `held_before`: the same
 // nut was held in the last tick.
 force::ForceRequest nut_request(const Setup& setup, State& state, const ToolPose& tool, bool held_before,
                                 Output& output) {
@@ -245,7 +245,7 @@ void add(force::ForceRequest& sum, const force::ForceRequest& more) {
     sum.injected_energy += more.injected_energy;
 }
 
-// Stage 5. The input of the output stage. A device without torque output applies its force at the end of the
+// Part 5. The input of the output stage. A device without torque output applies its force at the end of the
 // handle.
 force::DeviceInput device_input(const Setup& setup, const ToolPose& commanded_tool, const TickInput& input) {
     const double lever_arm = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
@@ -279,7 +279,7 @@ Output tick(const Setup& setup, State& state, const TickInput& input) {
 Output tick(const Setup& setup, State& state, const TickInput& input, force::IsSegmentFree free) {
     const FlushDenormals flush;
     Output output;
-    const ToolPose commanded_tool = pose_of(input.commanded_tool);
+    const ToolPose commanded_tool = tool_pose(input.commanded_tool);
     if (input.checkpoint_action != 0)
         output.undone = update_checkpoints(setup, state, commanded_tool, input.checkpoint_action);
     const Grip grip = input.dead_man ? input.grip : Grip::none;

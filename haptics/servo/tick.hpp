@@ -50,9 +50,9 @@ struct State {
 
 State initial_state(const Setup& setup);
 
-// One tick. `free` returns true if the straight segment between two points is free; the guiding force plans
-// with it. The first overload queries State::tool_contact, so without contact simulation every segment is
-// free.
+// One tick. `free` returns true if the straight segment between two points crosses no obstacle; the guiding
+// force plans with it. The first overload queries State::tool_contact, so without contact simulation every
+// segment is free.
 Output tick(const Setup& setup, State& state, const TickInput& input);
 Output tick(const Setup& setup, State& state, const TickInput& input, force::IsSegmentFree free);
 

@@ -122,8 +122,8 @@ struct VibrationState {
     VibrationCue rendered = VibrationCue::load_pulse;
 };
 
-// Adds a tick. Ticks with values that are not finite only advance the time; a nut that jumps, by undoing a
-// step, gives no cue. `dt`: s.
+// Adds a tick. Ticks with values that are not finite advance the time and end what they would continue; a nut
+// that jumps, by undoing a step, gives no cue. `dt`: s.
 void advance_vibration(VibrationState& state, const VibrationOptions& options, const VibrationInput& input,
                        double dt);
 

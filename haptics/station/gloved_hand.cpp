@@ -20,11 +20,11 @@ hand::GraspEvent update_hand(const HandSetup& setup, HandState& state, const han
                               {fresh, state.gloved.angles, wrist}, dt);
 }
 
-DisplayedHand display(const HandSetup& setup, const HandState& state) {
+DisplayedHand displayed_hand(const HandSetup& setup, const HandState& state) {
     DisplayedHand shown;
-    shown.joints = hand::joints(setup.wearer.hand, state.grasp.closure.angles, state.grasp.wrist);
+    shown.finger_joints = hand::joints(setup.wearer.hand, state.grasp.closure.angles, state.grasp.wrist);
     shown.side = setup.wearer.hand.side;
-    shown.has_frame = state.grasp.has_frame;
+    shown.has_angles = state.grasp.has_frame;
     shown.held = state.grasp.held;
     shown.lost = state.grasp.lost;
     return shown;
@@ -81,7 +81,7 @@ struct HandThread::Shared {
             update_hand(setup, state, sample, tool.latest(), dt);
             held.store(state.grasp.held, std::memory_order_relaxed);
             lost.store(state.grasp.lost, std::memory_order_release);
-            displayed.write(station::display(setup, state));
+            displayed.write(station::displayed_hand(setup, state));
         }
     }
 };

@@ -46,19 +46,19 @@ constexpr servo::Grip grip_of(const HandState& state) {
 
 // For display, in the frame of the tool: combine it with servo::Output::constrained_tool of any tick.
 struct DisplayedHand {
-    hand::Skeleton joints;
+    hand::Skeleton finger_joints;
     hand::Side side = hand::Side::right;
-    bool has_frame = false;  // the glove has sent the joint angles at least once
+    bool has_angles = false;  // the glove has sent the angles of the finger joints at least once
     bool held = false, lost = false;
 };
-DisplayedHand display(const HandSetup& setup, const HandState& state);
+DisplayedHand displayed_hand(const HandSetup& setup, const HandState& state);
 
 struct HandStatus {
     bool held = false, lost = false;
 };
-// Messages on faults of the glove, its connection or its wearer. `worn` is the side that is
-// calibrated.
-std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const hand::GloveReport& report);
+// Messages on faults of the glove, its connection or its wearer.
+std::vector<std::string> messages(const HandStatus& hand, hand::Side calibrated_side,
+                                  const hand::GloveReport& report);
 
 // Runs the gloved hand on its own thread between those of the glove and the servo. set_tool() and grip()
 // never wait.

@@ -118,11 +118,11 @@ void move_to_nut(const DeviceLayout& layout, const servo::Setup& setup, StationS
     if (held >= 0) {
         const auto i = static_cast<std::size_t>(held);
         const Vec3 at = servo::nut_centre(setup.nuts[i], servo.joints[i].nut.angle);
-        if (s.carrying_joint == held) tool.position += at - s.carrying_point;
-        s.carrying_point = at;
+        if (s.followed_nut == held) tool.position += at - s.followed_point;
+        s.followed_point = at;
     }
-    s.carrying_joint = held;
-    const servo::ToolPose now = servo::at_pose(s.workspace.commanded_tool);
+    s.followed_nut = held;
+    const servo::ToolPose now = servo::tool_pose(s.workspace.commanded_tool);
     const auto free = [&](const Vec3& from, const Vec3& to) {
         return !servo.tool_contact || !servo::occluded(*servo.tool_contact, from, to, joint);
     };

@@ -14,7 +14,7 @@ namespace bolt::station {
 
 // Statistics of the data between a device and the servo, counted by the servo's ticks.
 struct LinkStats {
-    // Samples that arrived after the first, those that were replaced before a tick read them included.
+    // Samples after the first, including those replaced before a tick read them.
     std::uint64_t samples = 0;
     double silence = 0.0, longest_silence = 0.0;       // s since the last valid sample
     double largest_force = 0.0, largest_torque = 0.0;  // N, N·m, that were sent
@@ -56,7 +56,7 @@ struct StationOptions {
     Pose home;
     std::filesystem::path glove;    // serial port; empty: no glove
     std::optional<HandSetup> hand;  // wearer of the glove; none: the controls determine the grip
-    double open_timeout = 3.0;      // s, per device, without the time for its preparation
+    double open_timeout = 3.0;      // s, per device, excluding its preparation
     // Called by start(); empty: a device that needs preparation is an error.
     device::PreparationHandler on_preparation;
     device::DeviceThreadOptions device_threads{{}, 70};  // priority below the servo's

@@ -230,8 +230,9 @@ void update_resting_wrench(const DeviceLayout& layout, StationState& s, servo::G
     }
     if (has) s.resting_wrench.reset();
     // The hand stays in place; from now on the device moves its fingertips.
-    if (had && !has && layout.wrist && controls.bare_wrist)
-        place_tool(layout, s, s.workspace.commanded_tool * *layout.wrist * inverse(*controls.bare_wrist));
+    if (had && !has && layout.wrist && controls.empty_hand_wrist)
+        place_tool(layout, s,
+                   s.workspace.commanded_tool * *layout.wrist * inverse(*controls.empty_hand_wrist));
     if (!has && !s.resting_wrench)
         s.resting_wrench = had && s.output.joint >= 0 ? s.output.constrained_tool : *rest;
 }
@@ -384,13 +385,13 @@ DeviceCommands tick(const DeviceLayout& layout, const servo::Setup& setup, Stati
 
 Pose tool_of_gloved_hand(const DeviceLayout& layout, const servo::Setup& setup, const StationState& s,
                          const StationControls& controls) {
-    const bool bare = s.resting_wrench && layout.wrist && controls.bare_wrist;
+    const bool bare = s.resting_wrench && layout.wrist && controls.empty_hand_wrist;
     if (bare) {
         const Vec3 tip = inverse(*s.resting_wrench) * s.workspace.commanded_tool.position;
         const Vec3 nearest(std::clamp(tip.x, 0.0, setup.wrench.handle_length), 0.0, 0.0);
         if (glm::distance(tip, nearest) < handle_capture_distance) return *s.resting_wrench;
     }
-    return bare ? s.workspace.commanded_tool * *controls.bare_wrist * inverse(*layout.wrist)
+    return bare ? s.workspace.commanded_tool * *controls.empty_hand_wrist * inverse(*layout.wrist)
                 : s.workspace.commanded_tool;
 }
 
@@ -421,7 +422,7 @@ StationStep step(const DeviceLayout& layout, const servo::Setup& setup, StationS
     done.tick.commanded_tool = s.workspace.commanded_tool;
     done.tick.mover_in_assembly = force::device_in_assembly(layout.workspace, s.workspace);
     if (layout.mover && layout.mover->sensing == Sensing::pose && s.mover.usable)
-        done.tick.mover = HeldMover{s.mover_pose, inputs.mover.sample.buttons};
+        done.tick.mover = MoverSample{s.mover_pose, inputs.mover.sample.buttons};
     done.tick.resting_wrench = s.resting_wrench;
     done.tick.dead_man_pressed = s.dead_man_pressed;
     done.tick.gripper = s.gripper;

@@ -73,15 +73,15 @@ struct StationControls {
     std::int16_t guide = -1;  // joint that the guiding force leads to; −1: none
     float set_torque = 0.0F;  // N·m, of a click-type torque wrench
     // Unit, from the viewer's frame to the assembly's. A puck moves the tool in the viewer's frame, an arm in
-    // the assembly's frame turned to the viewer about the vertical.
+    // the assembly's frame rotated about the vertical to face the viewer.
     Quat view{1.0, 0.0, 0.0, 0.0};
     bool pause = false;  // no servo tick and no force; the tool stands still while the hand may move
     // Where the wrench lies while no hand holds it, in the assembly's frame; none: it moves with the open
     // hand.
     std::optional<Pose> wrench_rest_pose{};
-    // The pose of the wrist in the frame of the fingertips, of a gloved hand that holds no wrench. If set,
-    // the mover moves the fingertips of such a hand. If none, it moves the hand as if it held the wrench.
-    std::optional<Pose> bare_wrist{};
+    // The wrist in the frame of the fingertips while a gloved hand is empty: the mover then moves the
+    // fingertips. None: it moves the hand as if it held the wrench.
+    std::optional<Pose> empty_hand_wrist{};
     // Joint whose nut attracts the tool; −1: none. Applies only to a device that senses velocity and renders
     // no force: the station then moves the tool to the nut.
     std::int16_t approach_joint = -1;
@@ -94,8 +94,8 @@ struct PlaceTool {
 };
 // Stores the state of the nuts for undo. Checkpoints are saved one a tick, before a pending restore.
 struct SaveCheckpoint {};
-// Restores the n-th last checkpoint, 1 … servo::max_checkpoints. It stays pending until the servo permits it
-// (see servo::TickInput::checkpoint_action), and replaces a pending restore. More steps than
+// Restores the n-th last checkpoint, 1 … servo::max_checkpoints. It stays pending until the servo
+// permits it (see servo::TickInput::checkpoint_action), and replaces a pending restore. More steps than
 // servo::max_checkpoints have no effect.
 struct RestoreCheckpoint {
     std::uint8_t steps = 1;
@@ -153,8 +153,8 @@ struct StationState {
     std::optional<Pose> resting_wrench;
     int pivot_joint = -1;  // joint whose bolt the wrench pivots about; −1: none
     force::GuideState approach_guide;
-    int carrying_joint = -1;   // joint whose nut moves the tool along (see move_to_nut()); −1: none
-    Vec3 carrying_point{0.0};  // m, centre of that nut at the last tick
+    int followed_nut = -1;     // joint whose nut moves the tool along (see move_to_nut()); −1: none
+    Vec3 followed_point{0.0};  // m, centre of that nut at the last tick
     // Commands received and not executed yet.
     std::optional<Pose> tool_to_place;
     std::uint32_t checkpoints_to_save = 0;
@@ -181,7 +181,8 @@ DeviceCommands tick(const DeviceLayout& layout, const servo::Setup& setup, Stati
 servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                              const StationInputs& inputs);
 // On a bolt and near it the wrench follows the end of its handle, and its jaw points to the bolt. The wrist
-// may turn freely: a device without torque cannot hold it, and a hand cannot place a jaw with it to a degree.
+// may turn freely: a device without torque cannot hold it, and a hand cannot align a jaw
+// with it to 1°.
 // `last`: the tool's pose before this tick.
 void pivot_about_bolt(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                       const Pose& last, double dt);
@@ -193,8 +194,8 @@ DeviceCommands map_output(const DeviceLayout& layout, const servo::Setup& setup,
                           const servo::Output& output);
 
 // The pose at which a gloved hand holds the tool, or would hold it (ToolPoses::commanded_tool). The mover
-// commands it; the glove measures only the fingers. A bare hand within handle_capture_distance of the wrench
-// snaps to its handle: without touch nobody can place fingers around it to the millimetre.
+// commands it; the glove measures only the fingers. An empty gloved hand within handle_capture_distance of
+// the wrench snaps to its handle: without touch nobody can place fingers around it to the millimetre.
 Pose tool_of_gloved_hand(const DeviceLayout& layout, const servo::Setup& setup, const StationState& state,
                          const StationControls& controls);
 inline constexpr double handle_capture_distance = 0.10;  // m from the handle's centre line to the fingertips
@@ -204,8 +205,8 @@ inline constexpr double handle_capture_distance = 0.10;  // m from the handle's 
 DeviceCommands pause_tick(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                           const StationInputs& inputs);
 
-// A device that senses the pose of the hand, as the hand holds it.
-struct HeldMover {
+// The last sample of a mover that senses its pose.
+struct MoverSample {
     Pose pose;  // in the frame of the device
     std::uint32_t buttons = 0;
 };
@@ -216,12 +217,12 @@ struct StationTick {
     servo::TickInput input;
     servo::Output output;
     Pose commanded_tool;  // in the assembly's frame
-    // Pose of the mover's frame in the assembly's. At a scale of 1 it takes the position of the hand to the
-    // point where the hand holds the tool. It moves with the clutch.
+    // Pose of the mover's frame in the assembly's: maps the position of the hand to the point of the tool
+    // that it holds. Valid at a scale of 1. The clutch changes it.
     Pose mover_in_assembly;
     // The mover's last pose in its own frame and its buttons, also in a pause; none without a mover that
     // senses its pose, and while that sends no samples.
-    std::optional<HeldMover> mover;
+    std::optional<MoverSample> mover;
     // Pose of the wrench while no hand holds it (StationControls::wrench_rest_pose).
     std::optional<Pose> resting_wrench;
     bool dead_man_pressed = false;  // by a button or the gripper of a device

@@ -34,7 +34,7 @@ bool LessonRun::tick(servo::TickInput input, bool wrench_in_hand, double room, b
 }
 
 void LessonRun::frame(trainer::MouseCommand command, std::optional<std::size_t> undo_steps, bool hint_key) {
-    trainer::MouseHand& hand = player.hand;
+    trainer::HelpedHand& hand = player.hand;
     if (undo_steps) trainer::request_undo(undo, session.lesson(), *undo_steps);
     if (undo.target && hand.nut) command.retreat = true;
     trainer::apply_command(hand, command, session.setup(), session.state());
@@ -55,7 +55,7 @@ void LessonRun::frame(trainer::MouseCommand command, std::optional<std::size_t> 
                             glm::distance(session.state().tool_contact->god_object.constrained_tool.position,
                                           hand.pose.position));
         if (!(leap < fastest_hand))
-            checker.report(fmt::format("the mouse hand jumps by {:.1f} mm during action {}", 1e3 * leap,
+            checker.report(fmt::format("the helped hand jumps by {:.1f} mm during action {}", 1e3 * leap,
                                        static_cast<int>(hand.action)));
         if (!tick(input, hand.wrench, room, hint_key)) return;
         for (const lesson::LessonEvent& event : session.events())

@@ -12,7 +12,7 @@ using namespace bolt::lesson;
 inline bool at_work(Situation s) {
     for (const Situation work :
          {Situation::run_down, Situation::run_down_by_wrench, Situation::pull, Situation::pull_to_yield,
-          Situation::pull_to_click, Situation::check, Situation::break_loose, Situation::turn_off,
+          Situation::pull_to_click, Situation::check, Situation::break_loose, Situation::unscrew,
           Situation::ease, Situation::ease_to_yield})
         if (s == work) return true;
     return false;

@@ -214,7 +214,7 @@ const Case cases[] = {
      Task::loosen},
     {Situation::break_loose, "hint.break_loose", HintMotion::pull_off,
      [](Bench& b) { b.tick(1, Grip::wrench, -40.0); }, torque, Task::loosen},
-    {Situation::turn_off, "hint.turn_off", HintMotion::pull_off, [](Bench& b) { b.turn(1, -20.0, -1.0); },
+    {Situation::unscrew, "hint.turn_off", HintMotion::pull_off, [](Bench& b) { b.turn(1, -20.0, -1.0); },
      torque, Task::loosen},
     {Situation::other_way_off, "hint.other_way_off", HintMotion::pull_off,
      [](Bench& b) { b.tick(1, Grip::wrench, 20.0); }, torque, Task::loosen},

@@ -139,7 +139,7 @@ TEST_CASE("Hints: guided: a hint for the due joint is shown from the first tick 
     for (const Situation s :
          {Situation::pass_run_down, Situation::pass_tighten, Situation::pass_recheck, Situation::pass_loosen,
           Situation::next, Situation::run_down, Situation::take_wrench, Situation::pull, Situation::ease,
-          Situation::stop, Situation::check, Situation::checked, Situation::turn_off, Situation::wrong_joint,
+          Situation::stop, Situation::check, Situation::checked, Situation::unscrew, Situation::wrong_joint,
           Situation::all_done}) {
         CAPTURE(static_cast<int>(s));
         CHECK(seen.contains(s));

@@ -21,7 +21,7 @@ TEST_CASE("Engagement: clockwise seen from the nut tightens a right-hand thread,
         CHECK(glm::length(glm::cross(nut.e1, nut.e2) - nut.axis) < 1e-12);
         // Turn the tool by −10° about the axis (clockwise from outside): tightening is +10°.
         const CommandedTool before = test::tool_at(nut, Vec3(0.0), 0.3);
-        ToolPose tool = pose_of(before);
+        ToolPose tool = tool_pose(before);
         const double a = tool_azimuth(setup, nut, tool, Grip::fingers);
         const Quat turn = glm::angleAxis(to_radians(-10.0), nut.axis);
         tool.handle = turn * tool.handle;
@@ -41,7 +41,7 @@ TEST_CASE("Engagement: the jaw fits every 60 degrees, and flipped 30 degrees bet
         for (const bool flip : {false, true}) {
             Engagement e;
             const CommandedTool sample = test::tool_at(nut, centre, to_radians(0.1 * tenth), flip);
-            update_pose_engagement(setup, state.joints, pose_of(sample), Grip::wrench, e);
+            update_pose_engagement(setup, state.joints, tool_pose(sample), Grip::wrench, e);
             if (e.joint != 0) continue;
             double& last = flip ? last_flipped : last_upright;
             if (0.1 * tenth - last > 10.0 || (flip ? flipped : upright) == 0) {
@@ -63,7 +63,7 @@ TEST_CASE("Engagement: a jaw that is off centre, tilted, too high or misaligned 
     const Vec3 centre = nut_centre(nut, 0.0);
     const double fits = setup.wrench.head_angle;  // handle angle at which the jaw is aligned with the flats
     const auto holds = [&](Grip grip, const Vec3& at, double angle, double tilt) {
-        ToolPose tool = pose_of(test::tool_at(nut, at, angle));
+        ToolPose tool = tool_pose(test::tool_at(nut, at, angle));
         tool.normal = glm::angleAxis(tilt, nut.e1) * tool.normal;
         Engagement e;
         update_pose_engagement(setup, state.joints, tool, grip, e);

@@ -86,7 +86,7 @@ TEST_CASE("Hold: a tilted wrench is turned square to the bolt, upright and flipp
             Held held;
             const CommandedTool square_on = held.at(Vec3(0.0), flipped);
             REQUIRE(held.step(Grip::wrench, square_on).joint == 0);
-            const Vec3 about = pose_of(square_on).handle;
+            const Vec3 about = tool_pose(square_on).handle;
             const double tilt = to_radians(degrees);
             const Output output = held.step(Grip::wrench, tilted(square_on, about, tilt));
             REQUIRE(output.joint == 0);
@@ -120,7 +120,7 @@ TEST_CASE(
         Held held;
         const CommandedTool square_on = held.at(Vec3(0.0));
         REQUIRE(held.step(Grip::wrench, square_on).joint == 0);
-        const Vec3 about = pose_of(square_on).handle;
+        const Vec3 about = tool_pose(square_on).handle;
         const Output output = held.step(Grip::wrench, tilted(square_on, about, to_radians(degrees)));
         CHECK((output.joint == 0) == (degrees < 30.0));
         CHECK(held.state.joints[0].nut.angle == 0.0);
@@ -129,7 +129,7 @@ TEST_CASE(
         Held held;
         const CommandedTool square_on = held.at(Vec3(0.0));
         REQUIRE(held.step(Grip::fingers, square_on).joint == 0);
-        const ToolPose tool = pose_of(square_on);
+        const ToolPose tool = tool_pose(square_on);
         const Vec3 about = glm::cross(tool.handle, tool.normal);
         const Output output = held.step(Grip::fingers, tilted(square_on, about, to_radians(degrees)));
         CHECK((output.joint == 0) == (degrees < 53.0));

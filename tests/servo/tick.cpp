@@ -144,7 +144,7 @@ TEST_CASE("Servo: a device without torque renders it as a force across the handl
         if (output.wrench_torque < 150.0) angle += to_radians(0.05);
     }
     REQUIRE(output.wrench_torque > 140.0);
-    const ToolPose tool = pose_of(test::tool_at(nut, Vec3(0.0), angle));
+    const ToolPose tool = tool_pose(test::tool_at(nut, Vec3(0.0), angle));
     const Vec3 pull = glm::cross(-nut.axis, tool.handle);  // direction of the grip's motion when tightening
     CHECK(glm::dot(output.force, pull) ==
           doctest::Approx(-output.wrench_torque * setup.torque_rendering.as_force).epsilon(0.05));

@@ -128,7 +128,7 @@ TEST_CASE(
     Rig rig(layout);
     const servo::NutGeometry& nut = rig.setup.nuts[0];
     const servo::ToolPose on =
-        servo::pose_of(test::tool_at(nut, servo::nut_centre(nut, 0.0), rig.setup.wrench.head_angle));
+        servo::tool_pose(test::tool_at(nut, servo::nut_centre(nut, 0.0), rig.setup.wrench.head_angle));
     const Pose rest{Vec3(0.1, 0.01, 0.3), rotation(Vec3(0.0, 0.4, 0.0))};
     rig.inputs.controls.wrench_rest_pose = rest;
     rig.inputs.controls.grip = servo::Grip::none;
@@ -170,13 +170,13 @@ TEST_CASE(
     layout.wrist = Pose{Vec3(0.12, 0.02, -0.03), rotation(Vec3(0.1, 0.2, 1.5))};
     Rig rig(layout);
     rig.inputs.controls.wrench_rest_pose = Pose{Vec3(0.0, 0.01, 0.3), rotation(Vec3(0.0, 0.4, 0.0))};
-    rig.inputs.controls.bare_wrist = Pose{Vec3(0.02, 0.1, 0.05), rotation(Vec3(-1.0, 0.2, 0.3))};
+    rig.inputs.controls.empty_hand_wrist = Pose{Vec3(0.02, 0.1, 0.05), rotation(Vec3(-1.0, 0.2, 0.3))};
     const auto wrist = [&] {
         return tool_of_gloved_hand(layout, rig.setup, rig.state, rig.inputs.controls) * *layout.wrist;
     };
     rig.inputs.hand_grip = servo::Grip::none;
     rig.ticks(5);
-    const Pose bare = rig.tool() * *rig.inputs.controls.bare_wrist;
+    const Pose bare = rig.tool() * *rig.inputs.controls.empty_hand_wrist;
     CHECK(glm::distance(wrist().position, bare.position) < 1e-12);
     rig.inputs.hand_grip = servo::Grip::wrench;
     rig.ticks(5);

@@ -55,7 +55,7 @@ double apart(const hand::Skeleton& a, const hand::Skeleton& b) {
 
 TEST_CASE("Gloved hand: closing grasps the wrench and opening releases it, with and without tremor") {
     Worn worn;
-    CHECK(!display(worn.plan, worn.state).has_frame);
+    CHECK(!displayed_hand(worn.plan, worn.state).has_angles);
     worn.send(test::raw_open(), 0.5);
     CHECK(grip_of(worn.state) == servo::Grip::none);
     worn.send(test::raw_closed(), 0.5);
@@ -96,24 +96,24 @@ TEST_CASE(
     worn.send(test::raw_open(), 0.5);
     const hand::Skeleton open =
         hand::joints(worn.plan.wearer.hand, worn.state.grasp.closure.angles, worn.plan.wrist);
-    CHECK(apart(display(worn.plan, worn.state).joints, open) < 1e-12);
+    CHECK(apart(displayed_hand(worn.plan, worn.state).finger_joints, open) < 1e-12);
     // An obstacle holds the tool 0.1 m below the hand.
     worn.place.constrained_tool.position -= Vec3(0.0, 0.1, 0.0);
     worn.send(test::raw_open(), 0.1);
-    const Vec3 palm =
-        worn.place.constrained_tool * display(worn.plan, worn.state).joints.position[hand::palm];
+    const Vec3 palm = worn.place.constrained_tool *
+                      displayed_hand(worn.plan, worn.state).finger_joints.position[hand::palm];
     CHECK(glm::length(palm - somewhere * open.position[hand::palm]) < 1e-12);
     // The hand cannot grasp the tool from a distance. Once it holds it, the displayed hand follows the tool.
     worn.send(test::raw_closed(), 0.5);
-    CHECK(!display(worn.plan, worn.state).held);
+    CHECK(!displayed_hand(worn.plan, worn.state).held);
     worn.place.constrained_tool = somewhere;
     worn.send(test::raw_closed(), 0.5);
-    const DisplayedHand closed = display(worn.plan, worn.state);
+    const DisplayedHand closed = displayed_hand(worn.plan, worn.state);
     CHECK(closed.held);
-    CHECK(apart(closed.joints, open) > 0.03);
+    CHECK(apart(closed.finger_joints, open) > 0.03);
     worn.place.constrained_tool.position -= Vec3(0.0, 0.1, 0.0);
     worn.send(test::raw_closed(), 0.5);
-    CHECK(apart(display(worn.plan, worn.state).joints, closed.joints) < 1e-4);
+    CHECK(apart(displayed_hand(worn.plan, worn.state).finger_joints, closed.finger_joints) < 1e-4);
 }
 
 TEST_CASE("Gloved hand: messages name its problems, worst first") {

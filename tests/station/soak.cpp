@@ -151,7 +151,7 @@ class Soak {
         const Vec3 at = servo::nut_centre(nut, servo_.joints[0].nut.angle) + height * nut.axis;
         const Pose& tool = state_.workspace.commanded_tool;
         const double azimuth = setup_.wrench.head_angle + servo_.joints[0].nut.angle;
-        const servo::ToolPose wanted = servo::pose_of(test::tool_at(nut, at, azimuth));
+        const servo::ToolPose wanted = servo::tool_pose(test::tool_at(nut, at, azimuth));
         const Vec3 turn =
             state_.output.joint >= 0 ? Vec3(0.0) : turn_between(tool.orientation, wanted.orientation);
         device::Sample sample;

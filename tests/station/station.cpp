@@ -218,15 +218,15 @@ TEST_CASE(
     controls.grip = servo::Grip::wrench;  // overridden by the open hand
     station->set_controls(controls);
     const auto grip = [&] { return station->latest_tick().input.grip; };
-    REQUIRE(eventually([&] { return station->hand()->has_frame && grip() == servo::Grip::none; }));
-    const hand::Skeleton open = station->hand()->joints;
+    REQUIRE(eventually([&] { return station->hand()->has_angles && grip() == servo::Grip::none; }));
+    const hand::Skeleton open = station->hand()->finger_joints;
     station->set_controls({});
     line->set_raw(test::raw_closed());
     REQUIRE(eventually([&] { return grip() == servo::Grip::wrench; }));
     REQUIRE(eventually([&] {
         const DisplayedHand& hand = *station->hand();
-        return hand.held &&
-               glm::length(hand.joints.position[hand::index_tip] - open.position[hand::index_tip]) > 0.03;
+        return hand.held && glm::length(hand.finger_joints.position[hand::index_tip] -
+                                        open.position[hand::index_tip]) > 0.03;
     }));
 
     line->stall(true);

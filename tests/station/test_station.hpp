@@ -62,7 +62,7 @@ inline Rig on_nut(station::DeviceLayout layout) {
     const servo::Setup setup = two_joints(station::limits_of(layout));
     const servo::NutGeometry& nut = setup.nuts[0];
     const servo::CommandedTool at = tool_at(nut, servo::nut_centre(nut, 0.0), setup.wrench.head_angle);
-    const servo::ToolPose pose = servo::pose_of(at);
+    const servo::ToolPose pose = servo::tool_pose(at);
     layout.home = {pose.position, pose.orientation};
     Rig rig(layout);
     rig.ticks(700);  // until the output is ramped up

@@ -40,7 +40,7 @@ class VirtualBench final : public station_setup::SteppedStation {
     }
 
     // Makes the device one that senses its pose, without forces, and holds it there.
-    void hold(const station::HeldMover& held) {
+    void hold(const station::MoverSample& held) {
         if (!held_) {
             layout_.mover->sensing = device::Sensing::pose;
             state_ = station::initial_state(layout_);
@@ -102,7 +102,7 @@ class VirtualBench final : public station_setup::SteppedStation {
     device::DeviceSupervisor supervisor_;
     device::DeviceMailboxes mailboxes_;
     device::DeviceSnapshot snapshot_;
-    std::optional<station::HeldMover> held_;
+    std::optional<station::MoverSample> held_;
     std::uint64_t held_number_ = 0, command_number_ = 0;
     bool stopped_ = false;
 };
