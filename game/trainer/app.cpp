@@ -35,17 +35,6 @@ void add_language_characters(ui::Ui& ui, std::span<const words::Words> languages
         ui.add_characters(sign);
 }
 
-// The scene for a picture that has this share of the window's width and height: lengths in pixels are
-// scaled.
-render::Scene with_fewer_pixels(render::Scene scene, float share) {
-    scene.outline_px *= share;
-    for (render::Label& label : scene.labels) {
-        label.offset_px *= share;
-        if (label.placement == render::LabelPlacement::on_screen) label.height *= share;
-    }
-    return scene;
-}
-
 }  // namespace
 
 App::App(AppOptions options) : options_(std::move(options)) {
@@ -336,7 +325,7 @@ Status App::draw_pictures(gpu::FrameContext& frame, const view::WindowFrame& win
     if (gpu_->shows_enlarged) {
         const VkExtent2D size = view::scaled(window.resolution, window.size);
         const render::Eye eye = projection_of(*active_, glm::dvec2(size.width, size.height)).eye;
-        BOLT_TRY(renderer.render(frame, with_fewer_pixels(active_->scene, window.resolution),
+        BOLT_TRY(renderer.render(frame, view::with_fewer_pixels(active_->scene, window.resolution),
                                  std::span(&eye, 1), size));
         return enlarge_scene(frame, window.size);
     }

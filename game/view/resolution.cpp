@@ -50,4 +50,13 @@ VkExtent2D scaled(float share, VkExtent2D full) {
     return share == 1.0F ? full : VkExtent2D{scale(full.width), scale(full.height)};
 }
 
+render::Scene with_fewer_pixels(render::Scene scene, float share) {
+    scene.outline_px *= share;
+    for (render::Label& label : scene.labels) {
+        label.offset_px *= share;
+        if (label.placement == render::LabelPlacement::on_screen) label.height *= share;
+    }
+    return scene;
+}
+
 }  // namespace bolt::view

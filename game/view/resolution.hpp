@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "engine/gpu/vk.hpp"
+#include "engine/render/scene.hpp"
 
 namespace bolt::view {
 
@@ -36,5 +37,8 @@ inline float share_of(const ResolutionControl& control) { return resolution_step
 
 // The size of a picture whose full size is `full`: even numbers of pixels, unless `share` is 1.
 VkExtent2D scaled(float share, VkExtent2D full);
+
+// The scene for a picture that has this share of the window's width and height: lengths in pixels are scaled.
+render::Scene with_fewer_pixels(render::Scene scene, float share);
 
 }  // namespace bolt::view

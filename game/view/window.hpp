@@ -61,7 +61,8 @@ class WindowContent {
     [[nodiscard]] virtual bool closed() const = 0;
     // The picture of the window uses WindowFrame::resolution at the moment.
     [[nodiscard]] virtual bool scales_scene() const { return false; }
-    // The background of immersive pictures is transparent, to show the surroundings of a headset that can.
+    // The background of immersive pictures is transparent, to show the real room in a headset with
+    // passthrough.
     [[nodiscard]] virtual bool shows_surroundings() const { return false; }
     // True once after each request to switch between window and full screen.
     [[nodiscard]] virtual bool take_full_screen_request() { return false; }

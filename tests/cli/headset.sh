@@ -61,7 +61,7 @@ END
     rm -f report
     expect 0 'headset: Mock headset' timeout 200 "${train[@]}" --settings settings.json --hmd first-nut --out "room-$passthrough"
     check 'the runtime was used correctly' test "$(violations report)" = 0
-    [[ $passthrough = 0 ]] || check 'a headset that can is told to show the room' grep -q '^blended [1-9]' report
+    [[ $passthrough = 0 ]] || check 'the room is requested from a headset that can show it' grep -q '^blended [1-9]' report
 done
 check 'a headset that cannot show the room shows the workshop' grep -q '^blended 0$' report
 check 'in one that can, most of the picture is the real room' python3 - room-1.ppm room-0.ppm <<'END'

@@ -70,3 +70,18 @@ TEST_CASE("Resolution: a control with a coarsest step stops there") {
     (void)run(control, 1000.0 * period, 10);
     CHECK(control.step == 4);
 }
+
+TEST_CASE("Resolution: lengths in pixels are scaled with the picture, lengths in metres are not") {
+    bolt::render::Scene scene;
+    scene.outline_px = 3.0F;
+    scene.labels.resize(2);
+    scene.labels[0].height = 16.0F;
+    scene.labels[0].offset_px = {4.0F, -8.0F};
+    scene.labels[1].placement = bolt::render::LabelPlacement::fixed;
+    scene.labels[1].height = 0.02F;
+    const bolt::render::Scene half = with_fewer_pixels(scene, 0.5F);
+    CHECK(half.outline_px == 1.5F);
+    CHECK(half.labels[0].height == 8.0F);
+    CHECK(half.labels[0].offset_px == glm::vec2(2.0F, -4.0F));
+    CHECK(half.labels[1].height == 0.02F);
+}
