@@ -14,7 +14,7 @@ if(BOLT_CCACHE)
 endif()
 
 add_library(house_options INTERFACE)
-# Structures of Vulkan and OpenXR are initialised with their type alone.
+# -Wno-missing-field-initializers: structures of Vulkan and OpenXR are initialised with their type alone.
 target_compile_options(house_options INTERFACE
     -Wall -Wextra -Wpedantic -Wno-missing-field-initializers -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
     -Woverloaded-virtual -Wcast-align -Wnull-dereference -Wdouble-promotion -Wformat=2 -Werror
@@ -61,7 +61,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug
 endif()
 
 # Without a compiler cache the common headers are precompiled, once for each optimisation level: gcc 12 crashes on those of another
-# level. With a cache they are not: a cache may overlook a change inside a precompiled header, and files with missing includes would
+# level. With a cache they are not precompiled: a cache may overlook a change inside a precompiled header, and files with missing includes would
 # go unnoticed.
 if(NOT BOLT_CCACHE)
     foreach(level "" _HOT _COLD)

@@ -1,1 +1,1 @@
-// Nothing: what is wanted are the headers (house_headers.hpp), parsed.
+// Empty: compiled only to precompile house_headers.hpp.

@@ -32,7 +32,7 @@ if(TARGET boltwright_mpi)
     install(TARGETS boltwright_mpi LIBRARY DESTINATION lib/boltwright COMPONENT boltwright)
 endif()
 install(DIRECTORY content/words DESTINATION ${content} COMPONENT boltwright FILES_MATCHING PATTERN "*.json")
-# Who sits at a machine may use the devices that are plugged into it.
+# The person at a machine may use the devices that are plugged into it.
 install(FILES tools/udev/60-boltwright.rules DESTINATION lib/udev/rules.d COMPONENT boltwright)
 install(FILES ${BOLT_PACKAGING}/boltwright.desktop ${BOLT_PACKAGING}/boltwright-session.desktop DESTINATION share/applications COMPONENT boltwright)
 install(FILES ${BOLT_PACKAGING}/boltwright.svg DESTINATION share/icons/hicolor/scalable/apps COMPONENT boltwright)
@@ -67,7 +67,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Stable folders for everyone to read, whatever the umask.
+# Everyone may read the installed folders, whatever the umask.
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 if(CMAKE_BUILD_TYPE STREQUAL "RelWithDebInfo")

@@ -27,7 +27,7 @@ pkg_check_modules(openal REQUIRED IMPORTED_TARGET openal)
 option(BOLT_OPENCASCADE "Build import-step and the programs that make models" ON)
 if(BOLT_OPENCASCADE)
     find_package(OpenCASCADE QUIET)
-    # Its libraries that read and write STEP; 7.8 (Debian 13) has other ones than 7.6 (Debian 12).
+    # The libraries that read and write STEP: version 7.8 (Debian 13) has other ones than 7.6 (Debian 12).
     set(BOLT_STEP TKXDESTEP TKSTEP TKSTEPBase TKSTEPAttr TKXSBase)
     if(OpenCASCADE_VERSION VERSION_GREATER_EQUAL 7.8)
         set(BOLT_STEP TKDESTEP TKDE TKXSBase)
@@ -41,7 +41,7 @@ find_package(benchmark QUIET)
 # Projection walls on several computers; everything else works without it. Packages are built without it, because few users need it.
 option(BOLT_WITH_MPI "Walls of several processes, if there is an MPI library" ON)
 if(BOLT_WITH_MPI)
-    enable_language(C)  # FindMPI asks the C compiler
+    enable_language(C)  # FindMPI uses the C compiler
     find_package(MPI COMPONENTS C QUIET)
 endif()
 

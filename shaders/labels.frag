@@ -3,7 +3,7 @@
 #extension GL_EXT_multiview : require
 // Computes the fraction of a pixel that a glyph covers, from its distance field. Samples the field once in
 // each quarter of the pixel and converts each distance to coverage by a linear ramp. The ramp is as wide as
-// the quarter is across the edge.
+// that quarter, measured across the edge.
 
 #include "shaders/shared.h"
 #include "shaders/features.glsl"

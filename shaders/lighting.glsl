@@ -15,7 +15,7 @@ layout(set = 0, binding = 6) uniform sampler2DArray ambient_occlusion;
 float shadow_visibility(vec3 at, vec3 normal) {
     const vec2 texel = 1.0 / vec2(textureSize(shadow_map, 0));
     const float width = 2.0 * texel.x / length(lit_frame.shadow[0].xyz);
-    const float off = lit_frame.level_off * dot(lit_frame.w_row, vec4(at, 1.0));
+    const float off = lit_frame.level_error_per_metre * dot(lit_frame.w_row, vec4(at, 1.0));
     const vec4 from = vec4(at + (1.5 * width + off) * normal, 1.0);
     const vec2 place = vec2(dot(lit_frame.shadow[0], from), dot(lit_frame.shadow[1], from));
     const vec3 p = vec3(place * 0.5 + 0.5, dot(lit_frame.shadow[2], from));

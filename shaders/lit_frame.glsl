@@ -6,7 +6,7 @@
 struct LitFrame {
     mat4 world_from_clip;
     vec3 eye;
-    float level_off;  // error of levels of detail, m per metre of distance
+    float level_error_per_metre;  // error of levels of detail, m per metre of distance
     vec4 w_row;       // of clip_from_world: depth along the view
     vec4 shadow[3];   // rows of shadow_from_world
     vec4 environment;
@@ -22,7 +22,7 @@ LitFrame load_lit_frame() {
     const View view = frame.views[view_index];
     f.world_from_clip = view.world_from_clip;
     f.eye = view.eye.xyz;
-    f.level_off = frame.occlusion.y;
+    f.level_error_per_metre = frame.occlusion.y;
     f.w_row = row(view.clip_from_world, 3);
     for (int i = 0; i < 3; ++i) f.shadow[i] = row(frame.shadow_from_world, i);
     f.environment = frame.environment;
@@ -35,7 +35,7 @@ LitFrame load_lit_frame() {
 
 void pack(LitFrame f, out vec4 to[LIT_INPUTS]) {
     for (int i = 0; i < 4; ++i) to[i] = f.world_from_clip[i];
-    to[4] = vec4(f.eye, f.level_off);
+    to[4] = vec4(f.eye, f.level_error_per_metre);
     to[5] = f.w_row;
     for (int i = 0; i < 3; ++i) to[6 + i] = f.shadow[i];
     to[9] = f.environment;
@@ -56,7 +56,7 @@ LitFrame unpack(vec4 from[LIT_INPUTS]) {
     LitFrame f;
     f.world_from_clip = mat4(from[0], from[1], from[2], from[3]);
     f.eye = from[4].xyz;
-    f.level_off = from[4].w;
+    f.level_error_per_metre = from[4].w;
     f.w_row = from[5];
     for (int i = 0; i < 3; ++i) f.shadow[i] = from[6 + i];
     f.environment = from[9];

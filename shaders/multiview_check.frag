@@ -3,5 +3,5 @@
 
 layout(location = 0) out float value;
 
-// Another value in each view.
+// A different value in each view.
 void main() { value = gl_ViewIndex == 0 ? 1.0 : 0.5; }

@@ -40,8 +40,8 @@ vec4 shade_pixel(ivec3 pixel) {
     vec3 sum = vec3(0.0);
     if (background_samples > 0.0 && !has(SCENE_TRANSPARENT)) sum = background_samples * background_color(middle);
     // The loop's test is at its end: lavapipe runs a loop until none of eight pixels needs another iteration,
-    // and a test at the top costs one extra iteration. Every exit must set its results: lavapipe takes values
-    // computed only in the body from the last iteration of all eight pixels.
+    // and a test at the top costs one extra iteration. Every exit must set `color`: lavapipe would take a value
+    // that is set only in the body from the last iteration of all eight pixels, not from that of this pixel.
     for (;;) {
         if (unshaded == 0u) {
             color = vec4(0.25 * sum, alpha);

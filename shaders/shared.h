@@ -48,7 +48,7 @@ struct FrameData {
 
 struct Instance {
     mat4 world_from_object;
-    vec4 tint;     // w: fraction replaced by rgb
+    vec4 tint;     // w: fraction of the material's colour that rgb replaces
     vec4 outline;  // w: opacity
     uint flags;    // INSTANCE_…
     float opacity;

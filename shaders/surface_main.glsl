@@ -1,5 +1,6 @@
-// Writes the geometry buffer: normal, material and grain. With MATERIAL_OUTPUTS, values that vary over a part (maps, vertex
-// colours) go to the material buffer. A shader must not write to targets that a frame does not have.
+// Writes the geometry buffer: normal, material and grain. With MATERIAL_OUTPUTS, values that vary over a part
+// (maps, vertex colours) go to the material buffer. A shader must not write to targets that a frame does not
+// have.
 #include "shaders/frame.glsl"
 #include "shaders/material.glsl"
 #include "shaders/surface.glsl"
@@ -12,7 +13,7 @@ layout(location = 2) out vec4 material_roughness_out;  // roughness, occlusion
 #endif
 
 void main() {
-    if (has(SCENE_CUT) && cut_fade(at) > 0.0) discard;  // scene.frag draws the rest of it
+    if (has(SCENE_CUT) && cut_fade(at) > 0.0) discard;  // scene.frag draws this fading region
     const Material m = materials[material_index];
     const bool per_pixel = has(SCENE_PER_PIXEL_MATERIAL);
     if (per_pixel || has(SCENE_MASK)) {

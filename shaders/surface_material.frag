@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// The geometry buffer and the material buffer.
+// Writes the geometry buffer and the material buffer.
 #define MATERIAL_OUTPUTS
 #include "shaders/surface_main.glsl"

@@ -114,7 +114,7 @@ void check_pair(const Wall& wall, const Wall& other, Findings& findings) {
         return;
     }
     const auto gap = seam_gap(a, b);
-    if (gap && *gap > seam_tolerance && *gap < seam_width)
+    if (gap && *gap > seam_tolerance && *gap < max_seam_gap)
         findings.push_back(
             {false, fmt::format("{} nearly meet: the gap is up to {:.1f} mm; expected the same edge, "
                                 "unless something stands between them",

@@ -15,11 +15,11 @@ struct DisplayFinding {
     // The picture would be wrong or could not be shown. False: it is shown, but probably not as intended.
     bool prevents_use = false;
     std::string text;
-    std::optional<std::size_t> wall{};  // index of the wall, of two walls the later one; none: the whole file
+    std::optional<std::size_t> wall{};  // index of the wall (of the later of two walls); none: the whole file
 };
 
-// A monitor of a DisplayHost, and where it is on the desktop. platform::Monitor, which this layer does not
-// see, is the connected monitor that it describes.
+// A monitor of a DisplayHost, and where it is on the desktop. The values are those of a platform::Monitor, a
+// type that this layer may not include.
 struct HostMonitor {
     std::string name;
     int x = 0, y = 0, width = 0, height = 0;  // pixels, y down
@@ -36,20 +36,20 @@ inline constexpr double max_wall_edge = 100.0;       // m; a longer one is proba
 inline constexpr double min_viewer_distance = 0.05;  // m, of the head from a wall
 inline constexpr double wall_tolerance = 0.01;       // m, by which walls may cross or overlap
 inline constexpr double seam_tolerance = 0.001;      // m, of a gap between walls that meet
-inline constexpr double seam_width = 0.05;           // m, of the widest gap that is taken for a seam
+inline constexpr double max_seam_gap = 0.05;         // m, of the widest gap that is taken for a seam
 inline constexpr double pixel_tolerance = 0.01;      // of the ratio of a pixel's width to its height
 inline constexpr double narrow_eyes = 0.05, wide_eyes = 0.08;  // m; nearly all adults are between these
 
 // Names, shapes, the fixed head in front of each wall, crossings, overlaps, seams, and the eye separation.
 std::vector<DisplayFinding> check_walls(const DisplayFile& displays);
 
-// The computer, or the X display of one, that a check is for. Each process of the program shows the walls of
-// one.
+// The computer, or the X display of a computer, that a check is for. Each process of the program shows the
+// walls of one DisplayHost.
 struct DisplayHost {
     std::vector<HostMonitor> monitors;  // none: outputs are compared with one another only
-    int process = 0;                    // number of the one that shows its walls, as DisplayOutput::process
+    int process = 0;                    // process that shows its walls, as DisplayOutput::process
     std::string display;                // X display of the program, such as ":0"; empty: unknown
-    int processes = 1;                  // that show the walls together
+    int processes = 1;                  // number of processes that show the walls together
 };
 
 // Returns true for names of the same X screen: ":0" is ":0.0".

@@ -148,7 +148,7 @@ void check_pixels(const PlacedOutput& placed, Findings& findings) {
     const double pixel_aspect = width(wall) / across / (height(wall) / upwards);
     const double eye_pixel_aspect = beside ? 2.0 * pixel_aspect : above ? 0.5 * pixel_aspect : pixel_aspect;
     const auto is_square = [](double ratio) { return std::abs(ratio - 1.0) <= pixel_tolerance; };
-    // Screens that take both pictures squeezed into one have square pixels again.
+    // Either ratio may be 1: a screen that takes both pictures squeezed into one has square pixels itself.
     if (is_square(eye_pixel_aspect) || is_square(pixel_aspect) || !(height(wall) > 0.0)) return;
     report(findings, false, placed,
            fmt::format("its pixels are not square: {:.3g} m by {:.3g} m with {}x{} pixels{}, so a pixel is "

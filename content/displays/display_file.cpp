@@ -47,7 +47,7 @@ ordered_json json_of(const Wall& wall) {
     return object;
 }
 
-// Members of the tracker only where the head has one.
+// Writes the members of the tracker only if the head has a tracker.
 ordered_json json_of(const HeadTracking& head) {
     const HeadTracking unless_given;
     ordered_json object;

@@ -33,10 +33,10 @@ struct PixelSize {
 
 // Where a picture is shown. Exactly one of `monitor`, `monitor_index` and `position` is given.
 struct DisplayOutput {
-    std::string monitor;                    // its name; the picture fills it. Empty: not given
+    std::string monitor;                    // name of the monitor that the picture fills. Empty: not given
     std::optional<int> monitor_index;       // from 0
     std::optional<PixelPosition> position;  // of a window without a border, on the desktop
-    std::optional<PixelSize> resolution;    // a window has one; none: that of the monitor
+    std::optional<PixelSize> resolution;    // required for a window; none: that of the monitor
     std::string display;                    // X display; empty: that of the program
     // Number of the process that shows it. The file's key is `rank`, as MPI and ParaView call the number.
     int process = 0;
@@ -91,12 +91,12 @@ struct HeadTracking {
     int body = 0;                                            // dtrack
     TrackedPose pose = TrackedPose::headset;                 // openxr
     std::string recording;  // file of recorded poses, relative to the folder of the display file
-    std::array<TrackerAxis, 3> axes{{{0}, {1}, {2}}};  // those that point along the room's x, y and z
+    std::array<TrackerAxis, 3> axes{{{0}, {1}, {2}}};  // tracker axes along the room's x, y and z
     double scale = 1.0;                                // m of the room per m of the tracker
     Pose tracker_in_room;    // the tracker's frame; applied after `axes` and `scale`
     Pose head_in_body;       // in the tracked body's frame after `axes`
     double hold = 0.5;       // s of a dropout, during which the last pose is kept
-    double fade = 2.0;       // s, from there to the fixed head
+    double fade = 2.0;       // s, duration of the return to the fixed head
     double max_speed = 4.0;  // m/s; a faster change is a jump
     double jump_time = 0.3;  // s, after which a lasting jump is accepted
     bool operator==(const HeadTracking& other) const;
@@ -139,7 +139,7 @@ struct LoadedDisplays {
 LoadedDisplays parse_displays(std::string_view text, const std::string& file);
 LoadedDisplays load_displays(const std::filesystem::path& path);
 
-// The text of a file, in the order of the structs. It is read back to an equal value if that is valid.
+// The text of a file, in the order of the structs. A valid value is read back to an equal value.
 std::string displays_json(const DisplayFile& displays);
 
 // Fails, and leaves the file unchanged, if parse_displays() would refuse the value.

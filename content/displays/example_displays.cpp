@@ -18,7 +18,7 @@ Wall window_wall(std::string name, const Vec3& lower_left, const Vec3& lower_rig
     return wall;
 }
 
-// The side to the viewer's back is open. Five projectors side by side on one desktop; a pixel is 2 mm wide.
+// The side behind the viewer is open. Five projectors side by side on one desktop; a pixel is 2 mm wide.
 DisplayFile cave() {
     constexpr double half = 1.5, top = 2.4;  // m
     constexpr PixelSize side{1500, 1200}, floor{1500, 1500};

@@ -100,7 +100,7 @@ void PvxImport::read_eye_separation(pugi::xml_node node) {
             fmt::format("0 to {:g} m; other units need another scale", max_eye_separation));
 }
 
-// A name of its own: machines of one computer have the same Name.
+// Gives the wall a unique name, because machines of one computer have the same Name.
 void PvxImport::name_wall(PvxMachine& machine) {
     std::string base = machine.host;
     if (base.size() > max_wall_name - 10) {
@@ -126,8 +126,8 @@ void PvxImport::read_machine(pugi::xml_node node) {
     name_wall(machines_.back());
 }
 
-// In ParaView every Machine is a process, and its Name may be that of the computer or of the wall. They are
-// computers if two of them would show on the same pixels.
+// In ParaView every Machine is a process, and its Name may be that of the computer or of the wall. The Names
+// are computers if two machines with different Names would show on the same pixels.
 void PvxImport::assign_processes() {
     const auto collide = [](const PvxMachine& a, const PvxMachine& b) {
         const DisplayOutput &one = a.wall.output, &other = b.wall.output;
@@ -158,7 +158,8 @@ void PvxImport::assign_processes() {
             hosts.size()));
 }
 
-// Walls without a Geometry: the first such wall of a process on its first monitor, and so on.
+// Assigns monitors to walls without a Geometry: the first such wall of a process is on its first monitor, and
+// so on.
 void PvxImport::assign_monitors() {
     std::vector<int> next(max_walls, 0);
     for (PvxMachine& machine : machines_) {
@@ -167,7 +168,7 @@ void PvxImport::assign_monitors() {
     }
 }
 
-// With one display for all walls the program itself runs on it.
+// Removes the display if all walls have the same one, because the program itself then runs on it.
 void PvxImport::drop_single_display() {
     const std::string display = machines_.front().wall.output.display;
     if (display.empty()) return;
@@ -216,7 +217,7 @@ void PvxImport::read_stereo(PvxMachine& machine) {
             fmt::format("the StereoType {} has no counterpart: the wall is mono", in_quotes(type)));
 }
 
-// The file does not say where the viewer is: a point from which all walls are seen from the front.
+// The file has no position of the viewer: chooses a point from which all walls are seen from the front.
 void PvxImport::place_head() {
     Vec3 middle(0.0);
     for (const Wall& wall : displays_.walls) {
@@ -238,7 +239,7 @@ void PvxImport::place_head() {
                     head.x, head.y, head.z));
 }
 
-// The element pvx; none after a mistake.
+// Returns the element pvx; none after a mistake.
 pugi::xml_node PvxImport::parse(pugi::xml_document& document) {
     if (const auto mistake = explain_encoding(text_)) {
         messages_.fail_at(mistake->offset, mistake->what, mistake->expected);

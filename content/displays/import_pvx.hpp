@@ -10,7 +10,8 @@
 
 namespace bolt::content {
 
-// Errors and warnings name file, line and column. A warning states what the display file does not have.
+// Errors and warnings name file, line and column. A warning names a part of the .pvx file that a
+// display file cannot express.
 struct ImportedDisplays {
     DisplayFile displays;
     std::vector<Error> warnings;

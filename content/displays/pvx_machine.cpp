@@ -63,7 +63,7 @@ void read_environment(PvxMachine& machine, PvxMessages& messages) {
     }
 }
 
-// Attributes that have no place in a display file, unless their value is what happens anyway.
+// Warns of attributes that a display file cannot express, unless their value has no effect.
 void report_left_out(pugi::xml_node node, PvxMessages& messages) {
     struct AttributeRule {
         const char* name;

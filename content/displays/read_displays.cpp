@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<std::string_view, 4> stereo_names{"mono", "side_by_side", "top_bottom", "two_outputs"};
 constexpr std::array<std::string_view, 4> tracker_names{"fixed", "dtrack", "openxr", "file"};
 constexpr std::array<std::string_view, 3> pose_names{"headset", "left_hand", "right_hand"};
-constexpr double length_tolerance = 1e-3;  // of the length of a quaternion in the file
+constexpr double length_tolerance = 1e-3;  // of a quaternion's length in the file
 
 template <class Enumeration, std::size_t count>
 Enumeration read_name(const JsonReader& reader, const JsonNode& node,
@@ -61,7 +61,7 @@ Quat read_orientation(JsonReader& reader, const JsonNode& node, const Quat& fall
                       "a unit quaternion [w, x, y, z]");
         return fallback;
     }
-    // A quaternion of this program keeps its bits.
+    // A quaternion that this program wrote is not renormalised, so that it keeps its bits.
     return std::abs(length - 1.0) < 1e-12 ? read : glm::normalize(read);
 }
 
@@ -137,7 +137,7 @@ DisplayOutput read_output(JsonReader& reader, const JsonNode& node) {
     return output;
 }
 
-// A member that must be there exactly if `wanted`.
+// Reads an output that must be given if `wanted`, and must not be given otherwise.
 JsonNode read_place(JsonReader& reader, const JsonNode& wall, const char* key, bool wanted, StereoMode mode) {
     JsonNode node = reader.member(wall, key);
     const bool given = node || !reader.is_valid(node.pointer);
@@ -221,7 +221,7 @@ LoadedDisplays parse_displays(std::string_view text, const std::string& file) {
     const JsonNode root = reader.root();
     DisplayFile& displays = loaded.displays;
     displays.schema = reader.text(reader.member(root, "$schema")).value_or("");
-    reader.member(root, "format");  // the schema has its only value
+    reader.member(root, "format");  // the schema permits one value only
     displays.name = reader.text(reader.member(root, "name")).value_or("");
     read_number(reader, root, "eye_separation_m", displays.eye_separation);
     displays.head = read_head(reader, reader.member(root, "head"));

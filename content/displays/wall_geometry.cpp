@@ -58,7 +58,7 @@ std::optional<double> edge_gap(const WallEdge& a, const WallEdge& b) {
     const double length = glm::length(along), other_length = glm::length(other);
     const Vec3 direction = along / length;
     const double cosine = glm::dot(direction, other) / other_length;
-    if (!(std::abs(cosine) >= min_cosine)) return std::nullopt;  // also without a length
+    if (!(std::abs(cosine) >= min_cosine)) return std::nullopt;  // also for an edge of length 0
     const double start = glm::dot(direction, b.from - a.from), end = glm::dot(direction, b.to - a.from);
     const double low = std::max(0.0, std::min(start, end)), high = std::min(length, std::max(start, end));
     if (high - low < min_share * std::min(length, other_length)) return std::nullopt;

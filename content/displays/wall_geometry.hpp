@@ -1,4 +1,4 @@
-// Where walls are to one another and to a point: distances, seams and crossings. All values are in m.
+// Positions of walls relative to one another and to a point: distances, seams and crossings. All values in m.
 #pragma once
 
 #include <array>
@@ -37,12 +37,12 @@ bool walls_cross(const WallAxes& a, const WallAxes& b, double margin);
 // most `tolerance`. The part of `b` behind `a` cannot be seen.
 std::optional<double> edge_inset(const WallAxes& a, const WallAxes& b, double tolerance);
 
-// The width of the strip that two walls in the same plane (to `tolerance`) have in common; none if there is
-// none.
+// The width of the strip that two walls in the same plane (to `tolerance`) have in common; none if they have
+// no strip in common.
 std::optional<double> coplanar_overlap(const WallAxes& a, const WallAxes& b, double tolerance);
 
-// The largest distance along the pair of nearly parallel edges that are nearest to each other; none if no
-// such pair runs side by side.
+// The gap between the nearest pair of nearly parallel edges, measured where the pair is farthest apart; none
+// if no such pair runs side by side.
 std::optional<double> seam_gap(const WallAxes& a, const WallAxes& b);
 
 }  // namespace bolt::content

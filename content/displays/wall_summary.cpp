@@ -80,7 +80,7 @@ std::string describe_seams(const DisplayFile& displays) {
         for (std::size_t j = i + 1; j < displays.walls.size(); ++j) {
             const WallAxes a = axes_of(displays.walls[i]), b = axes_of(displays.walls[j]);
             const auto gap = seam_gap(a, b);
-            if (!gap || *gap > seam_width) continue;
+            if (!gap || *gap > max_seam_gap) continue;
             const double between = pi - std::acos(std::clamp(glm::dot(a.normal, b.normal), -1.0, 1.0));
             text += fmt::format("{} and {} meet at {:.1f} degrees, gap {:.1f} mm\n", displays.walls[i].name,
                                 displays.walls[j].name, to_degrees(between), *gap / mm);

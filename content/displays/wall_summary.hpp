@@ -8,7 +8,7 @@
 
 namespace bolt::content {
 
-// Where a wall is and what its picture is made of.
+// Size, direction and distance of a wall, and the resolution of its picture.
 struct WallSummary {
     double width = 0.0, height = 0.0;              // m
     double turn = 0.0;                             // rad about the vertical: 0 faces +z, pi/2 faces +x

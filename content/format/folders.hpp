@@ -16,7 +16,7 @@ namespace bolt::content {
 std::filesystem::path content_folder();
 
 // The folders whose subfolders are assemblies: assemblies/ in user_data_folder(), then in content_folder().
-// An assembly in the first hides one of the same name in the second. They may not exist.
+// An assembly in the first hides one of the same name in the second. The folders need not exist.
 std::vector<std::filesystem::path> assembly_folders();
 
 // The names of all assemblies in these folders, sorted. An assembly is a folder with an assembly.json.

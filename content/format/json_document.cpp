@@ -110,7 +110,7 @@ struct JsonDocument::Content {
 };
 
 // SAX handler that builds the values and their positions. nlohmann's parser does not report where a token
-// starts; this is the first byte after the previous token that is not white space, comma or colon.
+// starts. A token starts at the first byte after the previous one that is not white space, comma or colon.
 class JsonBuilder {
   public:
     JsonBuilder(std::string_view text, JsonDocument& document, std::vector<Error>& errors)

@@ -68,7 +68,7 @@ struct MemberReader {
     }
 };
 
-// How a small file begins.
+// The beginning of a small file.
 struct FileHead {
     const char* name;                  // for messages: "station file"
     const char* format;                // the value of its member "format"

@@ -70,7 +70,7 @@ std::string suggest_joint(std::string_view id, const std::vector<std::string>& m
 }
 
 // Reads an order, which must contain every joint once. An unknown name probably stands for a missing joint
-// (one mistake is reported), or for a joint without a valid id (none is).
+// (only the name is then reported), or for a joint without a valid id (the name is then not reported).
 std::vector<std::size_t> read_order(JsonReader& reader, const JsonNode& node, const JointIds& ids) {
     std::vector<std::size_t> order;
     std::vector<JsonNode> unknown;

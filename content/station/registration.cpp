@@ -13,7 +13,7 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t max_registrations = 64;
 
-// The number of two digits, or of four, at this position; −1 if they are no digits.
+// The number that `count` digits at this position make; −1 if a character is no digit.
 int digits_at(std::string_view text, std::size_t at, std::size_t count) {
     int value = 0;
     for (const char c : text.substr(at, count)) {

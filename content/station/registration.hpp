@@ -1,4 +1,4 @@
-// Registrations of a station: where one frame is in another, such as the arm in the room, and how well that
+// Registrations of a station: the pose of one frame in another, such as the arm in the room, and how well it
 // was measured. The head in front of projection walls does not use them: its tracker has a registration of
 // its own in the display file (content/displays/display_file.hpp). A station file has them in its list
 // "registrations":
@@ -47,7 +47,7 @@ struct Registration {
     double rms = 0.0;  // m, of their residuals
     // m, largest distance between a point and where the other points predict it; none with three points.
     std::optional<double> largest_left_out;
-    // A point that was not among them, as measured in both frames. A touch of it checks the registration.
+    // A point that the fit did not use, as measured in both frames. Touching it checks the registration.
     std::optional<PointPair> check_point;
     // m, of an arm that touched the points: its tip in the frame of its handle.
     Vec3 tip{0.0};

@@ -41,8 +41,8 @@ struct StationMover {
     std::string device;  // id, as boltwright devices lists it
     Mounting mounting;
     std::optional<double> scale;  // m of the tool per m of the handle; none: fitted to the reach
-    // Power at the device / power at the tool (force::WorkspaceMap); none: 1/scale, with which a force on the
-    // tool is as large on the hand. The file calls it "power".
+    // Power at the device / power at the tool (force::WorkspaceMap); none: 1/scale, with which a force has
+    // the same magnitude on the tool and on the hand. The file calls it "power".
     std::optional<double> power_ratio;
     std::optional<station::Buttons> buttons;  // none: the defaults
     force::LimitBounds limits;
@@ -68,14 +68,14 @@ struct StationFile {
     bool operator==(const StationFile&) const = default;
 };
 
-// N/m, least value of the bound on stiffness: a softer spring could not hold the tool.
+// N/m, smallest stiffness in the file's "limits": a softer spring could not hold the tool.
 inline constexpr double min_stiffness = 50.0;
 
 // Errors name `file`, line and column.
 Result<StationFile> parse_station(std::string_view text, const std::string& file);
 Result<StationFile> load_station(const std::filesystem::path& path);
 
-// The text of a file, one member a line, in the order of the structs. It is read back to an equal value.
+// The text of a file, one member a line, in the order of the structs. parse_station() returns an equal value.
 std::string station_json(const StationFile& station);
 
 // Fails, and leaves the file unchanged, if the values are outside the bounds of parse_station().

@@ -104,10 +104,11 @@ void read_keys(MemberReader& members, const json& root, TraineeSettings& to,
 
 Result<TraineeSettings> parse_settings(std::string_view text, const std::string& file,
                                        const SettingsVocabulary& known) {
-    const FileHead head{"settings file",
-                        settings_format,
-                        {"trainee", "language", "volume", "vibration", "captions", "palette", "left_handed",
-                         "force_scale", "force_arrow", "surroundings", "seated_height_m", "law", "keys"}};
+    const FileHead head{
+        "settings file",
+        settings_format,
+        {"trainee", "language", "volume", "vibration", "captions", "palette", "left_handed", "force_scale",
+         "force_arrow", "surroundings", "vignette", "seated_height_m", "law", "keys"}};
     return parse_small_file(text, file, head, [&known](MemberReader& members, const json& root) {
         TraineeSettings read;
         read.trainee = members.text(root, "", "trainee", max_trainee_name_size);
@@ -120,6 +121,7 @@ Result<TraineeSettings> parse_settings(std::string_view text, const std::string&
         read.force_scale = members.number(root, "", "force_scale", min_force_scale, 1.0);
         if (root.contains("force_arrow")) read.force_arrow = members.flag(root, "", "force_arrow");
         if (root.contains("surroundings")) read.surroundings = members.flag(root, "", "surroundings");
+        if (root.contains("vignette")) read.vignette = members.flag(root, "", "vignette");
         read_seat(members, root, read);
         read_law(members, root, read);
         read_keys(members, root, read, known);
@@ -140,6 +142,7 @@ std::string settings_text(const TraineeSettings& settings) {
     root["force_scale"] = settings.force_scale;
     if (!settings.force_arrow) root["force_arrow"] = false;
     if (settings.surroundings) root["surroundings"] = true;
+    if (!settings.vignette) root["vignette"] = false;
     root["seated_height_m"] = settings.seated_eye_height ? nlohmann::ordered_json(*settings.seated_eye_height)
                                                          : nlohmann::ordered_json(nullptr);
     if (!settings.law.empty()) root["law"] = settings.law;

@@ -23,11 +23,12 @@ inline constexpr std::size_t max_trainee_name_size = 64;         // bytes; the n
 //
 //   {"format": "boltwright settings 1", "trainee": "Ada", "language": "de", "volume": 0.8, "vibration": 0.5,
 //    "captions": true, "palette": "distinct", "left_handed": false, "force_scale": 0.5,
-//    "seated_height_m": 1.2, "force_arrow": false, "surroundings": true, "law": "published",
+//    "seated_height_m": 1.2, "force_arrow": false, "surroundings": true, "vignette": false,
+//    "law": "published",
 //    "keys": {"tool": "T", "hint": "F1"}}
 //
-// "law" is omitted until the trainee has chosen one, "force_arrow" while it is true, "surroundings" while it
-// is false, and "vibration" while it is 1.
+// "law" is omitted until the trainee has chosen one, "force_arrow" and "vignette" while they are true,
+// "surroundings" while it is false, and "vibration" while it is 1.
 
 // `distinct`: colours that people with red-green colour blindness can distinguish.
 enum class PaletteKind : std::uint8_t { usual, distinct };
@@ -47,6 +48,7 @@ struct TraineeSettings {
     double force_scale = 1.0;   // min_force_scale … 1, share of the force that device and assembly permit
     bool force_arrow = true;    // an arrow shows the force on a hand that the mouse moves freely
     bool surroundings = false;  // headsets with passthrough show the real room in place of the workshop
+    bool vignette = true;       // a headset darkens the edge of the view while the scene moves
     std::optional<double> seated_eye_height;  // m, of the eyes above the floor; none: the trainee stands
     std::string law;                          // "mechanistic", "published"; empty: the assembly's own
     std::map<std::string, std::string> keys;  // by action; other actions have their default keys

@@ -208,6 +208,7 @@ inline constexpr KeyRow key_rows[] = {
     {"menu.force_scale", ""},
     {"menu.force_arrow", ""},
     {"menu.surroundings", ""},
+    {"menu.vignette", ""},
     {"menu.seated", ""},
     {"menu.sound", ""},
     {"menu.vibration", ""},

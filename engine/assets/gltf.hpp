@@ -14,8 +14,8 @@ namespace bolt::assets {
 // Reads a .glb or .gltf file with its buffers and its images, which stay encoded (image.hpp decodes them).
 Result<Model> read_gltf(const std::filesystem::path& path);
 
-// The same for the bytes of a file in memory. `path` is named in errors, and other files of the model are
-// searched for in its folder.
+// The same for the bytes of a file in memory. Errors name `path`, and other files of the model are searched
+// for in the folder of `path`.
 Result<Model> parse_gltf(std::string bytes, const std::filesystem::path& path);
 
 struct WriteOptions {

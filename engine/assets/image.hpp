@@ -22,8 +22,8 @@ Status decode(Bitmap& image);
 // channels.
 Result<std::string> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
-// Environment light as an equirectangular image of radiance: the middle column is -Z, the right half +X, the
-// top row +Y.
+// Environment light as an equirectangular image of radiance by direction: -Z is in the middle, +X in the
+// middle of the right half, +Y in the top row.
 struct RadianceImage {
     int width = 0, height = 0;
     std::vector<glm::vec3> pixels;  // rows from the top

@@ -187,7 +187,8 @@ glm::mat4 local_transform(const glm::vec3& translation, const glm::quat& rotatio
 // default scene does not contain are included.
 std::vector<glm::mat4> world_transforms(const Model& model);
 
-// The same for other transforms of the nodes relative to their parents, `local`, in the order of model.nodes.
+// The same for another pose. `local`: the transform of each node relative to its parent, in the order of
+// model.nodes.
 std::vector<glm::mat4> world_transforms(const Model& model, std::span<const glm::mat4> local);
 
 }  // namespace bolt::assets

@@ -46,7 +46,7 @@ class Feeder {
     PlaybackStatus status_;
     double next_attempt_ = 0.0, pause_ = first_pause;  // s
     double volume_ = -1.0;                             // the sink's volume; -1: not set yet
-    bool attempted_ = false;                           // to open a sink, at least once
+    bool attempted_ = false;                           // true after the first attempt to open a sink
 };
 
 // A Feeder on its own thread. The thread requests samples whenever the device can queue them, so that slow

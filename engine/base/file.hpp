@@ -14,7 +14,7 @@
 
 namespace bolt {
 
-// Reads a whole file. Fails if it is missing, a folder, or larger than `limit` bytes. `code`: of the error.
+// Reads a whole file. Fails if it is missing, a folder, or larger than `limit` bytes, with the error `code`.
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit, ErrorCode code);
 
 // Writes to a temporary file beside the target and renames it, so that a full disk never leaves a truncated

@@ -1,5 +1,5 @@
-// Runs other programs: until they exit, with captured output, with a stream of bytes on their standard input,
-// or with packets that both sides exchange.
+// Runs other programs in three ways: until they exit, with captured output; with a stream of bytes to their
+// standard input; with an exchange of packets.
 #pragma once
 
 #include <cstddef>
@@ -48,7 +48,7 @@ class ChildStdin {
 
 struct ProgramEnd {
     int exit_code = 0;
-    int signal = 0;       // that ended it; 0: it exited
+    int signal = 0;       // the signal that ended the program; 0: it exited
     bool killed = false;  // by us, because it did not exit in time
 };
 
@@ -62,15 +62,15 @@ class ChildSocket {
     ChildSocket& operator=(ChildSocket&& other) noexcept;
     ~ChildSocket();  // kills the program unless end() was called
 
-    // Never waits. Fails if the program has ended or reads nothing.
+    // Never waits. Fails if the program has ended, or if its queue is full because it does not read.
     Status send(std::span<const std::byte> packet);
 
     // Waits at most `timeout` s for a packet and returns its length, which is greater than that of `packet`
     // if it did not fit; nullopt on timeout. Fails if the program has ended.
     Result<std::optional<std::size_t>> receive(std::span<std::byte> packet, double timeout);
 
-    // Ends the packets to the program, waits at most `patience` s for it to exit, and then kills it. Returns
-    // the same when called again.
+    // Closes the program's input, waits at most `patience` s for it to exit, and then kills it. Later calls
+    // return the same result.
     ProgramEnd end(double patience);
 
   private:

@@ -39,7 +39,7 @@ struct Error {
     std::shared_ptr<const ErrorDetail> detail{};  // null: none
 
     // Returns "<file>:<line>:<column>: <pointer>: <what>; expected <expected>" without the unknown parts. The
-    // word "expected" is left out if the field already begins with "expected" or "did you mean".
+    // word "expected" is left out if the member already begins with "expected" or "did you mean".
     [[nodiscard]] std::string message() const;
 };
 

@@ -70,7 +70,7 @@ EigenSystem<N> eigen_system(Matrix<N> m) {
 
 // Spread of the points along their principal axes, as ratios of the largest.
 struct Spread {
-    double width = 0.0, thickness = 0.0;
+    double width = 0.0, thickness_ratio = 0.0;
 };
 
 // `points` are relative to their centroid.
@@ -150,13 +150,13 @@ CentredPairs centred(std::span<const PointPair> pairs) {
 
 // With the singular values s1 ≥ s2 ≥ s3 of the cross-covariance, and the sign d of its determinant, the best
 // rotation has the trace s1 + s2 + d·s3, the largest eigenvalue of Horn's matrix, and the best reflection has
-// s1 + s2 − d·s3, the negative of its least. A set counts as mirrored if the reflection leaves less than a
-// quarter of the squared residuals.
-bool is_mirrored(const CentredPairs& sets, const EigenSystem<4>& horn, double thickness) {
+// s1 + s2 − d·s3, the negative of the least one. A set counts as mirrored if the reflection leaves less than
+// a quarter of the squared residuals.
+bool is_mirrored(const CentredPairs& sets, const EigenSystem<4>& horn, double thickness_ratio) {
     constexpr double min_thickness = 0.01;  // in a plane a reflection is a rotation too
     const double squares = sets.from_square + sets.to_square;
     const double rotated = squares - 2.0 * horn.values[0], reflected = squares + 2.0 * horn.values[3];
-    return thickness > min_thickness && rotated > 4.0 * std::max(reflected, 1e-12 * squares);
+    return thickness_ratio > min_thickness && rotated > 4.0 * std::max(reflected, 1e-12 * squares);
 }
 
 }  // namespace
@@ -172,9 +172,9 @@ Result<RigidAlignment> align_points(std::span<const PointPair> pairs, const Alig
                         std::min(from.width, to.width)),
             fmt::format("points whose width is at least {:g} of their length", limits.min_width));
     RigidAlignment result;
-    result.thickness = std::min(from.thickness, to.thickness);
+    result.thickness_ratio = std::min(from.thickness_ratio, to.thickness_ratio);
     const EigenSystem<4> horn = eigen_system(horn_matrix(sets.pairs));
-    if (is_mirrored(sets, horn, result.thickness))
+    if (is_mirrored(sets, horn, result.thickness_ratio))
         return alignment_error(AlignmentFault::mirrored, "one set of points is the mirror image of the other",
                                "right-handed axes in both frames, and the points in the same order");
     result.scale = horn.values[0] / sets.from_square;
@@ -210,9 +210,9 @@ std::vector<std::optional<double>> left_out_residuals(std::span<const PointPair>
     return residuals;
 }
 
-// With the means R̄ and p̄ over the poses, c = R̄ t + p̄ minimises the sum for a given t. What is left has the
-// normal equations (1 − R̄ᵀ R̄) t = R̄ᵀ p̄ − mean(Rᵀ p). The eigenvalues of their matrix are the variances of R e
-// for unit vectors e.
+// With the means R̄ and p̄ over the poses, c = R̄ t + p̄ minimises the sum for a given t. The normal
+// equations for t are (1 − R̄ᵀ R̄) t = R̄ᵀ p̄ − mean(Rᵀ p). The eigenvalues of their matrix are the variances of
+// R e for unit vectors e.
 Result<PivotFit> fit_pivot(std::span<const Pose> poses) {
     const auto n = static_cast<double>(poses.size());
     glm::dmat3 turn(0.0);
@@ -231,8 +231,8 @@ Result<PivotFit> fit_pivot(std::span<const Pose> poses) {
             matrix[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = variance[j][i];
     const EigenSystem<3> axes = eigen_system(matrix);
     PivotFit fit;
-    fit.turning = poses.empty() ? 0.0 : std::sqrt(std::max(axes.values[2], 0.0));
-    if (!(fit.turning >= min_turning))
+    fit.orientation_spread = poses.empty() ? 0.0 : std::sqrt(std::max(axes.values[2], 0.0));
+    if (!(fit.orientation_spread >= min_orientation_spread))
         return fail(ErrorCode::failed, "the tool was turned too little, or about one axis only",
                     "turns by 20 degrees or more to each side, about two axes");
     const Vec3 right = back * position - seen;

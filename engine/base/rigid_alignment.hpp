@@ -26,7 +26,7 @@ enum class AlignmentFault : std::uint8_t {
     scaled,      // distances differ between the frames: wrong unit, or bad tracking
 };
 
-// The detail of each error of align_points(). Its code is ErrorCode::failed.
+// The detail of each error of align_points(). The code of the error is ErrorCode::failed.
 struct AlignmentFaultDetail final : ErrorDetail {
     explicit AlignmentFaultDetail(AlignmentFault kind) : fault(kind) {}
     AlignmentFault fault;
@@ -47,23 +47,24 @@ struct RigidAlignment {
     Pose pose;                      // takes `from` to `to`; w of its unit quaternion is not negative
     double rms = 0.0;               // m, of the residuals
     std::vector<double> residuals;  // m, one a point: distance from pose · from to `to`
-    // The similarity that fits best has this scale. No scale is applied to the pose.
+    // Scale of the best-fit similarity transform. The pose is rigid: it does not include this scale.
     double scale = 1.0;
-    // Ratio of the least to the largest spread of the points, the smaller of both frames; 0: in a plane. In a
-    // plane a mirrored set cannot be detected.
-    double thickness = 0.0;
+    // Ratio of the least to the largest spread of the points, in the frame where this ratio is smaller; 0:
+    // the points lie in a plane, where a mirrored set cannot be detected.
+    double thickness_ratio = 0.0;
 };
 
 // The rigid pose with the least sum of squared residuals, in closed form: the quaternion is the eigenvector
 // of the largest eigenvalue of a symmetric matrix (B. K. P. Horn, J. Opt. Soc. Am. A 4 (1987) 629). The scale
 // is that of S. Umeyama (IEEE Trans. PAMI 13 (1991) 376, eq. 42). Noise of standard deviation s on each axis
-// of one set changes it by about s / (√n · spread): 2 mm on eight corners of a box of 0.25 m by 0.35 %. Noise
-// in `from` also lowers it by a factor of 1 + 3 s²/spread². Fails with an AlignmentFaultDetail.
+// of one set changes the scale by about s / (√n · spread): 2 mm on eight corners of a box of 0.25 m by
+// 0.35 %. Noise in `from` also lowers the scale by a factor of 1 + 3 s²/spread². Fails with an
+// AlignmentFaultDetail.
 Result<RigidAlignment> align_points(std::span<const PointPair> pairs, const AlignmentLimits& limits = {});
 
-// For each point the distance, m, between its measured position in `to` and that which the alignment of the
-// other points predicts; none if the others cannot be aligned. The rms of the residuals is s·√3·√(1 − 2/n)
-// for noise s, and says little of the error of the pose; these distances include it.
+// Returns for each point the distance, m, between its measured position in `to` and the position that an
+// alignment of the other points predicts; none if the others cannot be aligned. RigidAlignment::rms is
+// s·√3·√(1 − 2/n) for noise s and is a poor measure of the pose's error; these distances include that error.
 std::vector<std::optional<double>> left_out_residuals(std::span<const PointPair> pairs);
 
 // A tool that was turned about its tip while the tip stayed on one point.
@@ -71,21 +72,21 @@ struct PivotFit {
     Vec3 tip{0.0};     // m, in the frame of the tool
     Vec3 pivot{0.0};   // m, the point, in the frame of the poses
     double rms = 0.0;  // m, of the distances between the tip and the point
-    // By how much the poses differ: the least standard deviation, over all directions of the tool, of a unit
-    // vector that is fixed to it. Noise of standard deviation s on each axis of n poses gives an error of the
-    // tip below s / (√n · turning) on each axis. 0: all turns have one axis, and the tip may be anywhere
-    // along it.
-    double turning = 0.0;
+    // Measure of how much the orientations differ: the least standard deviation over the poses that a unit
+    // vector fixed to the tool can have. Noise of standard deviation s on each axis of n poses gives an error
+    // of the tip below s / (√n · orientation_spread) on each axis. 0: all turns have one axis, and the tip
+    // may be anywhere along it.
+    double orientation_spread = 0.0;
 };
-// That of turns which are spread evenly from −15° to 15° about each of two axes.
-inline constexpr double min_turning = 0.15;
+// PivotFit::orientation_spread of turns that are spread evenly from −15° to 15° about each of two axes.
+inline constexpr double min_orientation_spread = 0.15;
 
 // The tip t and the point c with the least sum of |R t + p − c|² over the poses (R, p), in closed form:
 // linear least squares, "algebraic one step" of Z. Yaniv (Proc. SPIE 9415 (2015) 941527). Fails if a pose is
-// not finite, or `turning` is below min_turning.
+// not finite, or `orientation_spread` is below min_orientation_spread.
 Result<PivotFit> fit_pivot(std::span<const Pose> poses);
 
-// Returns the largest; none if one of them is none, or without any.
+// Returns the largest residual; none if one of the residuals is none, or if there are no residuals.
 std::optional<double> largest(std::span<const std::optional<double>> residuals);
 
 }  // namespace bolt

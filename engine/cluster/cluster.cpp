@@ -29,7 +29,7 @@ bool started_by_mpirun() {
     return false;
 }
 
-// Beside the program, or where it is installed; empty: there is none.
+// Returns the path of the MPI module, beside the program or where it is installed; empty: there is none.
 std::filesystem::path find_module() {
     std::error_code ignored;
     const std::filesystem::path folder =
@@ -43,16 +43,16 @@ Result<std::unique_ptr<Transport>> join_transport() {
     const std::filesystem::path module = find_module();
     if (module.empty())
         return fail(ErrorCode::usage, "mpirun started a program that was built without MPI",
-                    "one that was built where an MPI library is installed (libopenmpi-dev)");
-    // It stays loaded to the end of the program. RTLD_GLOBAL: Open MPI loads parts of itself that use its
-    // symbols.
+                    "a program built with MPI (libopenmpi-dev)");
+    // The module stays loaded until the program ends. RTLD_GLOBAL: Open MPI loads plug-ins that use the
+    // symbols of its library.
     void* const loaded = dlopen(module.c_str(), RTLD_NOW | RTLD_GLOBAL);
     void* const symbol = loaded != nullptr ? dlsym(loaded, join_function_name) : nullptr;
     if (symbol == nullptr) {
         const char* const reason = dlerror();  // NOLINT(concurrency-mt-unsafe): before any thread
         return fail(ErrorCode::failed,
                     fmt::format("{}: {}", module.string(), reason != nullptr ? reason : "?"),
-                    "the MPI library that it was built with");
+                    "the MPI library that the module was built with");
     }
     JoinFunction join = nullptr;
     static_assert(sizeof(join) == sizeof(symbol));

@@ -14,8 +14,8 @@ namespace bolt::cluster {
 
 class Cluster {
   public:
-    // Null: the program was not started by mpirun, or it is the only process. Fails in a build without MPI
-    // that mpirun started. At most one Cluster may exist in the life of a process.
+    // Null: the program was not started by mpirun, or it is the only process. Fails if mpirun started a build
+    // without MPI. At most one Cluster may exist in the life of a process.
     static Result<std::unique_ptr<Cluster>> join();
 
     Cluster(const Cluster&) = delete;

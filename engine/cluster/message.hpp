@@ -47,8 +47,8 @@ class MessageWriter {
     Message bytes_;
 };
 
-// Reads what a MessageWriter wrote, in the same order. After a value that is not there, ok() is false, and
-// all further values are zero or empty.
+// Reads what a MessageWriter wrote, in the same order. After a read past the end of the message, ok() is
+// false, and this and all further values are zero or empty.
 class MessageReader {
   public:
     explicit MessageReader(std::span<const std::byte> message) : rest_(message) {}
@@ -92,7 +92,7 @@ class MessageReader {
 
     [[nodiscard]] bool ok() const { return ok_; }
     [[nodiscard]] std::size_t size() const { return rest_.size(); }  // bytes that are left
-    // As after a value that is not there. For readers of a value that is out of its range.
+    // Has the effect of a read past the end. Call it if a value is out of its range.
     void mark_damaged() {
         ok_ = false;
         rest_ = {};

@@ -54,7 +54,7 @@ class MpiTransport final : public Transport {
     }
 
     Status send(int to, std::span<const std::byte> message) override {
-        BOLT_TRY(tidy());
+        BOLT_TRY(release_sent());
         Sent& sent = sent_.emplace_back(Sent{Message(message.begin(), message.end()), MPI_REQUEST_NULL});
         return check_mpi(MPI_Isend(sent.message.data(), static_cast<int>(sent.message.size()), MPI_BYTE, to,
                                    message_tag, MPI_COMM_WORLD, &sent.request),
@@ -62,7 +62,7 @@ class MpiTransport final : public Transport {
     }
 
     Result<std::optional<Message>> try_receive(int from) override {
-        BOLT_TRY(tidy());
+        BOLT_TRY(release_sent());
         int found = 0, size = 0;
         MPI_Message handle = MPI_MESSAGE_NULL;
         MPI_Status status{};
@@ -89,8 +89,8 @@ class MpiTransport final : public Transport {
         Message message;
         MPI_Request request;
     };
-    // Removes messages that are on their way.
-    Status tidy() {
+    // Releases the oldest messages that MPI no longer reads.
+    Status release_sent() {
         while (!sent_.empty()) {
             int done = 0;
             BOLT_TRY(check_mpi(MPI_Test(&sent_.front().request, &done, MPI_STATUS_IGNORE),
@@ -103,7 +103,7 @@ class MpiTransport final : public Transport {
 
     int process_ = 0, size_ = 1;  // number of this process, and how many there are
     std::vector<std::string> hosts_;
-    std::deque<Sent> sent_;  // not yet on their way; a deque, because MPI holds their addresses
+    std::deque<Sent> sent_;  // messages that MPI may still read; a deque, because MPI holds their addresses
 };
 
 }  // namespace

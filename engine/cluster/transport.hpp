@@ -1,6 +1,6 @@
-// How messages travel between the processes of a cluster. The only transport is in a module,
-// boltwright_mpi.so, which a program loads when mpirun has started it: a program that runs alone need not
-// load an MPI library.
+// The interface for messages between the processes of a cluster. Its only implementation, through MPI, is
+// in a module, boltwright_mpi.so. A program loads the module only if mpirun started it, so a program
+// that runs alone needs no MPI library.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ class Transport {
     Transport& operator=(const Transport&) = delete;
     virtual ~Transport() = default;
 
-    // As the functions of Cluster with these names.
+    // Like the functions of Cluster with the same names.
     [[nodiscard]] virtual int process() const = 0;
     [[nodiscard]] virtual int size() const = 0;
     [[nodiscard]] virtual const std::string& host(int process) const = 0;

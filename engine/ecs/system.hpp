@@ -30,8 +30,8 @@ concept Provides = requires(World& world) {
 template <class... Components>
 class Access {
   public:
-    // Converts a registry, or an access to more components. A mutable component cannot be taken
-    // from a const one.
+    // Converts a registry, or an access to more components. A const registry or access gives no mutable
+    // components.
     template <class World>
     requires(!std::same_as<std::remove_cvref_t<World>, Access> &&
              (Provides<std::remove_reference_t<World>, Components> && ...)) Access(World&& world)

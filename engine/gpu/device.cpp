@@ -306,7 +306,7 @@ Result<DeviceSurvey> survey_devices(const Instance& instance, const DeviceOption
 
 namespace {
 
-// Fails if no device can be used, or not the one that the headset is connected to.
+// Fails if no device can be used, or if the headset's device cannot be used.
 Result<std::size_t> choose(const Instance& instance, const DeviceOptions& options, DeviceSurvey& survey) {
     if (options.creator != nullptr) {
         BOLT_TRY_ASSIGN(const auto required, options.creator->choose_gpu(instance.get()));

@@ -93,11 +93,11 @@ class Frames {
     // Waits until the GPU has completed the oldest frame in flight, and starts recording a new one.
     Result<FrameContext*> begin();
 
-    // Ends recording and submits the frame.
     struct Signals {
         std::span<const VkSemaphore> wait;    // transfers wait for them
         std::span<const VkSemaphore> signal;  // signalled when all commands are complete
     };
+    // Ends recording and submits the frame.
     Status submit(FrameContext& frame, const Signals& signals);
     Status submit(FrameContext& frame) { return submit(frame, Signals{}); }
 

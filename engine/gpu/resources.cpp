@@ -101,7 +101,7 @@ Result<ImageView> Image::view(VkImageViewType type, std::uint32_t first_mip, std
     return make_view(info, info_.usage & ~VkImageUsageFlags{VK_IMAGE_USAGE_STORAGE_BIT});
 }
 
-// `usage`: that of the view, because not every format allows all of the image's.
+// `usage`: the usage of the view. The format of a view may not allow all usages of the image.
 Result<ImageView> Image::make_view(VkImageViewCreateInfo info, VkImageUsageFlags usage) const {
     VkImageViewUsageCreateInfo usage_info{VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO};
     usage_info.usage = usage;

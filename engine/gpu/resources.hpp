@@ -47,8 +47,8 @@ struct ImageInfo {
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkImageUsageFlags usage = 0;
     bool array = false;  // viewed as an array even with one layer
-    // Format of storage_view(), of the same texel size as `format`, which may then be one that storage images
-    // cannot have (sRGB). Undefined: `format`. Used only with VK_IMAGE_USAGE_STORAGE_BIT.
+    // Format of storage_view(), with the texel size of `format`. Set it if `format` is not allowed for
+    // storage images (sRGB). Undefined: `format`. Used only with VK_IMAGE_USAGE_STORAGE_BIT.
     VkFormat storage_format = VK_FORMAT_UNDEFINED;
 
     [[nodiscard]] VkImageAspectFlags aspect() const;
@@ -101,7 +101,7 @@ struct SamplerInfo {
 };
 Result<Sampler> make_sampler(const Device& device, const SamplerInfo& info);
 
-// How a resource is used. A barrier moves a resource from one use to another; use_info() defines the pipeline
+// The uses of a resource. A barrier moves a resource from one use to another; use_info() defines the pipeline
 // stages, accesses and image layout of each use.
 enum class ResourceUse : std::uint8_t {
     undefined,      // newly created

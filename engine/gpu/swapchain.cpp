@@ -173,7 +173,7 @@ Result<bool> Swapchain::handle(VkResult result, std::string_view what) {
         case VK_SUCCESS:
             return true;
         case VK_SUBOPTIMAL_KHR:
-            if (!suboptimal_is_normal_) stale_ = suboptimal_ = true;
+            if (!ignore_suboptimal_) stale_ = suboptimal_ = true;
             return true;
         case VK_NOT_READY:
         case VK_TIMEOUT:
@@ -218,7 +218,7 @@ Result<bool> Swapchain::recreate(VkExtent2D window) {
         !queried || !*queried)
         return queried;
     BOLT_TRY_ASSIGN(auto plan, plan_swapchain(support, {window, frames_in_flight}));
-    suboptimal_is_normal_ = suboptimal_ && same(plan.extent, plan_.extent);
+    ignore_suboptimal_ = suboptimal_ && same(plan.extent, plan_.extent);
     plan_ = std::move(plan);
     window_ = window;
     if (empty(plan_.extent)) return true;
@@ -302,7 +302,7 @@ void copy_part(VkCommandBuffer commands, const ShownPicture& picture, const VkRe
                    same_size ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
 }
 
-// The part of `place` inside a picture of this size; a place may be older than the size of its window.
+// The part of `place` inside a window of this size. The place may date from before a resize of the window.
 VkRect2D clipped(const VkRect2D& place, VkExtent2D size) {
     const auto clip = [](std::int32_t from, std::uint32_t length, std::uint32_t limit) {
         const std::int64_t low = std::clamp<std::int64_t>(from, 0, limit),
@@ -384,7 +384,7 @@ Result<std::uint32_t> present(Frames& frames, FrameContext& frame, std::span<con
     const VkResult all = vkQueuePresentKHR(shown.front()->device_->queue(), &info);
     std::uint32_t presented = 0;
     for (std::size_t i = 0; i < shown.size(); ++i) {
-        // A failure that concerns no single window, such as a lost device, is reported by the call only.
+        // Only `all` reports a failure that concerns no single window, such as a lost device.
         const bool of_window = all == VK_SUBOPTIMAL_KHR || all == VK_ERROR_OUT_OF_DATE_KHR ||
                                all == VK_ERROR_SURFACE_LOST_KHR || all == VK_SUCCESS;
         const VkResult result = of_window && shown.size() > 1 ? results[i] : all;

@@ -55,11 +55,11 @@ struct ShownPicture {
 
 class Swapchain;
 
-// The pictures of one window in a frame. Where none is, the window is black.
+// The pictures of one window in a frame. The window is black where no picture covers it.
 struct WindowPictures {
     Swapchain* swapchain = nullptr;
     std::vector<ShownPicture> pictures;
-    // false: rather present nothing than wait for the window. True waits 0.2 s at most.
+    // false: if the window is not ready, present nothing; true: wait at most 0.2 s for it.
     bool waits = true;
 };
 
@@ -86,12 +86,12 @@ class Swapchain {
     // means that nothing can be presented now. `window`: the window's size in pixels. Call it between frames.
     Result<VkExtent2D> prepare(VkExtent2D window);
 
-    // Presents one picture that fills the window; see present() below.
+    // Presents one picture that fills the window; see gpu::present() above.
     Result<bool> present(Frames& frames, FrameContext& frame, const ShownPicture& picture, bool waits = true);
 
     // The choices for the current window, with reasons.
     [[nodiscard]] const SwapchainPlan& plan() const { return plan_; }
-    // How often the swapchain was created: at the start, for every new size, after a loss.
+    // Number of times that the swapchain was created: at the start, for every new size, after a loss.
     [[nodiscard]] std::uint32_t creations() const { return creations_; }
 
   private:
@@ -124,8 +124,8 @@ class Swapchain {
     std::uint32_t next_acquire_ = 0;
     VkExtent2D window_{};
     bool stale_ = true, lost_ = false;
-    bool suboptimal_ = false, suboptimal_is_normal_ = false;  // normal: recreating it did not help
-    std::uint32_t losses_ = 0;                                // of the surface, since the last presentation
+    bool suboptimal_ = false, ignore_suboptimal_ = false;  // normal: not due to a wrong size, so ignored
+    std::uint32_t losses_ = 0;                             // of the surface, since the last presentation
     std::uint32_t creations_ = 0;
 };
 

@@ -66,7 +66,7 @@ Key key_of(int glfw_key, const char* printed) {
     if (printed != nullptr && printed[0] != 0 && printed[1] == 0) {
         if (within(printed[0], 'a', 'z')) return after(Key::a, printed[0] - 'a');
         if (within(printed[0], 'A', 'Z')) return after(Key::a, printed[0] - 'A');
-        // A comma where others have M is not M, which is elsewhere on this keyboard.
+        // If another character is printed here, such as a comma on M's key, the layout's M is another key.
         if (within(glfw_key, GLFW_KEY_A, GLFW_KEY_Z) && within(printed[0], '!', '~')) return Key::unknown;
     }
     for (const NamedKey& entry : named_keys)

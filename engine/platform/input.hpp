@@ -89,10 +89,10 @@ using InputEvent = std::variant<KeyEvent, TextEvent, ButtonEvent, CursorEvent, W
 struct ControllerState {
     std::array<bool, controller_button_count> down{};
 };
-// `x`, `y`: left stick, -1 … 1, y towards the user. Sets the direction buttons beyond half its way; keeps a
-// direction down until the stick is back at a third, so that it does not chatter.
+// Sets the direction buttons from the left stick. `x`, `y`: its deflection, -1 … 1, y towards the user. A
+// button goes down at half the deflection and up again at a third, so that it does not chatter.
 void add_stick(ControllerState& now, const ControllerState& before, float x, float y);
-// An event for each button that differs.
+// Returns an event for each button whose state differs.
 std::vector<InputEvent> controller_events(const ControllerState& before, const ControllerState& now);
 
 // Maps a GLFW key code. `printed`: the layout's name of the key from glfwGetKeyName; may be null.

@@ -237,8 +237,8 @@ Window::~Window() = default;
 
 namespace {
 
-// A window that is enlarged by the monitor's scale may exceed what panels of the desktop leave of the
-// monitor.
+// Limits the window to the monitor's area without the panels of the desktop. GLFW's scaling by the monitor's
+// scale may make it larger.
 void fit_into_work_area(GLFWwindow* window) {
     GLFWmonitor* monitor = glfwGetPrimaryMonitor();
     if (monitor == nullptr) return;
@@ -275,7 +275,7 @@ Result<Window> Window::open(const Desktop& desktop, const WindowOptions& options
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, covers ? GLFW_FALSE : GLFW_TRUE);
-    // A window that covers an area is shown when it is there.
+    // A window that covers an area is shown only after it was moved there.
     glfwWindowHint(GLFW_VISIBLE, options.hidden || covers ? GLFW_FALSE : GLFW_TRUE);
     glfwWindowHint(GLFW_DECORATED, covers ? GLFW_FALSE : GLFW_TRUE);
     glfwWindowHint(GLFW_RESIZABLE, covers ? GLFW_FALSE : GLFW_TRUE);

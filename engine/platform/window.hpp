@@ -37,8 +37,8 @@ class Desktop {
     std::shared_ptr<bool> lost_;  // the display server has ended; Xlib's exit handler holds the address
 };
 
-// A rectangle of the desktop, which extends over all monitors, in desktop units: pixels, except where the
-// desktop scales windows itself.
+// A rectangle on the desktop; the desktop extends over all monitors. In desktop units: pixels, except where
+// the desktop scales windows itself.
 struct DesktopArea {
     int x = 0, y = 0;  // the upper left corner
     int width = 0, height = 0;
@@ -55,8 +55,8 @@ std::vector<Monitor> monitors(const Desktop& desktop);
 
 struct WindowOptions {
     std::string title = "Boltwright";
-    // At a scale of 1. On X11 the window gets as many pixels times content_scale(), but no more than the
-    // monitor's work area.
+    // Size at a content scale of 1. On X11 the window gets this many pixels times content_scale(), but no
+    // more than the monitor's work area.
     std::uint32_t width = 1280, height = 720;
     bool full_screen = false;
     bool hidden = false;  // to query the display without showing a window

@@ -14,8 +14,8 @@ namespace bolt {
 
 namespace {
 
-// The text with the characters replaced that man(7) would interpret: backslashes, hyphens, and a dot or
-// apostrophe at the beginning of a line.
+// Escapes the characters that man(7) would interpret: backslashes, hyphens, and a dot or apostrophe at the
+// beginning of a line.
 std::string in_roff(std::string_view text) {
     std::string written;
     for (const char c : text) {
@@ -85,7 +85,7 @@ std::string describe_option(const CLI::Option& option) {
     return text + "\n";
 }
 
-// Subcommands of subcommands follow theirs.
+// Appends the section of a command to the page, then those of its subcommands.
 void describe_command(const CLI::App& command, const std::string& path, std::string& page) {
     page += fmt::format(".SS {} {}\n", in_roff(path), in_roff(command.get_name()));
     page += in_roff(command.get_description()) + ".\n";

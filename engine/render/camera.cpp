@@ -86,16 +86,17 @@ glm::vec3 framing_eye(const BoundingBox& box, const glm::vec3& side, const Persp
     return middle + back * (1.04F * distance);
 }
 
-bool may_be_visible(const BoundingBox& box, const glm::mat4& clip_from_world) {
+bool may_be_visible(const BoundingBox& box, const glm::mat4& clip_from_world, float margin) {
+    const float edge = 1.0F + margin;
     glm::vec4 corners[8];
     for (int i = 0; i < 8; ++i) corners[i] = clip_from_world * glm::vec4(box.corner(i), 1.0F);
     const auto all = [&](auto outside) {
         return std::all_of(std::begin(corners), std::end(corners), outside);
     };
-    return !(all([](const glm::vec4& c) { return c.x < -c.w; }) ||
-             all([](const glm::vec4& c) { return c.x > c.w; }) ||
-             all([](const glm::vec4& c) { return c.y < -c.w; }) ||
-             all([](const glm::vec4& c) { return c.y > c.w; }) ||
+    return !(all([&](const glm::vec4& c) { return c.x < -edge * c.w; }) ||
+             all([&](const glm::vec4& c) { return c.x > edge * c.w; }) ||
+             all([&](const glm::vec4& c) { return c.y < -edge * c.w; }) ||
+             all([&](const glm::vec4& c) { return c.y > edge * c.w; }) ||
              all([](const glm::vec4& c) { return c.z > c.w; }) ||
              all([](const glm::vec4& c) { return c.z < 0.0F; }));
 }

@@ -23,7 +23,7 @@ Eye make_eye(const glm::vec3& eye, const glm::vec3& target, const Perspective& p
 // Returns the view of an eye of a headset, which looks along −Z of its pose with Y up.
 Eye make_eye(const Pose& pose, const FieldOfView& fov, float znear, float zfar);
 
-// Returns the same view with the world moved: `pose` is that of the new world in the world of the eye.
+// Returns the same view in another frame. `pose`: the pose of that frame in the frame of `eye`.
 Eye seen_from(const Eye& eye, const Pose& pose);
 
 // Returns the off-axis view from `eye` through a wall, screen or panel: the projection through a rectangle in
@@ -36,7 +36,8 @@ Eye make_wall_eye(const glm::vec3& eye, const glm::vec3& lower_left, const glm::
 glm::vec3 framing_eye(const BoundingBox& box, const glm::vec3& side, const Perspective& p);
 
 // Returns false if the box is certainly outside the view; may return true for an invisible box.
-bool may_be_visible(const BoundingBox& box, const glm::mat4& clip_from_world);
+// `margin`: how far beyond the edges of the picture counts as visible, in half widths and heights.
+bool may_be_visible(const BoundingBox& box, const glm::mat4& clip_from_world, float margin = 0.0F);
 
 // Returns the view of a directional light's shadow map: an orthographic view along `direction` that contains
 // the box. Its depth is not reversed: 0 nearest the light, 1 farthest.

@@ -85,9 +85,9 @@ bool may_hide_focus(const BoundingBox& box, const CutAway& cut, std::span<const 
     });
 }
 
-bool may_be_visible(const BoundingBox& box, std::span<const Eye> eyes) {
+bool may_be_visible(const BoundingBox& box, std::span<const Eye> eyes, float margin) {
     return eyes.empty() || std::any_of(eyes.begin(), eyes.end(), [&](const Eye& eye) {
-               return may_be_visible(box, eye.clip_from_world);
+               return may_be_visible(box, eye.clip_from_world, margin);
            });
 }
 
@@ -168,7 +168,7 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
         for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
             const MeshPart& part = object.model->parts[i];
             const BoundingBox box = bounds(object, part);
-            if (!may_be_visible(box, eyes)) continue;
+            if (!may_be_visible(box, eyes, detail.margin)) continue;
             PipelineKind kind = kind_of(object, part);
             const float distance =
                 eyes.empty() ? 0.0F : drawing_distance(box, eyes.front().position, kind.blends);

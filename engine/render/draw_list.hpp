@@ -58,6 +58,7 @@ struct DetailLimits {
     float height_px = 0.0F;   // height of the picture
     float allowed_px = 0.0F;  // largest error on the screen, for the nearest eye
     float allowed_m = 0.0F;   // largest error in the scene, used if there are no eyes (shadow map)
+    float margin = 0.0F;      // RendererOptions::margin
 };
 
 // Objects fade inside a cone from the eye to the cut-away's focus. Returns the box of the sphere at the

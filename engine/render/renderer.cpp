@@ -14,14 +14,14 @@ namespace bolt::render {
 
 namespace {
 
+shared::View view_of(const Eye& eye) {
+    return {eye.clip_from_world, glm::inverse(eye.clip_from_world), glm::vec4(eye.position, 1.0F)};
+}
+
 shared::FrameData make_frame_data(const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
                                   const EnvironmentLight& environment, float level_error_px) {
     shared::FrameData f{};
-    for (std::size_t i = 0; i < eyes.size(); ++i) {
-        f.views[i].clip_from_world = eyes[i].clip_from_world;
-        f.views[i].world_from_clip = glm::inverse(eyes[i].clip_from_world);
-        f.views[i].eye = glm::vec4(eyes[i].position, 1.0F);
-    }
+    for (std::size_t i = 0; i < eyes.size(); ++i) f.views[i] = view_of(eyes[i]);
     const std::size_t lights = std::min<std::size_t>(scene.lights.size(), MAX_LIGHTS);
     for (std::size_t i = 0; i < lights; ++i) f.lights[i] = scene.lights[i].light;
     for (std::size_t i = 0; i < environment.diffuse.size(); ++i)
@@ -99,7 +99,7 @@ Result<bool> Renderer::draws_views_together() {
     if (!multiview_works_) {
         const Result<bool> works = multiview_works(*device_, cache_);
         if (!works && works.error().lost) return fail(works.error());
-        multiview_works_ = works && *works;  // one pass for each view needs less of the driver
+        multiview_works_ = works && *works;  // after an error: single views, which need less of the driver
     }
     return *multiview_works_;
 }
@@ -137,17 +137,21 @@ Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<
     const EnvironmentLight& environment = scene.environment != nullptr ? *scene.environment : no_environment_;
     shared::FrameData shared = make_frame_data(scene, eyes, extent, environment, options_.level_error_px);
     PassContext context{
-        *device_, frame, scene,  environment,        shared,          {},  group.views_per_batch, extent,
-        {},       {},    white_, white_array_.get(), deform_.parts(), eyes};
-    const auto upload_frame_data = [&] {
-        return assign(context.frame_block, upload_transient<shared::FrameData>(frame, {&shared, 1}));
+        *device_, frame, scene,  environment,        shared,          {},   group.views_per_batch, extent,
+        {},       {},    white_, white_array_.get(), deform_.parts(), eyes, options_.margin};
+    group.frame_blocks.clear();
+    const auto upload_frame_data = [&]() -> Status {
+        BOLT_TRY(assign(context.frame_block, upload_transient<shared::FrameData>(frame, {&shared, 1})));
+        group.frame_blocks.push_back(context.frame_block);
+        return {};
     };
     BOLT_TRY(upload_frame_data());
 
     const PassSetup setup{*device_, cache_, shaders_, options_.screen_stage};
     BOLT_TRY(deform_.draw(context));
     const DrawList list = make_draw_list(
-        scene, eyes, {static_cast<float>(extent.height), options_.level_error_px, 0.0F}, deform_.parts());
+        scene, eyes, {static_cast<float>(extent.height), options_.level_error_px, 0.0F, options_.margin},
+        deform_.parts());
     if (list.materials.size() > max_materials)
         return fail(ErrorCode::failed,
                     fmt::format("the scene's models have {} materials", list.materials.size()),
@@ -162,8 +166,7 @@ Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<
         RenderTargets& targets = group.targets[batch];
         context.eyes = eyes.subspan(batch * group.views_per_batch, group.views_per_batch);
         if (batch > 0) {  // a separate view
-            shared.views[0] = {eyes[batch].clip_from_world, glm::inverse(eyes[batch].clip_from_world),
-                               glm::vec4(eyes[batch].position, 1.0F)};
+            shared.views[0] = view_of(eyes[batch]);
             BOLT_TRY(upload_frame_data());
         }
         BOLT_TRY(surfaces_.draw(context, targets, list));
@@ -189,6 +192,17 @@ Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<
     statistics_ = {list.triangles, static_cast<std::uint32_t>(list.draws.size()),
                    static_cast<std::uint32_t>(list.instances.size()), shadow_.static_map_redrawn()};
     return {};
+}
+
+void Renderer::move_eyes(std::span<const Eye> eyes, std::uint32_t group_number) {
+    const ViewGroup& group = groups_.at(group_number);
+    for (std::size_t i = 0; i < std::min<std::size_t>(eyes.size(), group.views); ++i) {
+        const std::size_t batch = i / group.views_per_batch, view = i % group.views_per_batch;
+        const shared::View moved = view_of(eyes[i]);
+        std::memcpy(group.frame_blocks[batch].bytes.data() + offsetof(shared::FrameData, views) +
+                        view * sizeof(moved),
+                    &moved, sizeof(moved));
+    }
 }
 
 Status Renderer::draw_over(gpu::FrameContext& frame, const Overlay& overlay, const ImageLayer& picture) {

@@ -17,7 +17,7 @@
 // shades: with forward lighting the same picture of the reducer took nearly three times as long on lavapipe.
 //
 // Each pass is a class in passes/ with its pipelines. Views that are drawn together, one layer each, are a
-// batch: with multiview all views of a size. Where the driver draws this wrong (multiview_works), each view
+// batch: with multiview all views of a size. If the driver's multiview is wrong (multiview_works), each view
 // is a batch with images of its own. Separate images are needed because lavapipe of Mesa 22.3 always resolves
 // into layer 0, even if the image view begins with another layer.
 #pragma once
@@ -46,6 +46,9 @@ struct RendererOptions {
     // The error allowed for coarser levels of detail, in pixels of the picture; 0: always draw all triangles.
     float level_error_px = 0.0F;
     bool keep_depth = false;  // required by depth()
+    // Width of what is drawn beyond each edge of the picture, in half widths and heights, so that no part is
+    // missing after move_eyes().
+    float margin = 0.0F;
 };
 
 // Counts of the last frame.
@@ -64,6 +67,11 @@ class Renderer {
     // another group, which has its own pictures; `group` is any number that identifies it.
     Status render(gpu::FrameContext& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
                   std::uint32_t group = 0);
+
+    // Replaces the eyes of a group between render() and the submission of the frame: the GPU draws its
+    // pictures from the new ones. Culling and levels of detail stay those of the old ones, so the eyes may
+    // move by the margin at most. `eyes`: as many as render() got.
+    void move_eyes(std::span<const Eye> eyes, std::uint32_t group = 0);
 
     // Draws an overlay over a picture that was rendered in this frame. The overlay may contain pictures of
     // other groups.

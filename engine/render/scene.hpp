@@ -118,8 +118,9 @@ struct Eye {
     glm::vec3 position{0.0F};
     glm::mat4 clip_from_world{1.0F};
     // The area of the picture that lenses hide from the user: three corners of each triangle, −1 … 1 from the
-    // left to the right edge, and from the upper to the lower one. Null: there is none. Its pixels are black,
-    // except where an outline or a label that shows through parts is drawn, and their kept depth is 0.
+    // left to the right edge, and from the upper to the lower one. Null: there is no such area. Pixels in the
+    // area are black, except where an outline or a label that shows through parts is drawn, and their kept
+    // depth is 0.
     std::shared_ptr<const std::vector<glm::vec2>> hidden = nullptr;
 };
 

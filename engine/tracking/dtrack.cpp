@@ -92,7 +92,7 @@ bool read_bodies(LineReader& line, DtrackFrame& frame) {
     return line.at_end();
 }
 
-// Returns false if the line has a kind that is read here, but is damaged.
+// Returns false if the line is damaged. Skips lines of kinds that it does not read.
 bool read_line(std::string_view text, DtrackFrame& frame, bool& has_number) {
     LineReader line(text);
     if (line.word("fr")) {

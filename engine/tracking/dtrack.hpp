@@ -30,17 +30,17 @@ struct DtrackFrame {
     std::optional<double> time;            // s, on the tracker's clock
     std::optional<int> calibrated_bodies;  // number of bodies that the tracker is calibrated for
     std::vector<DtrackBody> bodies;
-    int invalid_bodies = 0;  // bodies whose values are no pose: not finite, or no rotation
+    int invalid_bodies = 0;  // bodies whose values are no pose: not finite, too far away, or no rotation
 };
 
 inline constexpr std::size_t max_dtrack_bodies = 256;
-inline constexpr double rotation_tolerance = 0.01;  // of products of columns; a packet may have few digits
+inline constexpr double rotation_tolerance = 0.01;  // of dot products of columns; packets may have few digits
 
-// None if the packet is damaged: no frame number, or a 6d line that is cut or has another form. Other lines,
+// None if the packet is damaged: no frame number, or a malformed fr, ts, 6dcal or 6d line. Other lines,
 // such as those of flysticks (6df) and markers (3d), are skipped.
 std::optional<DtrackFrame> parse_dtrack(std::string_view packet);
 
-// The body's pose; null: it is not tracked.
+// The body with this id; null: it is not tracked.
 const DtrackBody* find_body(const DtrackFrame& frame, int id);
 
 }  // namespace bolt::tracking

@@ -34,7 +34,7 @@ Result<DtrackReceiver> DtrackReceiver::open(int port) {
     const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (socket < 0)
         return fail(ErrorCode::failed, fmt::format("cannot open a UDP socket: {}", std::strerror(errno)));
-    DtrackReceiver receiver(socket, port);  // closes it
+    DtrackReceiver receiver(socket, port);  // closes the socket, also after an error
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port));

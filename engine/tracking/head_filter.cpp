@@ -42,7 +42,7 @@ void add_sample(HeadFilterState& state, const HeadFilterSettings& settings, cons
     if (!is_usable(state, sample)) return;
     if (!state.accepted || is_reachable(settings, *state.accepted, sample)) {
         const bool was_lost = !state.accepted || sample.time - state.accepted->time > max_sample_age;
-        // A jump so short that a head could have covered it by now.
+        // The jump is accepted: by now a head could have moved this far since the accepted sample.
         const bool ends_jump = state.jump_end && is_reachable(settings, *state.jump_end, sample);
         accept(state, sample, was_lost || ends_jump, now);
         return;

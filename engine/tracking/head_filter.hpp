@@ -17,8 +17,8 @@ struct HeadSample {
 
 struct HeadFilterSettings {
     Pose fixed_head;            // without a tracker, and after a dropout
-    double dropout_time = 0.5;  // s after the last sample, for which its pose is kept
-    double fade = 2.0;          // s, from there to the fixed head
+    double dropout_time = 0.5;  // s for which the pose is held after the last sample
+    double fade = 2.0;          // s, from the held pose to the fixed head
     double max_speed = 4.0;     // m/s; a faster change is a jump
     double max_turn = 20.0;     // rad/s, likewise; people turn their heads at up to 12 rad/s
     // s. After a jump, poses are accepted once they have agreed for this long, or earlier, once a head at
@@ -34,8 +34,8 @@ inline constexpr double max_sample_age = 0.1;  // s; without a sample for longer
 
 enum class HeadStatus : std::uint8_t {
     tracked,
-    held,   // the last pose
-    faded,  // on the way to the fixed head, or there
+    held,   // at the last tracked pose
+    faded,  // on the way to the fixed head, or at it
 };
 
 struct FilteredHead {

@@ -16,7 +16,7 @@ namespace bolt::ui {
 
 struct UiOptions {
     float text_size = 14.0F;     // em size, points
-    float heading_size = 24.0F;  // the same of heading_font()
+    float heading_size = 24.0F;  // the same for heading_font()
 };
 
 class Ui {
@@ -47,7 +47,7 @@ class Ui {
     [[nodiscard]] bool wants_keys() const;
     // Returns whether the user moves through the controls with keys: Enter then presses the marked control.
     [[nodiscard]] bool navigates_by_keys() const;
-    [[nodiscard]] bool edits_text() const;  // a text field has the keys
+    [[nodiscard]] bool edits_text() const;  // a text field has the keyboard focus
 
   private:
     Ui() = default;

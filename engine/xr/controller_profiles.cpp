@@ -7,7 +7,7 @@ namespace bolt::xr {
 namespace {
 
 constexpr ControllerProfile profiles[] = {
-    // Select and grasp share one button: its target, under the hand, determines which of them applies.
+    // Select and grasp share one button. The target under the hand determines which of them applies.
     {"/interaction_profiles/khr/simple_controller",
      "input/select/click",
      "input/select/click",

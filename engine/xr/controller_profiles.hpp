@@ -12,7 +12,7 @@ namespace bolt::xr {
 
 inline constexpr std::array<const char*, 2> hand_paths{"/user/hand/left", "/user/hand/right"};  // by Side
 
-// The input of a controller for each intent, below the path of the hand; null: it has none.
+// The paths of a controller's inputs, relative to the path of the hand; null: it has no such input.
 struct ControllerProfile {
     const char* path;  // its interaction profile
     const char* select;
@@ -20,7 +20,7 @@ struct ControllerProfile {
     const char* stick;
     std::array<const char*, 2> menu, secondary;  // by Side
     bool vibrates = true;
-    bool needs_hand_interaction = false;  // the extension XR_EXT_hand_interaction: hands, not a controller
+    bool needs_hand_interaction = false;  // for bare hands, with XR_EXT_hand_interaction
 };
 std::span<const ControllerProfile> controller_profiles();
 

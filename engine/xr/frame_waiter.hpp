@@ -13,7 +13,7 @@
 namespace bolt::xr {
 
 // Calls xrWaitFrame on its own thread, once for every request. The thread shares the ownership of this
-// object, so it may outlive the session if the runtime never returns.
+// object, so both may outlive the session if the runtime never returns.
 class FrameWaiter {
   public:
     static std::shared_ptr<FrameWaiter> start(XrSession session) {
@@ -32,7 +32,7 @@ class FrameWaiter {
         XrResult result = XR_SUCCESS;
         XrFrameState state{XR_TYPE_FRAME_STATE};
     };
-    // The answer to the request, taken once; none after `timeout` s, or without a request.
+    // The answer to the last request; only one call returns it. None after `timeout` s or without a request.
     std::optional<Answer> take(double timeout) {
         std::unique_lock lock(mutex_);
         changed_.wait_for(lock, std::chrono::duration<double>(timeout),

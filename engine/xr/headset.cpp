@@ -27,7 +27,7 @@ bool Headset::find(double now) {
     last_search_ = now;
     Result<std::unique_ptr<Runtime>> found = Runtime::open();
     if (!found) {
-        // The same answer every second is not worth a line.
+        // Log the same error once, not every second.
         if (!absence_ || absence_->message() != found.error().message()) log(found.error().message());
         absence_ = found.error();
         return false;

@@ -26,8 +26,8 @@ struct HeadsetFrame {
     HeadView view;  // without eyes: nothing can be drawn
     Hands hands;
     bool focused = false;       // false: pause the lesson, output no force, hide the hands
-    bool surroundings = false;  // to be set: show them behind transparent pictures, if the headset can
-    // Since the last frame. Recentred comes with the first frame whose poses are in the new space.
+    bool surroundings = false;  // set by the caller; see Session::Drawn
+    // Events since the last frame. Recentred comes with the first frame whose poses are in the new space.
     std::vector<SessionEvent> events;
 };
 
@@ -54,15 +54,15 @@ class Headset {
     void end();
 
     [[nodiscard]] bool connected() const { return session_ != nullptr; }
-    // The session shows pictures: begin_frame() is to be called, and it determines the frame rate.
+    // True if the session shows pictures. Call begin_frame() then; it determines the frame rate.
     [[nodiscard]] bool running() const { return session_ && session_->running(); }
     // The user has ended the program in the headset's own menu.
     [[nodiscard]] bool exit_requested() const { return exit_requested_; }
 
     // Polls the runtime's events, and begins a frame if one is due; waits at most `timeout` s for that.
     std::optional<HeadsetFrame> begin_frame(double timeout);
-    // Updates `frame.view`. Call it once, as late as possible before drawing: the later the call, the smaller
-    // the error of the predicted head pose.
+    // Updates `frame.view` to the latest prediction of the head pose: the later the call, the smaller its
+    // error. Not between record() and end_frame().
     void locate(HeadsetFrame& frame);
     // Copies the pictures of the eyes, which were drawn for `frame.view`, into the headset's.
     void record(VkCommandBuffer commands, std::span<const EyePicture> pictures);

@@ -25,17 +25,17 @@ namespace bolt::xr {
 // Returns the name in the specification: "XR_ERROR_SESSION_LOST".
 std::string_view name(XrResult result);
 
-// Returns an Error for every negative result. `function`: its name, such as "xrBeginFrame". A missing runtime
-// or headset and a lost one have the code no_device; Error::lost is set if the instance or the session was
-// lost, after which only destroying it succeeds.
+// Returns an Error for every negative result. `function`: the name of the function, such as "xrBeginFrame".
+// For a missing or lost runtime or headset the code is no_device; Error::lost is set if the instance or the
+// session was lost, after which only destroying it succeeds.
 Status check(XrResult result, std::string_view function);
 
 // Return the extensions that the runtime offers (fails with ErrorCode::no_device if there is no runtime), and
 // the description of this program, without extensions.
 Result<std::vector<std::string>> offered_extensions();
 XrInstanceCreateInfo instance_info();
-// The loader keeps a runtime until an instance of it is destroyed, also if the user has since chosen another
-// runtime. Call this if no instance is created after offered_extensions().
+// The loader keeps a runtime loaded until an instance of it is destroyed, even if the user meanwhile chooses
+// another runtime. Call this if no instance is created after offered_extensions().
 void unload_runtime();
 
 // A pose in metres. The orientation is normalised, because runtimes send it with rounding errors.

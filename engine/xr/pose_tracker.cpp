@@ -34,7 +34,11 @@ struct PoseTracker::Objects {
     PFN_xrConvertTimespecTimeToTimeKHR to_time = nullptr;
     XrViewConfigurationType views = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
     bool running = false, focused = false, ended = false;
+    std::uint32_t origin_moves = 0;
 
+    [[nodiscard]] XrReferenceSpaceType base_type() const {
+        return stage ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL;
+    }
     Status create_instance();
     Status create_session();
     Status create_spaces(TrackedDevice tracked);
@@ -57,7 +61,7 @@ Status PoseTracker::Objects::create_instance() {
         return fail(
             ErrorCode::no_device,
             fmt::format("the OpenXR runtime cannot track without a headset's pictures: it lacks {}", needed),
-            "one that can, such as Monado");
+            "a runtime with these extensions, such as Monado");
     }
     XrInstanceCreateInfo info = instance_info();
     const std::array<const char*, 2> enabled{headless_extension, clock_extension};
@@ -162,8 +166,7 @@ Status PoseTracker::Objects::create_spaces(TrackedDevice tracked) {
                              }),
                    "xrEnumerateReferenceSpaces"));
     stage = std::find(types.begin(), types.end(), XR_REFERENCE_SPACE_TYPE_STAGE) != types.end();
-    BOLT_TRY_ASSIGN(base,
-                    reference_space(stage ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL));
+    BOLT_TRY_ASSIGN(base, reference_space(base_type()));
     if (tracked == TrackedDevice::headset) {
         BOLT_TRY_ASSIGN(device, reference_space(XR_REFERENCE_SPACE_TYPE_VIEW));
     } else {
@@ -172,7 +175,7 @@ Status PoseTracker::Objects::create_spaces(TrackedDevice tracked) {
     return {};
 }
 
-// Begins and ends the session when the runtime says so. After a loss nothing may be called.
+// Begins and ends the session when the runtime requests it. Calls no OpenXR function after a loss.
 Status PoseTracker::Objects::follow_events() {
     while (!ended) {
         XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
@@ -180,6 +183,10 @@ Status PoseTracker::Objects::follow_events() {
         if (result == XR_EVENT_UNAVAILABLE) return {};
         BOLT_TRY(check(result, "xrPollEvent"));
         if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) ended = true;
+        if (event.type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING) {
+            const auto* moved = reinterpret_cast<const XrEventDataReferenceSpaceChangePending*>(&event);
+            origin_moves += moved->referenceSpaceType == base_type() ? 1U : 0U;
+        }
         if (event.type != XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) continue;
         const auto* changed = reinterpret_cast<const XrEventDataSessionStateChanged*>(&event);
         focused = changed->state == XR_SESSION_STATE_FOCUSED;
@@ -199,7 +206,7 @@ Status PoseTracker::Objects::follow_events() {
     return {};
 }
 
-// The poses of controllers are those of the last synchronization too.
+// Also updates the poses of controllers: xrSyncActions determines them.
 Status PoseTracker::Objects::read_button() {
     pressed = false;
     if (!actions || !focused) return {};
@@ -244,7 +251,7 @@ PoseTracker::~PoseTracker() = default;
 Result<std::optional<Pose>> PoseTracker::read() {
     BOLT_TRY(objects_->follow_events());
     if (objects_->ended) {
-        Error error{ErrorCode::no_device, "the OpenXR runtime has ended", "one that runs"};
+        Error error{ErrorCode::no_device, "the OpenXR runtime has ended", "a running OpenXR runtime"};
         error.lost = true;
         return fail(std::move(error));
     }
@@ -257,5 +264,7 @@ Result<std::optional<Pose>> PoseTracker::read() {
 bool PoseTracker::pressed() const { return objects_->pressed; }
 
 bool PoseTracker::in_stage() const { return objects_->stage; }
+
+std::uint32_t PoseTracker::origin_moves() const { return objects_->origin_moves; }
 
 }  // namespace bolt::xr

@@ -10,7 +10,7 @@
 
 namespace bolt::xr {
 
-// The headset, or a controller, such as one that is fixed to the viewer's glasses: its grip pose.
+// The headset, or the grip pose of a controller, for example of one that is fixed to the viewer's glasses.
 enum class TrackedDevice : std::uint8_t { headset, left_controller, right_controller };
 
 class PoseTracker {
@@ -22,8 +22,9 @@ class PoseTracker {
     PoseTracker& operator=(const PoseTracker&) = delete;
     ~PoseTracker();
 
-    // The pose now, in the runtime's stage; if it has none, in its local space: x right, y up, m. None:
-    // it is not tracked at the moment. Fails if the runtime has ended; the tracker must then be destroyed.
+    // The pose now, m, x right, y up: in the runtime's stage or, if there is no stage, in its local space.
+    // None: the device is not tracked now. Fails if the runtime has ended; the tracker must then be
+    // destroyed.
     Result<std::optional<Pose>> read();
 
     // True if the trigger of the controller, or its button that selects, was pressed at the last read().
@@ -31,6 +32,9 @@ class PoseTracker {
 
     // True if the poses are those in the stage, which is fixed in the room.
     [[nodiscard]] bool in_stage() const;
+
+    // The number of times that the user or the runtime has moved the origin of the poses.
+    [[nodiscard]] std::uint32_t origin_moves() const;
 
   private:
     struct Objects;

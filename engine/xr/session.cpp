@@ -11,7 +11,7 @@ namespace {
 
 // Newer than the headers of Debian 12: XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR.
 constexpr auto local_floor = static_cast<XrReferenceSpaceType>(1000426000);
-// s until a runtime that does not answer is given up.
+// s of waiting for a runtime that does not answer.
 constexpr double waiter_timeout = 2.0;
 const XrPosef identity{{0, 0, 0, 1}, {0, 0, 0}};
 

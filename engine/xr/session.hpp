@@ -1,7 +1,7 @@
 // A session with a headset: its states, its frames, its pictures. One call sequence per frame:
 //
 //   poll()                        always, also while the session does not run
-//   begin_frame()                 only while running(); none yet: try again; the window continues meanwhile
+//   begin_frame()                 only while running(); if it returns none, draw the window and try again
 //   locate(), then draw           only if FrameTiming::should_render
 //   record()                      copies the pictures into the headset's, in the same command buffer
 //   (submit the command buffer)
@@ -34,11 +34,11 @@ struct EyeView {
     std::shared_ptr<const HiddenArea> hidden = nullptr;  // null: the runtime has no mask
 };
 
-// Where the head and its eyes are when a frame is displayed.
+// The poses of the head and the eyes when a frame is displayed.
 struct HeadView {
     Pose head;
     std::vector<EyeView> eyes;  // left, right; one for a mono display
-    bool tracked = false;       // false: estimated or held; the picture may be drawn, but do not rely on it
+    bool tracked = false;       // false: estimated or held; draw with it, but do not rely on it otherwise
 };
 
 struct FrameTiming {
@@ -118,8 +118,8 @@ struct DepthRange {
     float near = 0.05F, far = 100.0F;
 };
 
-// Returns the best format for pictures that hold sRGB colours, among those that the runtime offers: with the
-// same encoding, so that colours are neither darker nor paler; none: none is usable.
+// Return the best format among those that the runtime offers; none: no format is usable. Pictures hold sRGB
+// colours: they need an sRGB or a linear floating-point format, otherwise they would look darker or paler.
 std::optional<VkFormat> choose_color_format(std::span<const std::int64_t> offered);
 std::optional<VkFormat> choose_depth_format(std::span<const std::int64_t> offered);
 
@@ -140,7 +140,7 @@ class Session {
 
     [[nodiscard]] XrSessionState state() const { return state_; }
     [[nodiscard]] bool running() const { return running_; }
-    // The user wears the headset and sees the picture. If false, pause the lesson and end all forces.
+    // True if the user wears the headset and sees the picture. If false, pause the lesson and end all forces.
     [[nodiscard]] bool focused() const { return state_ == XR_SESSION_STATE_FOCUSED; }
     [[nodiscard]] bool ended() const { return ended_; }  // by the runtime; do not create another one
 
@@ -210,7 +210,7 @@ class Session {
     VkExtent2D extent_{};
     std::vector<Swapchain> color_, depth_;  // one with a layer per eye, or one per eye; depth may be empty
     std::vector<VkExtent2D> drawn_;         // sizes of the pictures that record() copied
-    bool depth_drawn_ = false;              // and their depth
+    bool depth_drawn_ = false;              // record() also copied their depth
     std::shared_ptr<FrameWaiter> waiter_;
     FrameCounts counts_;
     XrDuration period_ = 0;                    // of the display, ns

@@ -51,7 +51,7 @@ class TorqueCurveBuilder {
     TorqueCurve curve_;
     double sign_ = 1.0;
     double origin_ = 0.0;  // rad
-    double anchor_ = 0.0;  // rad turned at the begin of the last sample
+    double anchor_ = 0.0;  // rad turned where the step of the last sample began
     double step_;          // rad, between samples; doubles when the curve grows too long
 };
 
@@ -68,7 +68,7 @@ Result<std::vector<std::optional<TorqueCurve>>> torque_curves(const session::Ses
 // reach: half-way up the elastic line, where the angle is best defined.
 inline constexpr double default_alignment_share = 0.5;
 
-// The position of a measured curve on simulated, because a rig may count its angle from any origin.
+// The shift that aligns a measured curve with a simulated one; a rig may count its angle from any origin.
 struct Alignment {
     double shift = 0.0;            // rad, added to the measured angle
     double simulated_angle = 0.0;  // rad, of the common point
@@ -76,8 +76,9 @@ struct Alignment {
     double torque = 0.0;  // N·m, of the common point on the measured curve
 };
 
-// Aligns curves from make_torque_curve(). Tightening: where the running maximum of the torque passes the
-// level, so that a ripple or a re-grip does not move the point. Loosening: at the breakaway peak.
+// Aligns curves from make_torque_curve(). Tightening: where the running maximum of the torque passes `share`
+// of the highest torque of both, so that a ripple or a re-grip does not move the point. Loosening: at the
+// breakaway peak.
 Result<Alignment> align(const TorqueCurve& simulated, const TorqueCurve& measured,
                         double share = default_alignment_share);
 
@@ -101,8 +102,8 @@ struct TorqueErrors {
 // sensor.
 inline constexpr double default_floor_share = 0.01;
 
-// Errors at the measured samples. Interpolates the simulated torque and takes its stage from the sample
-// before. Adds `shift` in rad to the measured angles; `floor` in N·m.
+// Errors at the measured samples. Interpolates the simulated torque; the stage is that of the simulated
+// sample before. Adds `shift` in rad to the measured angles; `floor` in N·m.
 TorqueErrors torque_errors(const TorqueCurve& simulated, const TorqueCurve& measured, double shift,
                            double floor);
 

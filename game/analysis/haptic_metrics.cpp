@@ -95,9 +95,9 @@ void HapticMetricsBuilder::update_touch(double time, const session::TickRecord& 
     const bool free = tick.joint < 0;
     if (touches && !touched_before) {
         touched_with_nut_ = !free;
-        touched_at_ = time;
+        contact_begin_ = time;
     }
-    if (!touches && touched_before) untouched_at_ = time;
+    if (!touches && touched_before) contact_end_ = time;
     if (touches) state_.last_touched = tick.touched;
     const bool obstacle_contacts = free && touches && !touched_with_nut_ && !own_nut(tick.touched);
     if (!obstacle_contacts) {
@@ -150,8 +150,8 @@ void HapticMetricsBuilder::update_change(double time, const session::TickRecord&
     jump.tick = tick;
     jump.since_engaged = elapsed(time, engaged_at_);
     jump.since_released = elapsed(time, released_at_);
-    jump.since_contact_begin = elapsed(time, touched_at_);
-    jump.since_contact_end = elapsed(time, untouched_at_);
+    jump.since_contact_begin = elapsed(time, contact_begin_);
+    jump.since_contact_end = elapsed(time, contact_end_);
     if (at_limit) ++metrics_.at_limit[static_cast<std::size_t>(activity_of(jump))];
     if (large) keep_force_jump(jump);
 }

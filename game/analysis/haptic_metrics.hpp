@@ -77,7 +77,7 @@ struct HapticMetrics {
 // Computes the metrics from the ticks in order, in pieces of any size.
 class HapticMetricsBuilder {
   public:
-    // `seats`: of the joints' nuts, m.
+    // `seats`: position of each nut's seat, m.
     HapticMetricsBuilder(const session::Header& header, std::span<const lesson::LessonEvent> events,
                          std::vector<Vec3> seats);
 
@@ -116,7 +116,7 @@ class HapticMetricsBuilder {
     ForceJump state_;  // last joint and last obstacle so far
     // s, session time of the last events
     double engaged_at_ = nan, released_at_ = nan;
-    double touched_at_ = nan, untouched_at_ = nan;
+    double contact_begin_ = nan, contact_end_ = nan;
     bool touched_with_nut_ = false;  // the contact began with a nut in the jaw
     bool in_obstacle_contact_ = false;
     std::vector<float> force_changes_, torque_changes_;

@@ -10,7 +10,7 @@ namespace bolt::analysis {
 
 namespace {
 
-// True if a sample adds nothing but time.
+// True if the samples differ at most in their time.
 bool same_reading(const CurvePoint& a, const CurvePoint& b) {
     return a.angle == b.angle && a.torque == b.torque && a.clamp == b.clamp && a.stage == b.stage &&
            a.stroke == b.stroke;
@@ -69,8 +69,8 @@ namespace {
 
 constexpr std::size_t max_visits = 64;  // of one joint; further visits are added to the last one
 constexpr std::size_t max_spans = 64;
-constexpr double touch_angle = to_radians(0.5);
-constexpr double touch_torque = 0.01;  // N·m, without a snug torque
+constexpr double min_work_angle = to_radians(0.5);
+constexpr double min_work_torque = 0.01;  // N·m, least torque that counts as work
 
 bool usable(const session::TickRecord& tick, std::size_t joints) {
     return tick.joint >= 0 && static_cast<std::size_t>(tick.joint) < joints &&
@@ -114,7 +114,7 @@ void CurveBuilder::end_visit(JointBuilder& joint) {
     joint.gripped = false;
 }
 
-// Updates the stages, the snug point and the run-down at the nut's first pass through each angle.
+// Updates the run-down, the stages and the snug angle. Only angles beyond all previous ones extend a stage.
 void CurveBuilder::advance(JointBuilder& joint, const CurvePoint& point, double snug_torque) {
     JointCurve& curve = joint.curve;
     if (!joint.started) {
@@ -147,8 +147,8 @@ void CurveBuilder::add_sample(JointBuilder& joint, CurvePoint point, double snug
     visit.end = point.time;
     if (sign_ * point.torque > sign_ * visit.peak.torque) visit.peak = point;
     visit.release = point;
-    const bool turned = std::abs(point.angle - visit.begin_angle) >= touch_angle;
-    const bool loaded = sign_ * point.torque >= std::max(0.5 * snug_torque, touch_torque);
+    const bool turned = std::abs(point.angle - visit.begin_angle) >= min_work_angle;
+    const bool loaded = sign_ * point.torque >= std::max(0.5 * snug_torque, min_work_torque);
     visit.worked = visit.worked || turned || loaded;
     joint.points.add(point);
 }

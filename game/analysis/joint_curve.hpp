@@ -21,7 +21,7 @@ struct CurvePoint {
     double torque = 0.0;  // N·m at the wrench, tightening positive
     double clamp = 0.0;   // N
     joint::Stage stage = joint::Stage::navigation;
-    std::uint16_t stroke = 0;  // counts re-grips of the visit: lines break between strokes
+    std::uint16_t stroke = 0;  // number of the grip in its visit, from 1; plots draw no line between strokes
 };
 
 // Decimates a stream of samples of unknown length to a fixed size and keeps all peaks. Each bucket holds the
@@ -48,8 +48,7 @@ class CurveDecimator {
     std::vector<Bucket> buckets_;
 };
 
-// A visit lasts from the first grip of a nut until another nut is gripped or the next pass begins; it ends
-// with its last grip.
+// All grips of a nut until another nut is gripped or the next pass begins. `end` is the end of the last grip.
 struct Visit {
     int pass = 0;              // counted from 0
     double begin = 0.0;        // s

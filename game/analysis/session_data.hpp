@@ -51,11 +51,11 @@ Result<content::Assembly> stored_assembly(const session::SessionReader& session)
 
 Result<SessionData> read_session(const session::SessionReader& session);
 
-// One result for each joint of the assembly: the given one with its id, or an empty one.
+// For each joint of the assembly: the result in `given` with its id, or an empty result.
 std::vector<lesson::JointResult> results_by_joint(const content::Assembly& assembly,
                                                   const std::vector<lesson::JointResult>& given);
 
-// Target clamp force, N: the specified one, or the one of the target torque at nominal friction.
+// Target clamp force, N: as specified, or else the clamp force of the target torque at nominal friction.
 double target_clamp(const content::Assembly& assembly, std::size_t joint);
 
 // Statistics of the joint results of one session.
@@ -75,7 +75,7 @@ std::string title_of(const content::Assembly& assembly);
 // A visit in the actual order of the joints.
 struct OrderEntry {
     std::size_t joint = 0;
-    bool out_of_turn = false;  // one of the fewest visits whose removal leaves the planned order
+    bool out_of_turn = false;  // in the smallest set of visits whose removal leaves the planned order
     bool repeated = false;     // the joint was visited before in this pass
 };
 
@@ -94,12 +94,12 @@ struct PassOrder {
     [[nodiscard]] std::size_t visits(std::size_t joint) const;
 };
 
-// One for each pass of the assembly. A session without pass events gives a single one, without a planned
-// order if the assembly has several passes.
+// One PassOrder for each pass of the assembly, but a single one for a loosening session and for a session
+// without pass events. The latter has a planned order only if the assembly has exactly one pass.
 std::vector<PassOrder> pass_orders(const SessionData& session);
 
-// All passes that followed the same planned order completely share one drawing; every other pass that was
-// begun has its own. The label names all its passes.
+// Passes that followed the same planned order completely share one drawing; every other pass with a visit has
+// its own. The label names all passes of the drawing.
 struct OrderDrawing {
     PassOrder order;
     std::size_t passes = 1;

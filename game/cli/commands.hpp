@@ -46,7 +46,7 @@ struct TrialOptions {
     std::vector<std::string> devices;
     std::string station_file, wheel_config_file, glove, trainee, calibrations;
     double seconds = 5.0;
-    bool yes = false;  // answers questions before an arm moves or pushes
+    bool yes = false;  // answers yes to the questions before an arm moves or pushes
 
     [[nodiscard]] bool any() const { return !devices.empty() || !glove.empty() || !station_file.empty(); }
 };
@@ -58,15 +58,16 @@ int try_station(const TrialOptions& options);
 // True if a person sees the standard error output and can answer.
 bool has_terminal();
 
-// Asks `question`, which ends with a question mark, and waits for the answer. `yes`: the option --yes, which
-// answers it. False without a terminal and without --yes.
+// Asks `question`, which ends with a question mark, and waits for the answer. `yes` (the option --yes)
+// answers with yes without waiting. False without a terminal and without --yes.
 bool ask(std::string_view question, bool yes);
 
-// For a station or a device thread. Without a terminal an arm that needs more than permission is an error at
-// once, because nobody is there to put its handle into the inkwell.
+// Prompts on the terminal for what an arm needs before it can be opened; `yes` permits the arm to move.
+// Without a terminal, opening an arm that needs a person, for example to put its handle into the inkwell,
+// fails at once.
 device::ArmDialog terminal_dialog(bool yes);
 
-// Opens the menu in a window, as the desktop's entry does. Each lesson gets a folder in
+// Opens the menu in a window; the desktop entry runs this. Each lesson gets a folder in
 // user_data_folder()/sessions.
 Status train_from_desktop();
 

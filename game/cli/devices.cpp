@@ -124,8 +124,9 @@ void ask_for_stiffness(const device::Description& d, bool yes, station_setup::De
                 ? fmt::format(", and its button {}", std::countr_zero(options.dead_man) + 1)
                 : ""),
         yes);
-    options.no_stiffness = has_terminal() ? "it may not push the hand"
-                                          : "it would push the hand, and nobody was asked; --yes permits it";
+    options.no_stiffness = has_terminal()
+                               ? "it may not push the hand"
+                               : "it pushes the hand, which needs permission: use a terminal or --yes";
 }
 
 Result<std::string> examine_glove(const std::string& port, double seconds) {
@@ -222,9 +223,10 @@ void add_devices(CLI::App& app, int& exit_code) {
                      "Configuration file of the wheel: its motor, its encoder")
         ->needs("--device");
     devices
-        ->add_flag("--yes,--may-move", options->yes,
-                   "Answers the question whether an arm may move by itself to find its position, which a "
-                   "terminal asks: keep the room around it free")
+        ->add_flag(
+            "--yes,--may-move", options->yes,
+            "Permit an arm to move by itself to find its position; without this option the terminal asks. "
+            "Keep the room around it free")
         ->needs("--device");
     devices->add_option("--glove", options->glove, "Serial port of a glove to query");
     devices->add_flag("--all", options->others, "List devices of other kinds too, such as keyboards");

@@ -116,7 +116,7 @@ int check_display_file(const DisplaysArguments& options) {
     if (!listed) return print_error(listed.error());
     const int exit_code = report_findings(loaded, host);
     const Status printed =
-        print(exit_code == 0 ? "The file is right\n" : "These walls cannot be used as the file says\n");
+        print(exit_code == 0 ? "The file has no mistakes\n" : "The file has mistakes that prevent its use\n");
     return printed ? exit_code : print_error(printed.error());
 }
 
@@ -135,7 +135,8 @@ int import_displays(const DisplaysArguments& options) {
     return report_findings(loaded, {});
 }
 
-// The walls that a head at this point sees from behind: then the axes or the place of the tracker are wrong.
+// Lists the walls that a head at this point sees from behind. If there are any, the axes or the position of
+// the tracker are wrong in the file.
 std::string describe_walls_behind(const content::DisplayFile& displays, const Vec3& head) {
     std::vector<std::string> names;
     for (const content::Wall& wall : displays.walls)
@@ -176,7 +177,7 @@ std::string describe_tracker_counts(const head_tracking::TrackerCounts& counts,
                                      fmt::join(counts.bodies, ", ")));
 }
 
-// Shows where the tracker sees the head. Succeeds if it did at the end or before.
+// Prints where the tracker sees the head. Succeeds if the tracker has seen the head at least once.
 int track_head(const DisplaysArguments& options) {
     const content::LoadedDisplays loaded = content::load_displays(options.file);
     if (!loaded.ok()) return print_error(loaded.errors);

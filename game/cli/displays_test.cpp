@@ -113,7 +113,7 @@ Result<OpenedWalls> open_walls(const std::string& file, const platform::Desktop&
         opened.walls = std::move(*walls);
         const std::uint64_t fingerprint = fingerprint_of(opened.walls->displays());
         if (first) {
-            ready = opened.walls->gather(fingerprint, stop);
+            ready = opened.walls->wait_for_processes(fingerprint, stop);
         } else if (auto follower = view::WallFollower::begin(*cluster, fingerprint, stop)) {
             opened.follower.emplace(std::move(*follower));
         } else {
@@ -122,7 +122,7 @@ Result<OpenedWalls> open_walls(const std::string& file, const platform::Desktop&
     }
     if (ready) return opened;
     if (first)
-        view::WallLeader::dismiss(*cluster, ready.error());
+        view::WallLeader::end_others(*cluster, ready.error());
     else
         view::WallFollower::report(*cluster, ready.error());
     return fail(ready.error());
@@ -134,7 +134,7 @@ Status follow_first_process(view::WindowContent& content, OpenedWalls& opened,
         BOLT_TRY_ASSIGN(const auto instance, make_instance(desktop, options.validate));
         BOLT_TRY(view::follow_on_walls(content, *opened.walls, *opened.follower, instance, options.gpu));
         BOLT_TRY(validation_status(instance));
-        if (interrupted()) return fail(ErrorCode::failed, "the process was asked to end");
+        if (interrupted()) return fail(ErrorCode::failed, "the process was interrupted");
         return {};
     };
     const Status done = follow();

@@ -44,7 +44,7 @@ Result<std::string> examine_servo(double seconds, const std::string& assembly) {
     return text;
 }
 
-// The findings, in the words of the menu.
+// Prints the findings on this computer with the texts of the menu.
 Status summarize() {
     BOLT_TRY_ASSIGN(const auto data, user_data_folder());
     computer::FactsRequest request;
@@ -79,7 +79,7 @@ std::string station_remarks(const content::StationFile& file, const station_setu
     return text.empty() ? text : "Station file:\n" + text;
 }
 
-// The request of the options; what they name has precedence over the station file.
+// The request that the options describe. An option has precedence over the station file.
 Result<station_setup::StationRequest> request_of(const TrialOptions& options) {
     station_setup::StationRequest request;
     request.devices = options.devices;
@@ -194,13 +194,41 @@ Status examine_drawing() {
     return {};
 }
 
+struct DoctorOptions {
+    TrialOptions station;
+    std::optional<double> seconds;
+};
+
+// Returns the exit code.
+int run_doctor(DoctorOptions& options) {
+    TrialOptions& station = options.station;
+    if (station.station_file.empty()) {
+        if (!station.wheel_config_file.empty() && station.devices.empty())
+            throw CLI::RequiresError("--rig", "--device or --station");
+        if (!station.trainee.empty() && station.glove.empty())
+            throw CLI::RequiresError("--trainee", "--glove or --station");
+        if (station.yes && station.devices.empty())
+            throw CLI::RequiresError("--yes", "--device or --station");
+    }
+    if (station.any()) {
+        station.seconds = options.seconds.value_or(station.seconds);
+        return try_station(station);
+    }
+    const Status drawing = examine_drawing();
+    Status printed = print(devices_line() + suggested_trials());
+    if (printed) printed = summarize();
+    const double seconds = options.seconds.value_or(2.0);
+    if (printed && seconds > 0.0) {
+        const Result<std::string> text = examine_servo(seconds, station.assembly);
+        printed =
+            print("Servo:\n" + (text ? *text : fmt::format("  not timed: {}\n", text.error().message())));
+    }
+    return !drawing ? print_error(drawing.error()) : !printed ? print_error(printed.error()) : 0;
+}
+
 }  // namespace
 
 void add_doctor(CLI::App& app, int& exit_code) {
-    struct DoctorOptions {
-        TrialOptions station;
-        std::optional<double> seconds;
-    };
     auto options = std::make_shared<DoctorOptions>();
     CLI::App* doctor = app.add_subcommand(
         "doctor",
@@ -232,41 +260,15 @@ void add_doctor(CLI::App& app, int& exit_code) {
         ->add_option("--folder", station.calibrations,
                      "Folder of calibrations; default: the user's data folder")
         ->needs(trainee);
-    doctor->add_flag(
-        "--yes", station.yes,
-        "Answers the questions whether an arm may move by itself and push the hand, which a terminal "
-        "asks: keep the room around it free, and hold its handle and its button");
+    doctor->add_flag("--yes", station.yes,
+                     "Permit an arm to move by itself and to push the hand; without this option the terminal "
+                     "asks. Keep the "
+                     "room around it free, and hold its handle and its button");
     doctor
         ->add_option("--seconds", options->seconds,
                      "Duration of the trial (5), or of the timing at each rate of the servo (2; 0: none)")
         ->check(CLI::Range(0.0, 3600.0));
-    doctor->callback([&exit_code, options] {
-        const TrialOptions& named = options->station;
-        if (named.station_file.empty()) {
-            if (!named.wheel_config_file.empty() && named.devices.empty())
-                throw CLI::RequiresError("--rig", "--device or --station");
-            if (!named.trainee.empty() && named.glove.empty())
-                throw CLI::RequiresError("--trainee", "--glove or --station");
-            if (named.yes && named.devices.empty())
-                throw CLI::RequiresError("--yes", "--device or --station");
-        }
-        if (named.any()) {
-            options->station.seconds = options->seconds.value_or(options->station.seconds);
-            TrialOptions& tried = options->station;
-            exit_code = try_station(tried);
-            return;
-        }
-        const Status drawing = examine_drawing();
-        Status servo = print(devices_line() + suggested_trials());
-        if (servo) servo = summarize();
-        const double seconds = options->seconds.value_or(2.0);
-        if (servo && seconds > 0.0) {
-            const Result<std::string> text = examine_servo(seconds, options->station.assembly);
-            servo =
-                print("Servo:\n" + (text ? *text : fmt::format("  not timed: {}\n", text.error().message())));
-        }
-        exit_code = !drawing ? print_error(drawing.error()) : !servo ? print_error(servo.error()) : 0;
-    });
+    doctor->callback([&exit_code, options] { exit_code = run_doctor(*options); });
 }
 
 }  // namespace bolt::cli

@@ -1,4 +1,4 @@
-// Projection walls for `train` and `displays test`: opens those of this process, alone or as one of a
+// Projection walls for `train` and `displays test`: opens the walls of this process, which runs alone or in a
 // cluster.
 #pragma once
 
@@ -15,20 +15,20 @@ namespace bolt::cli {
 struct OpenedWalls {
     std::unique_ptr<cluster::Cluster> cluster;  // null: this process shows all walls
     std::unique_ptr<view::Walls> walls;
-    std::optional<view::WallFollower> follower;  // if another process plays
+    std::optional<view::WallFollower> follower;  // set if another process runs the lesson
 };
 
-// Opens the walls in a display file. Started by mpirun, waits until all processes have opened theirs. Prints
-// doubtful findings unless `quiet`, and later, when the tracker finds or loses the head, a line. Fails if the
-// file has mistakes or does not fit the monitors and processes, or if the tracker cannot be used.
+// Opens the walls in a display file. Under mpirun, waits until all processes have opened their walls. Unless
+// `quiet`, prints doubtful findings, and later a line whenever the tracker finds or loses the head. Fails if
+// the file has mistakes or does not fit the monitors and processes, or if the tracker cannot be used.
 Result<OpenedWalls> open_walls(const std::string& file, const platform::Desktop& desktop, bool quiet);
 
 struct FollowOptions {
-    std::string gpu;  // as WindowRunOptions
+    std::string gpu;  // as in WindowRunOptions
     bool validate = false;
 };
 
-// Shows `content` on the walls of a process that follows the first one, until that ends.
+// Shows `content` on the walls of a process that follows the first process, until the first process ends.
 Status follow_first_process(view::WindowContent& content, OpenedWalls& opened,
                             const platform::Desktop& desktop, const FollowOptions& options);
 

@@ -89,7 +89,7 @@ std::string timings_json(const std::string& device, const render::Statistics& st
     std::vector<double> sorted;
     for (const FrameTime& time : times) {
         nlohmann::ordered_json passes = nlohmann::ordered_json::object();
-        for (const gpu::PassTiming& pass : time.passes)  // one entry per view has the same name
+        for (const gpu::PassTiming& pass : time.passes)  // a pass has one entry for each view
             passes[pass.name] = passes.value(pass.name, 0.0) + pass.milliseconds;
         json["frames"].push_back({{"ms", time.milliseconds}, {"gpu_ms", passes}});
         sorted.push_back(time.milliseconds);
@@ -127,7 +127,7 @@ void add_joint_labels(const view::LoadedModel& model, render::Scene& scene) {
     }
 }
 
-// Sets the model's rest pose to the animation of the options at their time.
+// Sets the model's rest pose to its pose in options.animation at options.at_s.
 Status pose(assets::Model& model, const RenderOptions& options) {
     BOLT_TRY_ASSIGN(auto animation, find_animation(model, options));
     assets::ModelPose pose = assets::rest_pose(model);
@@ -136,7 +136,7 @@ Status pose(assets::Model& model, const RenderOptions& options) {
     return {};
 }
 
-// The named views of the options, or else the viewpoint that they describe.
+// The views that --view names, or else the viewpoint of --eye and --target.
 Result<std::vector<view::Viewpoint>> viewpoints(const RenderOptions& options, const view::LoadedModel& model,
                                                 const render::BoundingBox& box, float aspect) {
     std::vector<view::Viewpoint> views;
@@ -183,8 +183,8 @@ Result<std::string> view_of_joint(const std::string& what, const std::string& id
     return assembly.views[*best].name;
 }
 
-Status render_all(RenderOptions options) {
-    BOLT_TRY_ASSIGN(const auto extent, view::parse_size(options.size));
+// Loads the model, and checks that it has what the options name; replaces a joint by the view that shows it.
+Result<view::LoadedModel> load_subject(RenderOptions& options) {
     view::ModelLoadResult loaded = view::load_model(options.what);
     if (!loaded.ok()) return fail(loaded.errors.front());
     if (options.labels && loaded.model.bare)
@@ -199,65 +199,88 @@ Status render_all(RenderOptions options) {
     std::vector<std::string> names = options.views;
     if (!options.inset.empty()) names.push_back(options.inset);
     for (const std::string& name : names) BOLT_TRY(view::named_view(loaded.model, name));
-    BOLT_TRY_ASSIGN(const auto radiance, view::load_light(options.light));
+    return std::move(loaded.model);
+}
 
+// The pictures of one call share all of this.
+struct Drawing {
+    const RenderOptions& options;
+    view::GpuContext& gpu;
+    view::ShownModel& shown;
+    VkExtent2D extent;
+    float aspect;  // width / height
+    std::vector<render::Label> labels;
+    std::optional<text::Fonts> fonts;  // with labels
+    std::vector<render::Inset> insets;
+};
+
+Result<Drawing> make_drawing(const RenderOptions& options, const view::LoadedModel& model,
+                             view::GpuContext& gpu, view::ShownModel& shown) {
+    BOLT_TRY_ASSIGN(const auto extent, view::parse_size(options.size));
+    const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
+    Drawing drawing{options, gpu, shown, extent, aspect, {}, std::nullopt, {}};
+    if (options.labels) add_joint_labels(model, shown.scene);
+    drawing.labels = shown.scene.labels;
+    if (!drawing.labels.empty()) {
+        BOLT_TRY_ASSIGN(auto fonts, text::load_fonts());
+        drawing.fonts = std::move(fonts);
+    }
+    if (!options.inset.empty()) {
+        BOLT_TRY_ASSIGN(const auto view, view::named_view(model, options.inset));
+        drawing.insets.push_back(
+            {eye_of(options, view, shown.box, aspect), render::inset_rectangle(extent, 0.28F)});
+    }
+    return drawing;
+}
+
+// Draws one view as often as requested, and writes its picture and the times of its frames.
+Status draw_view(Drawing& drawing, const view::Viewpoint& view, std::size_t view_count) {
+    const RenderOptions& options = drawing.options;
+    if (view.eye == view.target) return fail(ErrorCode::usage, "eye and target are the same point");
+    std::vector<render::Eye> eyes;
+    for (const float offset : view::eye_offsets(options.stereo))
+        eyes.push_back(eye_of(options, view, drawing.shown.box, drawing.aspect, offset));
+    render::Scene& scene = drawing.shown.scene;
+    scene.labels = drawing.labels;
+    if (drawing.fonts)
+        view::separate_labels(*drawing.fonts, scene.labels, eyes.front(),
+                              {drawing.extent.width, drawing.extent.height});
+    std::vector<render::Picture> pictures;
+    std::vector<FrameTime> times;
+    for (int frame = 0; frame < options.frames; ++frame) {
+        const auto start = std::chrono::steady_clock::now();
+        BOLT_TRY_ASSIGN(auto taken,
+                        render::take_pictures(*drawing.gpu.device, *drawing.gpu.frames, *drawing.gpu.renderer,
+                                              scene, eyes, drawing.extent, drawing.insets));
+        pictures = std::move(taken);
+        const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+        times.push_back({spent.count(), drawing.gpu.frames->timings()});
+    }
+    BOLT_TRY(view::write_picture(view::side_by_side(pictures), file_of(options, view, view_count)));
+    if (options.timings.empty()) return {};
+    return write_file(options.timings,
+                      timings_json(drawing.gpu.device->name(), drawing.gpu.renderer->statistics(), times));
+}
+
+Status render_all(RenderOptions options) {
+    BOLT_TRY(view::parse_size(options.size));
+    BOLT_TRY_ASSIGN(const auto model, load_subject(options));
+    BOLT_TRY_ASSIGN(const auto radiance, view::load_light(options.light));
     gpu::InstanceOptions instance_options;
     instance_options.validation = options.validate;
     Result<gpu::Instance> instance = gpu::Instance::create(instance_options);
     if (!instance) return fail(instance.error());
     render::RendererOptions renderer_options;
     renderer_options.level_error_px = static_cast<float>(options.level_error_px);
-    BOLT_TRY_ASSIGN(auto gpu_context, view::make_gpu_context(*instance, {options.gpu}, renderer_options));
-    gpu::Device& device = *gpu_context.device;
-    BOLT_TRY_ASSIGN(auto light, render::upload_environment(device, radiance));
-    BOLT_TRY_ASSIGN(const auto shown, view::show_model(device, loaded.model, light,
+    BOLT_TRY_ASSIGN(auto gpu, view::make_gpu_context(*instance, {options.gpu}, renderer_options));
+    BOLT_TRY_ASSIGN(auto light, render::upload_environment(*gpu.device, radiance));
+    BOLT_TRY_ASSIGN(const auto shown, view::show_model(*gpu.device, model, light,
                                                        {!options.no_key, options.level_error_px > 0.0}));
-    BOLT_TRY(view::highlight(*shown, loaded.model, options.highlights));
-
-    const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
-    BOLT_TRY_ASSIGN(const auto views, viewpoints(options, loaded.model, shown->box, aspect));
-    if (options.labels) add_joint_labels(loaded.model, shown->scene);
-    const std::vector<render::Label> labels = shown->scene.labels;
-    std::optional<text::Fonts> fonts;
-    if (!labels.empty()) {
-        BOLT_TRY_ASSIGN(auto loaded_fonts, text::load_fonts());
-        fonts = std::move(loaded_fonts);
-    }
-    std::vector<render::Inset> insets;
-    if (!options.inset.empty()) {
-        BOLT_TRY_ASSIGN(const auto view, view::named_view(loaded.model, options.inset));
-        insets.push_back({eye_of(options, view, shown->box, aspect), render::inset_rectangle(extent, 0.28F)});
-    }
-    for (const view::Viewpoint& view : views) {
-        if (view.eye == view.target) return fail(ErrorCode::usage, "eye and target are the same point");
-        std::vector<render::Eye> eyes;
-        for (const float offset : view::eye_offsets(options.stereo))
-            eyes.push_back(eye_of(options, view, shown->box, aspect, offset));
-        shown->scene.labels = labels;
-        if (fonts)
-            view::separate_labels(*fonts, shown->scene.labels, eyes.front(), {extent.width, extent.height});
-        std::vector<render::Picture> pictures;
-        std::vector<FrameTime> times;
-        for (int frame = 0; frame < options.frames; ++frame) {
-            const auto start = std::chrono::steady_clock::now();
-            BOLT_TRY_ASSIGN(auto taken,
-                            render::take_pictures(device, *gpu_context.frames, *gpu_context.renderer,
-                                                  shown->scene, eyes, extent, insets));
-            pictures = std::move(taken);
-            const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-            times.push_back({spent.count(), gpu_context.frames->timings()});
-        }
-        if (Status written =
-                view::write_picture(view::side_by_side(pictures), file_of(options, view, views.size()));
-            !written)
-            return written;
-        if (!options.timings.empty())
-            if (Status written = write_file(
-                    options.timings, timings_json(device.name(), gpu_context.renderer->statistics(), times));
-                !written)
-                return written;
-    }
-    (void)gpu_context.renderer->save_pipelines();  // a failure only slows down the next start
+    BOLT_TRY(view::highlight(*shown, model, options.highlights));
+    BOLT_TRY_ASSIGN(auto drawing, make_drawing(options, model, gpu, *shown));
+    BOLT_TRY_ASSIGN(const auto views, viewpoints(options, model, shown->box, drawing.aspect));
+    for (const view::Viewpoint& view : views) BOLT_TRY(draw_view(drawing, view, views.size()));
+    (void)gpu.renderer->save_pipelines();  // a failure only slows down the next start
     if (!instance->log().messages.empty()) return fail(ErrorCode::failed, instance->log().messages.front());
     return {};
 }

@@ -79,8 +79,8 @@ class ReplayCamera {
         const double begin =
             one ? options_.at - period * std::min(20.0, std::floor(options_.at / period)) : options_.from;
         const double end = one ? options_.at : options_.until;
-        // The time of a picture follows from its number. If it followed from the previous picture, the parts
-        // of a tick would add up, and pictures and sound would drift apart.
+        // The time of a picture follows from its number. If it followed from the previous picture, rounding
+        // to ticks would accumulate, and pictures and sound would drift apart.
         if (moment.time < begin + drawn_ * period - 0.5 * moment.setup.dt) return true;
         if (moment.time > end && drawn_ > 0) return false;
         Result<render::Picture> picture = film_.draw(moment, period);

@@ -1,4 +1,5 @@
-// boltwright station: makes a station file from the connected devices, compares one with them, and tries it.
+// boltwright station: makes a station file from the connected devices, compares a file with them, and tries
+// the station.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -69,7 +70,7 @@ int check_station(const std::string& file) {
     if (!station) return print_error(station.error());
     const std::vector<station_setup::StationFinding> findings =
         station_setup::compare(*station, station_setup::find_facts(*station));
-    const bool problem = !findings.empty() && findings.front().prevents_use;  // they come first
+    const bool problem = !findings.empty() && findings.front().prevents_use;  // these come first
     const Status printed =
         print(station_setup::describe(findings) +
               (problem ? "This station cannot be used as the file says\n" : "The file suits the devices\n"));
@@ -116,7 +117,7 @@ void add_try(CLI::App& station, const std::shared_ptr<StationArguments>& options
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
     tried->add_flag("--yes", trial.yes,
-                    "Answers the questions whether an arm may move by itself, which a terminal asks");
+                    "Permit arms to move by themselves; without this option the terminal asks");
     tried->callback([options, &exit_code] { exit_code = try_station(options->trial); });
 }
 

@@ -25,7 +25,7 @@ using station_setup::max_check_error;
 
 struct RegisterArguments {
     std::string file, points, device, targets, controller, from, to = "room";
-    std::vector<double> tip{};  // empty: the stored one for --check, or the origin of the handle
+    std::vector<double> tip{};  // empty: with --check the stored tip, else the handle's origin
     std::vector<double> controller_tip{0.0, 0.0, 0.0};
     std::size_t count = 7;
     bool find_tip = false, check = false, force = false, yes = false;
@@ -60,7 +60,7 @@ Result<FramePair> frames_of(const RegisterArguments& options) {
     return FramePair{first, second};
 }
 
-// True once for each line on the standard input; never after its end.
+// pressed() is true if a line has arrived on the standard input since the last call; never after its end.
 class EnterKey {
   public:
     bool pressed() {
@@ -112,7 +112,7 @@ Result<OpenDevice> open_arm(const RegisterArguments& options, const content::Sta
     return device;
 }
 
-// The arm's side of a touch; the arguments must outlive it.
+// The functions with which ArmTip reads the arm and the Enter key; the arguments must outlive them.
 station_setup::TouchIo arm_io(OpenDevice& device, EnterKey& enter) {
     return {[&device] { return device.thread.snapshot(); }, [&enter] { return enter.pressed(); },
             [] { return interrupted(); }, show_line, device::steady_timer()};
@@ -128,7 +128,7 @@ Result<std::vector<PointPair>> touch(const RegisterArguments& options, const con
     return station_setup::measure_points(source, targets);
 }
 
-// Opens the tracker of the controller. Only the stage is fixed in the room.
+// Opens the tracker of the controller. Fails without a stage, because only the stage is fixed in the room.
 Result<std::unique_ptr<xr::PoseTracker>> open_controller(const std::string& side) {
     BOLT_TRY_ASSIGN(auto tracker,
                     xr::PoseTracker::open(side == "left" ? xr::TrackedDevice::left_controller
@@ -150,7 +150,7 @@ Result<std::vector<PointPair>> touch_with_both(const RegisterArguments& options,
     station_setup::ArmTip arm(arm_io(device, enter), point_of(options.tip));
     const auto read = [&]() -> Result<station_setup::ControllerSample> {
         BOLT_TRY_ASSIGN(const std::optional<Pose> pose, tracker->read());
-        return station_setup::ControllerSample{pose, tracker->pressed()};
+        return station_setup::ControllerSample{pose, tracker->pressed(), tracker->origin_moves()};
     };
     station_setup::ControllerTip controller({read, [&] { return enter.pressed(); },
                                              [] { return interrupted(); }, show_line, device::steady_timer()},
@@ -175,7 +175,7 @@ Result<std::vector<PointPair>> measured_pairs(const RegisterArguments& options,
     return touch(options, station, targets);
 }
 
-// Stores the registration in the file as it is now, which may have been edited since it was read.
+// Reads the file again before it stores the registration, because the user may have edited it meanwhile.
 Status store(const std::string& file, const content::Registration& registration) {
     BOLT_TRY_ASSIGN(content::StationFile station, content::load_station(file));
     content::set_registration(station.registrations, registration);
@@ -205,7 +205,7 @@ Status register_station(const RegisterArguments& options) {
 }
 
 // Compares the stored registration with a touch of its check point, with a point that the arm and a
-// controller touch, or with the points of a file. Fails if one is off by more than max_check_error.
+// controller touch, or with the points of a file. Fails if a point is off by more than max_check_error.
 Status check_registration(RegisterArguments options) {
     BOLT_TRY_ASSIGN(const FramePair frames, frames_of(options));
     BOLT_TRY_ASSIGN(const content::StationFile station, content::load_station(options.file));
@@ -238,7 +238,7 @@ Status check_registration(RegisterArguments options) {
 
 }  // namespace
 
-// The options of the two tools that touch points.
+// Adds the options of the arm and of the controller, which touch the points.
 void add_touch_options(CLI::App& command, RegisterArguments& options, CLI::Option* points) {
     command
         .add_option("--device", options.device,
@@ -301,7 +301,7 @@ void add_station_register(CLI::App& station, int& exit_code) {
     command->add_flag("--force", options->force,
                       "Store it even if an rms of 4 mm or a check point of 5 mm is exceeded");
     command->add_flag("--yes", options->yes,
-                      "Answers the question whether an arm may move by itself, which a terminal asks");
+                      "Permit an arm to move by itself; without this option the terminal asks");
     command->callback([options, &exit_code] {
         const Status done = options->check ? check_registration(*options) : register_station(*options);
         exit_code = done ? 0 : print_error(done.error());

@@ -142,7 +142,7 @@ int run_headless(const TrainArguments& options, const content::Assembly& assembl
     return interrupted() || !outcome->result.finished ? static_cast<int>(ErrorCode::failed) : 0;
 }
 
-// A headset for the lesson; null: none is used. Fails if one is required and there is none.
+// A headset for the lesson; null: none is used. Fails if a headset is required and none is found.
 Result<std::unique_ptr<xr::Headset>> open_headset(HeadsetUse use, bool quiet) {
     if (use == HeadsetUse::none) return std::unique_ptr<xr::Headset>();
     xr::HeadsetOptions options;
@@ -154,7 +154,7 @@ Result<std::unique_ptr<xr::Headset>> open_headset(HeadsetUse use, bool quiet) {
     return headset;
 }
 
-// What surrounds the user; at most one.
+// The display that surrounds the user; at most one is set.
 struct Surroundings {
     xr::Headset* headset = nullptr;
     view::Walls* walls = nullptr;
@@ -213,27 +213,50 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
     return {};
 }
 
+// Headset, walls and simulated trainee exclude each other.
+Status check_displays(const TrainArguments& options, HeadsetUse headset) {
+    if (headset != HeadsetUse::none && options.headless)
+        return fail(ErrorCode::usage, "a simulated trainee wears no headset", "--headless without --hmd");
+    if (!options.displays.empty() && (options.headless || headset != HeadsetUse::none))
+        return fail(ErrorCode::usage, "walls are shown in windows, to a viewer without a headset",
+                    "--displays without --headless and --hmd");
+    return {};
+}
+
+Status check_hands(const TrainArguments& options, const trainer::Equipment& equipment) {
+    const bool devices =
+        !equipment.devices.empty() || !equipment.glove.empty() || !options.station_file.empty();
+    if (options.headless && (devices || equipment.hand == trainer::HandMode::free))
+        return fail(ErrorCode::usage, "a simulated trainee does not use devices or the mouse",
+                    "--headless without --device ID, --station FILE, --hand free and --glove PORT");
+    return {};
+}
+
+// Shows the lesson, or, in a process that another one leads, that one's lesson.
+Status show(const TrainArguments& options, const trainees::TrainOptions& train,
+            const trainer::Equipment& equipment, xr::Headset* headset, platform::Desktop& desktop) {
+    OpenedWalls opened;
+    if (!options.displays.empty()) {
+        BOLT_TRY_ASSIGN(auto walls, open_walls(options.displays, desktop, options.quiet));
+        opened = std::move(walls);
+    }
+    if (opened.follower) {
+        trainer::FollowedLesson lesson;
+        return follow_first_process(lesson, opened, desktop, {options.gpu, options.validate});
+    }
+    view::Walls* walls = opened.walls.get();
+    const Status done = run_window(options, train, equipment, {headset, walls}, desktop);
+    if (!done && walls != nullptr && walls->leader() != nullptr) walls->leader()->end(done.error());
+    return done;
+}
+
 int run_train(TrainArguments options) {
     const Result<HeadsetUse> headset_use = cli::headset_use(options);
     if (!headset_use) return print_error(headset_use.error());
-    if (*headset_use != HeadsetUse::none && options.headless)
-        return print_error(
-            {ErrorCode::usage, "a simulated trainee wears no headset", "--headless without --hmd"});
-    if (!options.displays.empty() && (options.headless || *headset_use != HeadsetUse::none))
-        return print_error({ErrorCode::usage, "walls are shown in windows, to a viewer without a headset",
-                            "--displays without --headless and --hmd"});
+    if (Status checked = check_displays(options, *headset_use); !checked) return print_error(checked.error());
     Result<trainer::Equipment> equipment = equipment_of(options);
     if (!equipment) return print_error(equipment.error());
-    const bool free_hand = equipment->hand == trainer::HandMode::free;
-    const bool devices =
-        !equipment->devices.empty() || !equipment->glove.empty() || !options.station_file.empty();
-    if (options.headless && (devices || free_hand)) {
-        Error error;
-        error.code = ErrorCode::usage;
-        error.what = "a simulated trainee does not use devices or the mouse";
-        error.expected = "--headless without --device ID, --station FILE, --hand free and --glove PORT";
-        return print_error(error);
-    }
+    if (Status checked = check_hands(options, *equipment); !checked) return print_error(checked.error());
 
     content::LoadedAssembly loaded = content::load_assembly(options.assembly, options.variant);
     if (!loaded.ok()) return print_error(loaded.errors);
@@ -260,24 +283,13 @@ int run_train(TrainArguments options) {
     // The headset's hands move the tool unless a device does.
     const bool found = *headset && (*headset)->creator() != nullptr;
     if (found && !equipment->needs_station()) equipment->hand = trainer::HandMode::tracked;
-    // A folder here is not the assembly of the same name in the menu.
+    // The absolute path distinguishes a folder here from an assembly of the same name in the menu.
     TrainArguments named = options;
     named.tool = *tool;
     std::error_code ignored;
     if (std::filesystem::exists(options.assembly, ignored))
         named.assembly = std::filesystem::absolute(options.assembly).lexically_normal().string();
-    Result<OpenedWalls> opened;
-    if (!options.displays.empty()) opened = open_walls(options.displays, *desktop, options.quiet);
-    if (!opened) return print_error(opened.error());
-    view::Walls* walls = opened->walls.get();
-    Status done;
-    if (opened->follower) {
-        trainer::FollowedLesson lesson;
-        done = follow_first_process(lesson, *opened, *desktop, {options.gpu, options.validate});
-    } else {
-        done = run_window(named, *train, *equipment, {headset->get(), walls}, *desktop);
-        if (!done && walls != nullptr && walls->leader() != nullptr) walls->leader()->end(done.error());
-    }
+    const Status done = show(named, *train, *equipment, headset->get(), *desktop);
     return done ? 0 : print_error(done.error());
 }
 

@@ -20,7 +20,7 @@ bool is_keyword(const std::string& device) {
     return device == "auto" || device == "mouse" || device == "simulated" || device == "simulated-arm";
 }
 
-// Takes a station file over into the equipment; devices that the command line names have precedence.
+// Adds the station file to the equipment; devices that the command line names have precedence.
 Status add_station_file(const TrainArguments& options, trainer::Equipment& equipment) {
     BOLT_TRY_ASSIGN(const auto station, content::load_station(options.station_file));
     const bool keyword = !options.devices.empty() && is_keyword(options.devices.front());

@@ -1,4 +1,4 @@
-// The options of boltwright train, and what they choose.
+// The options of boltwright train, and the devices and the lesson that they select.
 #pragma once
 
 #include <cstdint>
@@ -50,13 +50,14 @@ enum class HeadsetUse : std::uint8_t {
     optional,  // used when there is one
     required,  // without one the program does not start
 };
-// Also takes the assembly over, if it followed --hmd. Fails with ErrorCode::usage for a wrong value.
+// If the word after --hmd is the assembly, stores it in `options`. Fails with ErrorCode::usage for a wrong
+// value.
 Result<HeadsetUse> headset_use(TrainArguments& options);
 
-// The devices of the options. A missing device is an error; there is no silent fallback.
+// The devices that the options select. A missing device is an error; there is no silent fallback.
 Result<trainer::Equipment> equipment_of(const TrainArguments& options);
 
-// The lesson and the simulated trainee of the options.
+// The lesson and the simulated trainee that the options select.
 Result<trainees::TrainOptions> train_options(const TrainArguments& options,
                                              const content::Assembly& assembly);
 

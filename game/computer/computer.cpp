@@ -40,7 +40,7 @@ servo::TickInput working_input(const servo::Setup& setup, const servo::State& st
     return input;
 }
 
-// The nearest folder that exists.
+// The folder, or the nearest of its parents that exists.
 fs::path existing_part(fs::path folder) {
     std::error_code ignored;
     folder = fs::absolute(folder, ignored);

@@ -16,7 +16,7 @@
 
 namespace bolt::computer {
 
-// The servo of an assembly's lesson at one rate.
+// The timing of an assembly's servo at one rate.
 struct ServoTiming {
     double rate = 1000.0;  // ticks per second
     servo::Timing timing;
@@ -34,7 +34,7 @@ struct GpuFacts {
     std::string name;
     bool software = false;  // the processor computes the pictures
 };
-// Of the GPU that draws. Fails if nothing can draw.
+// The GPU that draws. Fails if no device can draw.
 Result<GpuFacts> find_gpu();
 
 struct ComputerFacts {
@@ -73,7 +73,7 @@ struct Finding {
     std::optional<words::TextKey> remedy;
 };
 
-inline constexpr double min_free_space = 1e9;  // bytes; less is a finding of its own
+inline constexpr double min_free_space = 1e9;  // bytes; less is reported as Severity::bad
 
 // The findings, the worst first.
 std::vector<Finding> findings(const ComputerFacts& facts);

@@ -19,7 +19,7 @@ struct ReplayScene {
     render::Scene scene;
 };
 
-// Makes it for the beginning of a session.
+// Makes the scene for the beginning of a session.
 Result<ReplayScene> make_replay_scene(gpu::Device& device, const scene::LessonModels& models,
                                       const session::SessionSetup& start, hand::Side hand);
 
@@ -35,8 +35,8 @@ struct ReplayMoment {
 // The joint that the tool holds, else the due one.
 std::optional<std::size_t> active_joint(const scene::SceneWorld& world, const lesson::Lesson& lesson);
 
-// The parts of a picture: moves everything to its place and cuts away what hides a held nut; then, when the
-// eye is known, makes the labels and collects what is drawn in `replay.scene`.
+// Call both for each picture. place() moves everything to its place and fades what hides a held nut.
+// present(), when the eye is known, makes the labels and fills `replay.scene` with all that is drawn.
 void place(ReplayScene& replay, const ReplayMoment& moment);
 void present(ReplayScene& replay, const ReplayMoment& moment, const Vec3& eye);
 

@@ -55,7 +55,7 @@ void HeadSource::add_sample(const tracking::BodySample& body) {
     waiting_.push_back({body.time, tracking::head_in_room(registration_, body.pose)});
 }
 
-// The tracker's clock is another one, so a frame counts from its arrival.
+// DTrack has a clock of its own, so a frame gets the time of its arrival.
 void HeadSource::receive(double now) {
     const auto frame = receiver_->poll();
     counts_.dtrack = receiver_->counts();

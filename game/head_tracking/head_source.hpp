@@ -31,7 +31,7 @@ class HeadSource {
     // the first call on.
     tracking::FilteredHead at(double now);
 
-    // For trackers that the caller reads. at() uses the sample.
+    // Adds a sample of a tracker that the caller reads; the next at() uses it.
     void add_sample(const tracking::BodySample& body);
 
     [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
@@ -52,7 +52,7 @@ class HeadSource {
     std::unique_ptr<xr::PoseTracker> openxr_;   // null: the runtime has ended
     double next_search_ = 0.0;                  // s
     std::vector<tracking::BodySample> recording_;
-    std::optional<double> started_;              // when the recording began, less the time of its first pose
+    std::optional<double> started_;              // s, time of at() minus time in the recording
     double played_until_ = 0.0;                  // s, in the recording
     std::vector<tracking::HeadSample> waiting_;  // in the room, since the last call of at()
     TrackerCounts counts_;

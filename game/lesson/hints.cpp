@@ -232,10 +232,10 @@ constexpr FingerRow finger_controls[] = {{HintMotion::take, "control.glove.take"
 
 }  // namespace
 
-ControlNames glove_controls(const words::Words& words, ControlNames moved_by) {
+ControlNames glove_controls(const words::Words& words, ControlNames controls) {
     for (const FingerRow& row : finger_controls)
-        at(moved_by, row.motion) = words::format_text(words, row.text, {});
-    return moved_by;
+        at(controls, row.motion) = words::format_text(words, row.text, {});
+    return controls;
 }
 
 ControlNames tracked_controls(const words::Words& words) {
@@ -273,7 +273,7 @@ bool urgent(Situation s) {
            s == Situation::all_done;
 }
 
-// The hand moves to the nut; the announcement of the step may replace these.
+// Situations in which the hand moves to the nut; the announcement of the step may replace their hints.
 bool on_the_way(Situation s) {
     return s == Situation::take_wrench || s == Situation::put_wrench_away || s == Situation::find_by_wrench ||
            s == Situation::find_by_fingers;

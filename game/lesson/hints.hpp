@@ -81,7 +81,7 @@ ControlNames keyboard_controls(const words::Words& words, const std::string& but
 
 // Glove or gripper: takes the controls of the device that moves the hand, and replaces those that the fingers
 // perform.
-ControlNames glove_controls(const words::Words& words, ControlNames moved_by);
+ControlNames glove_controls(const words::Words& words, ControlNames controls);
 // A hand that a headset tracks.
 ControlNames tracked_controls(const words::Words& words);
 
@@ -104,7 +104,7 @@ inline constexpr HintTimes practice_times{{20.0, 35.0, 50.0, 65.0}};
 inline constexpr double min_hint_duration = 1.5;            // s
 inline constexpr double min_duration_when_fulfilled = 0.5;  // s, once its request is fulfilled
 
-// How far the hand has come with the nut of a step.
+// Progress of the hand towards the nut of a step.
 enum class Reached : std::uint8_t { nothing, right_tool, tool_on_nut };
 
 // The best values reached in a step; a new best is progress.
@@ -126,7 +126,7 @@ struct HintState {
     Situation candidate = Situation::all_done;   // situation of the last frame
     double candidate_for = 0.0;                  // s
     double differs_for = 0.0;                    // s since `candidate` and `situation` differ
-    Situation underlying = Situation::all_done;  // situation while a step is announced
+    Situation underlying = Situation::all_done;  // of the shown hint, as in make_hint()
     std::size_t step = SIZE_MAX;
     double step_time = 0.0;  // s since the step began
     int pass = -1;

@@ -64,7 +64,7 @@ struct JointTrack {
     bool turned_back = false;    // turning the wrong way was reported in this hold
     int wrong_way_count = 0;     // holds in which it was turned the wrong way
     bool over_torqued = false;   // excess torque was reported since the nut was last off its seat
-    int over_torque_count = 0;   // this and slip_count: totals, which undoing a step does not reduce
+    int over_torque_count = 0;   // undo reduces neither this nor slip_count nor wrong_way_count
     int slip_count = 0;
     int done_in_pass = -1;  // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;
@@ -95,7 +95,7 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task);
 // The torque window of a step: the joint's window, scaled by the fraction of the pass.
 content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& step);
 
-// True if the step needs the bolt to yield.
+// True if the step tightens to the whole target with strategy `yield`.
 bool requires_yield(const Lesson& lesson, const LessonStep& step);
 
 // Set torque of the torque wrench for the due step, N·m; 0 for other tools and for steps without a torque.
@@ -115,7 +115,7 @@ double wrench_set_torque(const Lesson& lesson);
 // True if releasing the nut now completes the due step.
 bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world);
 
-// Call after each tick, once world::write_haptics() has written it.
+// Call after each tick, once world::write_haptics() has written its results into the world.
 void observe(Lesson& lesson, const world::ReadHaptics& world);
 
 // Undoes `steps` steps; 0 restarts the due step. Restores the joint tracks at that step's start; the caller

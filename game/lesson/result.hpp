@@ -60,7 +60,7 @@ enum class DeductionKind : std::uint8_t {
     unfinished
 };
 
-// A deduction from the score with its reason as text; one without points only explains.
+// A deduction from the score with its reason as text. A deduction of 0 points only explains.
 struct Deduction {
     double points = 0.0;
     std::string text;
@@ -109,7 +109,7 @@ enum class EventKind : std::uint8_t {
     note
 };
 
-// As session files store it; the names of `undo` and `visibility` are older.
+// The name in session files. `undo` and `visibility` have older names there.
 constexpr std::string_view name(EventKind kind) {
     constexpr std::string_view names[] = {"pass_begin", "step_begin", "step_end", "engage",
                                           "release",    "stage",      "click",    "mistake",

@@ -77,15 +77,15 @@ struct FreeSpace {
         for (int i = 1; i <= 24; ++i) {
             const double s = static_cast<double>(i) / 24.0;
             const Pose pose = arc_pose(from, to, s, bulge);
-            // No clearance at both ends, where the wrench may be close to obstacles; the full one in between.
+            // No clearance at both ends, where the wrench may be close to obstacles; full clearance between.
             if (!step_is_free(before, pose, clearance * 4.0 * s * (1.0 - s))) return false;
             before = pose;
         }
         return true;
     }
 
-    // True if a handle at this angle, `above` m over the nut, meets no obstacle. Tests its edges and heights
-    // too.
+    // True if a handle at this angle, `above` m over the nut, meets no obstacle. Tests lines along its middle
+    // and its edges, at three heights.
     [[nodiscard]] bool handle_is_free(std::size_t joint, double nut_angle, double angle, double above) const {
         const servo::NutGeometry& nut = setup.nuts[joint];
         const Vec3 centre = servo::nut_centre(nut, nut_angle) + above * nut.axis;

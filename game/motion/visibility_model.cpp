@@ -9,7 +9,7 @@ namespace bolt::motion {
 
 namespace {
 
-constexpr std::size_t nut_samples = 120, wrench_samples = 600;  // a tenth of the wrench's are on its head
+constexpr std::size_t nut_samples = 120, wrench_samples = 600;  // a tenth of these are on the wrench's head
 constexpr double head_size = 0.9;                               // radius of the head / jaw opening
 
 // Head positions: steps about the target, and the range of elevations of a standing person.

@@ -21,7 +21,7 @@ struct VisibilityModel {
 };
 
 // The fraction 0…1 of a nut that the obstacles do not hide. The wrench does not count as an obstacle, because
-// it has to be there. 1 if the nut has no model.
+// it must be at the nut. 1 if the nut has no model.
 double nut_visibility(VisibilityModel& model, const servo::ToolContact& contact, std::size_t joint,
                       const Vec3& eye);
 
@@ -31,7 +31,7 @@ double target_visibility(VisibilityModel& model, const servo::Setup& setup, cons
 
 struct HeadMovement {
     Vec3 eye{0.0};
-    double turn = 0.0;  // rad, total movement about the nut, with the unsuccessful attempts
+    double turn = 0.0;  // rad, total movement about the nut, including unsuccessful attempts
     int glances = 0;    // directions tried
 };
 

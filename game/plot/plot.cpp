@@ -13,7 +13,7 @@ namespace bolt::plot {
 namespace {
 
 constexpr double label_height =
-    20.0;  // of the axis labels' baseline and the second row of band labels above the area
+    20.0;  // px above the area: baseline of the axis labels and of the second row of band labels
 
 struct Mapping {
     AxisScale x, y, y2;

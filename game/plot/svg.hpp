@@ -40,8 +40,8 @@ struct SvgBox {
     double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
 };
 
-// Writes an SVG drawing element by element. It alone escapes text. `style` is a list of CSS classes; they
-// define the colours, so that one drawing serves light, dark and paper.
+// Writes an SVG drawing element by element. Escapes texts, so callers must not. `style` is a list of CSS
+// classes; they define the colours, so that one drawing serves light, dark and paper.
 class Svg {
   public:
     // `title` is read aloud by screen readers and shown as a tooltip.

@@ -136,7 +136,7 @@ Attempt attempt_of(const analysis::SessionData& session) {
         a.contact_time += contact.length;
     const double greatest = metrics.device_limits ? metrics.device_limits->force : unknown;
     a.greatest_change = metrics.force.greatest / greatest;
-    a.usual_change = metrics.force.p99 / greatest;
+    a.p99_change = metrics.force.p99 / greatest;
     return a;
 }
 
@@ -181,7 +181,7 @@ constexpr StudyMeasure measures[] = {
     {"Duration of the lesson", "min", &Attempt::duration, 1.0 / 60.0, 2},
     {"Score", "points", &Attempt::score, 1.0, 1},
     {"Largest change of force in 1 ms", "% of the device's greatest", &Attempt::greatest_change, 100.0, 2},
-    {"Usual change of force in 1 ms", "% of the device's greatest, 99th percentile", &Attempt::usual_change,
+    {"Usual change of force in 1 ms", "% of the device's greatest, 99th percentile", &Attempt::p99_change,
      100.0, 3},
 };
 

@@ -28,7 +28,7 @@ struct Attempt {
     double obstacle_contacts = 0.0, contact_time = 0.0;  // count, s
     // Change of the force in a millisecond, as shares of the device's maximum: the largest and the 99th
     // percentile.
-    double greatest_change = 0.0, usual_change = 0.0;
+    double greatest_change = 0.0, p99_change = 0.0;
 };
 
 // "Ada", "novice (simulated)", "Ada (simulated novice)" or "person without a name". For a session that does
@@ -46,8 +46,8 @@ std::vector<std::vector<std::size_t>> attempt_groups(std::span<const Attempt> at
 // curves.
 std::string attempts_section(std::span<const Attempt> attempts, bool alone = false);
 
-// HTML: compares attempts with and without the guiding force that are otherwise equal except for the seed.
-// One part for each such set, in the order of their first attempts. Empty without a set that has both.
+// HTML: compares attempts with and without the guiding force that otherwise differ at most in the seed. One
+// part for each set of such attempts, in the order of their first attempts. Empty if no set has both kinds.
 std::string guiding_study(std::span<const Attempt> attempts);
 
 // HTML: the same comparison for the view help.

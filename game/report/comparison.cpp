@@ -30,7 +30,7 @@ double common_angle(const analysis::JointComparison& joint) {
     return joint.cycles.empty() ? 0.0 : joint.cycles[0].alignment.simulated_angle;
 }
 
-std::vector<plot::SvgPoint> virtual_points(const analysis::JointComparison& joint) {
+std::vector<plot::SvgPoint> simulated_points(const analysis::JointComparison& joint) {
     std::vector<plot::SvgPoint> points;
     for (std::size_t i = 0; i < joint.simulated.size(); ++i)
         points.push_back(
@@ -92,7 +92,7 @@ void add_stages(plot::Plot& plot, const analysis::JointComparison& joint) {
 // The extent of all curves of one joint. The small plots share it, so that they can be compared.
 CurveExtent curve_extent(const analysis::Comparison& c, const analysis::JointComparison& joint) {
     CurveExtent extent{{0.0, 0.0}, {0.0, 0.0}};
-    add_curve(extent, virtual_points(joint));
+    add_curve(extent, simulated_points(joint));
     for (std::size_t i = 0; i < joint.cycles.size(); ++i) add_curve(extent, cycle_points(c, joint, i));
     return extent;
 }
@@ -101,7 +101,7 @@ plot::Plot cycle_plot(const analysis::Comparison& c, const analysis::JointCompar
                       std::size_t cycle, const CurveExtent& extent) {
     plot::Plot plot = plot_with_extent(extent, fmt::format("cycle {}", c.measured[cycle].name), 220.0, 150.0);
     plot.x.label.clear();
-    plot.lines.push_back({virtual_points(joint), "ln p2", false});
+    plot.lines.push_back({simulated_points(joint), "ln p2", false});
     plot.lines.push_back({cycle_points(c, joint, cycle), "ln me1", false});
     return plot;
 }
@@ -168,7 +168,7 @@ plot::Plot overlay_plot(const analysis::Comparison& c, std::size_t index) {
     const std::string_view style = joint.cycles.size() == 1 ? "ln me1" : "ln me";
     for (std::size_t i = 0; i < joint.cycles.size(); ++i)
         plot.lines.push_back({cycle_points(c, joint, i), style, false});
-    plot.lines.push_back({virtual_points(joint), "ln p2", false});
+    plot.lines.push_back({simulated_points(joint), "ln p2", false});
     return plot;
 }
 

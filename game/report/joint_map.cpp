@@ -46,8 +46,9 @@ struct OrderArrow {
     }
 };
 
-// Returns the position on the arrow at which its head is clear of all discs and of the heads so far, or the
-// clearest one. Avoids the middle if possible, where the lines of a cross pattern meet.
+// Returns a position on the arrow at which its head is clear of all discs and of the heads drawn so far, or
+// else the position with the least overlap. Avoids the middle if possible, where the lines of a cross pattern
+// meet.
 plot::SvgPoint head_position(const OrderArrow& arrow, const JointMapLayout& layout,
                              const std::vector<plot::SvgPoint>& heads) {
     constexpr double head_radius = 6.0;
@@ -56,7 +57,7 @@ plot::SvgPoint head_position(const OrderArrow& arrow, const JointMapLayout& layo
     for (const double share : {0.64, 0.68, 0.72, 0.6, 0.76, 0.56, 0.8, 0.5, 0.84, 0.4, 0.35, 0.3, 0.25}) {
         const plot::SvgPoint p = arrow.at(share);
         const auto distance = [&](plot::SvgPoint other) { return std::hypot(p.x - other.x, p.y - other.y); };
-        double clearance = 0.0;  // limited to 0; negative: overlap
+        double clearance = 0.0;  // 0: clear; negative: depth of the overlap
         for (const plot::SvgPoint& disc : layout.positions)
             clearance = std::min(clearance, distance(disc) - layout.radius - head_radius);
         for (const plot::SvgPoint& head : heads)
@@ -136,7 +137,7 @@ bool is_out_of_turn(const analysis::PassOrder& order, std::size_t joint) {
 }
 
 // Describes the deviation of a joint from the planned order; empty without any.
-std::string fault_text(const analysis::PassOrder& order, std::size_t joint) {
+std::string order_deviation_text(const analysis::PassOrder& order, std::size_t joint) {
     const std::size_t planned = order.planned_position(joint), visits = order.visits(joint);
     const bool out_of_turn = is_out_of_turn(order, joint);
     std::string text;
@@ -168,11 +169,11 @@ void draw_order_labels(plot::Svg& svg, const analysis::SessionData& session, con
     for (std::size_t j = 0; j < layout.positions.size(); ++j)
         put_label(svg, labels, positions(j), "sm", session.joints[j].id, plot::small_print);
     for (std::size_t j = 0; j < layout.positions.size(); ++j)
-        if (const std::string fault = fault_text(order, j); !fault.empty())
+        if (const std::string fault = order_deviation_text(order, j); !fault.empty())
             put_label(svg, labels, positions(j), "wn", fault, plot::small_print);
 }
 
-// Returns a bar height at which the bars above and below each other do not touch, including their labels.
+// Returns a bar height at which a bar and its label do not touch the bars above and below.
 double bar_height_for(const JointMapLayout& layout) {
     constexpr double label_width = 46.0, label_height = 40.0;
     double room = 56.0;

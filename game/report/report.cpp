@@ -56,7 +56,7 @@ void put_heading(std::string& out, const analysis::SessionData& s, std::size_t i
     out += plot::fact("duration", plot::duration_text(s.duration));
     out += plot::fact("seed", fmt::format("{}", s.header.seed));
     if (index > 0)
-        out += plot::path_fact("session", s.file);  // the report of a single session lies beside it
+        out += plot::path_fact("session", s.file);  // the report of a single session lies beside that file
     out += "</dl>\n";
 }
 

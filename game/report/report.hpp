@@ -28,7 +28,7 @@ std::string session_section(const analysis::SessionData& session, std::size_t nu
 // nuts, and timing of the servo. Empty if the session has neither forces nor arrivals.
 std::string haptics_section(const analysis::SessionData& session);
 
-// overview: without the sections of the single sessions, if there are several.
+// `overview` omits the sections of the single sessions if there are several sessions.
 enum class ReportExtent : std::uint8_t { everything, overview };
 
 // Returns the page, a single file without external resources. Fails without sessions, or if one cannot be
@@ -36,7 +36,7 @@ enum class ReportExtent : std::uint8_t { everything, overview };
 Result<std::string> make_report(std::span<const session::SessionReader* const> sessions,
                                 ReportExtent extent = ReportExtent::everything);
 
-// The same for data that is already read.
+// As above, for data that is already read.
 std::string make_report(std::span<const analysis::SessionData> sessions);
 
 // A session beside a measured joint (comparison.cpp).
@@ -49,7 +49,7 @@ std::string comparison_page(const analysis::Comparison& comparison);
 // Limits of the comparison: peaks that differ by a large factor, stages without samples.
 std::vector<std::string> remarks(const analysis::Comparison& comparison);
 
-// How the curves were aligned and how the errors are defined.
+// Describes the alignment of the curves and the definition of the errors.
 std::string method_text(const analysis::Comparison& comparison);
 
 }  // namespace bolt::report

@@ -141,9 +141,9 @@ namespace {
 
 constexpr glm::vec4 plate_color{0.06F, 0.07F, 0.08F, 0.82F};
 
-// Adds the symbol and colour of the verdict on the torque; a torque below the window gets none. Breakaway
-// friction does not count as too much, so the greatest torque `turned` that turned the nut must exceed the
-// window as well.
+// Adds the symbol and colour of the verdict on the torque; none below the window. `turned`: the highest
+// torque at which the nut turned. The verdict is "high" only if `turned` exceeds the window too, because a
+// high breakaway torque does not overtighten the joint.
 void add_verdict(render::Label& label, const content::ToleranceWindow& window, double torque, double turned,
                  const view::Palette& palette) {
     if (torque < window.low) return;

@@ -37,8 +37,8 @@ struct ArrowArc {
 };
 MotionArrow round_arrow(const ArrowArc& arc, const glm::vec4& color);
 
-// Displays `arrow` instead of the arrow of this meaning displayed before, with an outline that is visible
-// through other parts. None hides it.
+// Replaces the displayed arrow of this meaning by `arrow`, with an outline that is visible through other
+// parts. An empty `arrow` hides it.
 void show_arrow(SceneWorld& world, const std::optional<MotionArrow>& arrow,
                 ArrowMeaning meaning = ArrowMeaning::motion);
 
@@ -61,9 +61,10 @@ render::Label plate_label(std::string text, const Vec3& position, float height);
 Vec3 label_position(const servo::Setup& setup, const ecs::Access<const world::Joint>& joints,
                     std::size_t joint);
 
-// The label at the engaged nut. With a wrench: the torque, colour and symbol of its verdict (not in an
-// assessment), the angle since the joint was snug (before that since its step began; omitted if the joint is
-// not due), and the stage. With the fingers: the turns. None if no nut is engaged.
+// The label at the engaged nut; none if no nut is engaged. With the fingers it shows the turns; with a wrench
+// the torque, the angle and the stage. Except in an assessment, the torque has the colour and symbol of its
+// verdict. The angle counts from when the joint was snug; before that, from the start of its step, and only
+// if the joint is due.
 std::optional<render::Label> work_label(const words::Words& words, const lesson::Lesson& lesson,
                                         const servo::Setup& setup, const WorkAccess& world,
                                         const view::Palette& palette = {});

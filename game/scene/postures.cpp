@@ -101,7 +101,8 @@ Pose on_side(const Pose& of_right, hand::Side side) {
     return {of_right.position * Vec3(1.0, -1.0, 1.0), Quat(q.w, -q.x, q.y, -q.z) * Quat(0.0, 0.0, 0.0, 1.0)};
 }
 
-// Bends the fingertips back as under pressure, and the joints before them forward.
+// Shows pressure on the pads: extends the last joint of thumb, index and middle finger, and flexes the one
+// before it.
 hand::Angles pressed(hand::Angles a) {
     for (std::size_t i = 0; i < 2; ++i) {
         a.fingers[i].pip += 16.0 * deg;
@@ -122,7 +123,8 @@ hand::Angles relaxed_angles(const hand::Angles& angles) {
     return a;
 }
 
-// A wrist at a handle along the tool's x that is broad in y: the palm from above, the thumb towards the jaw.
+// The pose of the wrist when the hand grips the handle from above, the thumb towards the jaw. The handle is
+// along the tool's x and broad in y.
 Pose wrist_on_handle(double grip_distance) {
     const Pose across = inverse({Vec3(0.0, -28e-3, -98e-3), rotation({0.0, -17.5 * deg, 0.0})});
     const Pose upright{Vec3(0.0), glm::angleAxis(0.5 * pi, Vec3(1, 0, 0))};

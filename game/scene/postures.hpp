@@ -18,8 +18,9 @@ struct Effort {
     double slow = 0.0;
 };
 
-// The torque on the nut relative to the greatest of the hand, −1 … 1, tightening positive; 0 if no nut is
-// engaged. The greatest is the torque of the wrench's spring at 2.5°, or the one at which fingers slip.
+// The torque on the nut relative to the greatest torque of the hand, −1 … 1, tightening positive; 0 if no nut
+// is engaged. With a wrench the greatest torque is that of its spring at 2.5°; without one, the torque at
+// which the fingers slip.
 using EffortAccess = ecs::Access<const world::Joint, const world::ToolState, const world::WorkingHand>;
 double relative_torque(const servo::Setup& setup, const EffortAccess& world);
 

@@ -47,7 +47,7 @@ void placement_system(SceneWorld& world, const PlacementContext& context);
 // Width across flats of the widest nut, m.
 double widest_nut(const servo::Setup& setup);
 
-// Displays a transparent wrench at the pose, or a transparent hand with the skeleton `posture` in that frame.
+// Displays a transparent wrench at `tool`, or a transparent hand with the skeleton `posture` in that frame.
 void show_wrench_ghost(SceneWorld& world, const Pose& tool);
 void show_hand_ghost(SceneWorld& world, const Pose& tool, const hand::Skeleton& posture);
 void hide_ghosts(SceneWorld& world);
@@ -56,8 +56,7 @@ void hide_ghosts(SceneWorld& world);
 void outline_joint(SceneWorld& world, std::size_t joint, const glm::vec4& color);
 void outline_tool(SceneWorld& world, const glm::vec4& color);
 
-// The objects that fade in front of a nut: all but its own joint, or only the hand. The hand alone fades in a
-// larger area.
+// The objects that fade in front of a nut: all but its own joint, or only the hand, in a larger area.
 enum class Occluders : std::uint8_t { all, hand };
 void fade_occluders(SceneWorld& world, render::Scene& scene, const servo::Setup& setup, std::size_t joint,
                     Occluders occluders = Occluders::all);

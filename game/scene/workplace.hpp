@@ -73,7 +73,7 @@ struct ArrowMarker {
 using SceneWorld = world::WorldWith<Transform, Drawable, Appearance, Outline, Fadable, NutPart, JointPart,
                                     ToolPart, SkinnedHand, GhostPart, ArrowMarker>;
 
-// The person at the workplace, as far as the scene depends on it.
+// The properties of the person at the workplace that the scene depends on.
 struct Worker {
     hand::Side side = hand::Side::right;  // the working hand
     std::optional<double> seated_eyes;    // m, height of the eyes above the floor; none: standing

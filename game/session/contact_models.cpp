@@ -33,7 +33,7 @@ namespace {
 
 struct MeshNode {
     std::string node;
-    std::vector<glm::dvec3> points;  // three a triangle, in the model's frame
+    std::vector<glm::dvec3> points;  // three for each triangle, in the model's frame
 };
 
 Error content_error(const std::filesystem::path& file, std::string what, std::string expected = {}) {

@@ -43,28 +43,30 @@ struct ContactModels {
 std::optional<Error> missing_contact_model(const content::Assembly& assembly);
 
 // None if a model is missing (missing_contact_model). A joint's nut is the node `ID_nut` below the joint's
-// node; all other nodes are fixed. The wrench is `NAME.contact.glb` beside its `NAME.glb`, if it exists.
-// Errors name the file: it cannot be read, has no triangles, or has an open surface that must be closed.
+// node; all other nodes are fixed. The wrench is `NAME.contact.glb` beside its `NAME.glb` if that file
+// exists, else `NAME.glb`. Fails, and names the file, if a model cannot be read, has no triangles, or has an
+// open surface that must be closed.
 Result<std::optional<ContactModels>> load_contact_models(const content::Assembly& assembly,
                                                          const servo::Setup& setup);
 
-// Rotation from the frame of a wrench's model to the tool's frame. Errors as above.
+// Rotation from the frame of a wrench's model to the tool's frame. Fails as load_contact_models().
 Result<Quat> wrench_rotation(const content::WrenchDesign& design);
 
 Result<std::optional<servo::ToolContact>> load_tool_contact(const content::Assembly& assembly,
                                                             const servo::Setup& setup);
 
-// The assembly's wrench alone, in the tool's frame. Fails if the assembly names no wrench model, or as above.
+// The assembly's wrench alone, in the tool's frame. Fails if the assembly names no wrench model, or as
+// load_contact_models().
 Result<collision::ToolShape> load_wrench(const content::Assembly& assembly);
 
-// How well a named view of an assembly shows a joint's nut.
+// The visibility of a joint's nut in a named view of its assembly.
 struct NutView {
     double share = 0.0;  // visible fraction of the nut, 0…1
     double size = 0.0;   // visible area, relative to a square of the picture's height
     bool framed = true;  // the nut's centre is inside a picture of 4:3 or wider
 };
 
-// Moves all nuts to their seats, as in the models.
+// Moves all nuts onto their seats, where the models have them.
 void seat_nuts(const servo::Setup& setup, servo::ToolContact& contact);
 
 // One entry for each view of the assembly, in its order, for the present poses of all bodies. Empty if the

@@ -47,7 +47,7 @@ class Statement {
 
     // Columns of the row count from 0. Text and bytes live until the next step.
     [[nodiscard]] std::int64_t integer(int column) const;
-    [[nodiscard]] double real(int column) const;  // NaN for an SQL null, as which SQLite stores NaN
+    [[nodiscard]] double real(int column) const;  // NaN for SQL's NULL, because SQLite stores NaN as NULL
     [[nodiscard]] std::string_view text(int column) const;
     [[nodiscard]] std::span<const std::byte> bytes(int column) const;
 

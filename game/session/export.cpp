@@ -99,7 +99,7 @@ std::string quoted(const std::string& text) {
     return field += '"';
 }
 
-// Fields for numbers that have names. −1 gives an empty field; a number without a name, "#number".
+// CSV fields with the names of numbers. −1 gives an empty field; a number without a name gives "#NUMBER".
 class NamedFields {
   public:
     void add(std::int32_t number, const std::string& name) { names_[number] = quoted(name); }

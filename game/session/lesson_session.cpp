@@ -137,7 +137,7 @@ void lesson_system(const world::WriteHaptics& world, TickContext& tick) {
     // The last checkpoint belongs to the due step, or to the last step once all are done.
     const std::uint32_t done = lesson.due() == nullptr ? 1U : 0U;
     (void)lesson::undo_steps(lesson, world, undone - 1U + unsaved + done);
-    tracker.steps_begun = saved;  // one for the step it returned to
+    tracker.steps_begun = saved;  // counts the restored checkpoint too: that of the step that is due again
 }
 
 LessonSession::~LessonSession() = default;
@@ -174,15 +174,15 @@ Result<std::unique_ptr<LessonSession>> LessonSession::begin(SessionSetup start, 
                                                             const std::filesystem::path& file) {
     std::unique_ptr<LessonSession> session(new LessonSession);
     LessonSession& s = *session;
-    s.current_ = std::move(start);
-    BOLT_TRY_ASSIGN(auto created, SessionWriter::create(file, make_header(s.current_, options)));
+    s.session_setup_ = std::move(start);
+    BOLT_TRY_ASSIGN(auto created, SessionWriter::create(file, make_header(s.session_setup_, options)));
     s.writer_.emplace(std::move(created));
 
     lesson::Lesson& lesson = s.tracker_.lesson;
-    lesson = lesson::begin(s.current_.assembly, options.mode, options.task);
+    lesson = lesson::begin(s.session_setup_.assembly, options.mode, options.task);
     lesson.guides = lesson.guides && options.guide;
     world::World initial;
-    world::add_haptics(initial, s.current_.state);
+    world::add_haptics(initial, s.session_setup_.state);
     for (std::size_t i = 0; i < lesson.joints.size(); ++i)
         BOLT_TRY(s.writer_->update(lesson::judge_joint(lesson, i, initial)));
     return session;
@@ -230,9 +230,9 @@ Status LessonSession::repeat(const world::WriteHaptics& world, const servo::Tick
 
 Result<servo::Output> LessonSession::tick(const world::WriteHaptics& world, const servo::TickInput& input,
                                           std::vector<lesson::LessonEvent>&& extra_events) {
-    const servo::Output output = servo::tick(current_.setup, current_.state, input);
+    const servo::Output output = servo::tick(session_setup_.setup, session_setup_.state, input);
     checkpoints_saved_ += input.checkpoint_action == servo::save_checkpoint ? 1U : 0U;
-    TickContext context{{current_.state, input, output}, tracker_};
+    TickContext context{{session_setup_.state, input, output}, tracker_};
     ecs::run(tick_systems, world, context);
     events_.clear();
     std::swap(events_, tracker_.lesson.events);
@@ -243,7 +243,8 @@ Result<servo::Output> LessonSession::tick(const world::WriteHaptics& world, cons
 }
 
 LessonOutcome LessonSession::outcome(const world::ReadHaptics& world) const {
-    return {lesson::judge(lesson(), world, current_.setup.dt), current_.state.tool_contact.has_value()};
+    return {lesson::judge(lesson(), world, session_setup_.setup.dt),
+            session_setup_.state.tool_contact.has_value()};
 }
 
 Result<LessonOutcome> LessonSession::finish(const world::ReadHaptics& world) {

@@ -83,7 +83,7 @@ struct TickContext {
     LessonTracker& tracker;
 };
 
-// world::write_haptics().
+// Calls world::write_haptics().
 void haptic_system(const world::WriteHaptics& world, TickContext& tick);
 // Updates the lesson from the components, and undoes its steps if the servo undid the nuts.
 void lesson_system(const world::WriteHaptics& world, TickContext& tick);
@@ -114,8 +114,8 @@ class LessonSession {
     ~LessonSession();  // without finish() the session file is kept and marked as cut short
 
     // Computes one tick and runs tick_systems on `world`, in which world::add_haptics() has created the
-    // entities; always the same world. `extra_events`: additional events to record with the tick. Fails if
-    // the session file cannot be written; everything written before stays readable.
+    // entities. Pass the same world each time. `extra_events`: additional events to record with the tick.
+    // Fails if the session file cannot be written; everything written before stays readable.
     Result<servo::Output> step(const world::WriteHaptics& world, const servo::TickInput& input,
                                std::vector<lesson::LessonEvent> extra_events = {});
 
@@ -127,7 +127,7 @@ class LessonSession {
     // still pending. Undo does not reduce it. A caller of repeat() sends one station::SaveCheckpoint
     // whenever the number rises by one; step() does it itself.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
-        return checkpoints_saved_ + tracker_.steps_begun - current_.state.checkpoint_count;
+        return checkpoints_saved_ + tracker_.steps_begun - session_setup_.state.checkpoint_count;
     }
     // The servo::TickInput::checkpoint_action that goes back `steps` steps before the due one; 0: not
     // allowed.
@@ -141,16 +141,20 @@ class LessonSession {
     // Events of the last tick.
     [[nodiscard]] std::span<const lesson::LessonEvent> events() const { return events_; }
 
-    [[nodiscard]] const content::Assembly& assembly() const { return current_.assembly; }
-    [[nodiscard]] const servo::Setup& setup() const { return current_.setup; }
-    [[nodiscard]] const servo::State& state() const { return current_.state; }
+    [[nodiscard]] const content::Assembly& assembly() const { return session_setup_.assembly; }
+    [[nodiscard]] const servo::Setup& setup() const { return session_setup_.setup; }
+    [[nodiscard]] const servo::State& state() const { return session_setup_.state; }
     [[nodiscard]] const lesson::Lesson& lesson() const { return tracker_.lesson; }
     // Time of the lesson, s.
-    [[nodiscard]] double time() const { return static_cast<double>(current_.state.tick) * current_.setup.dt; }
+    [[nodiscard]] double time() const {
+        return static_cast<double>(session_setup_.state.tick) * session_setup_.setup.dt;
+    }
     [[nodiscard]] bool finished() const { return lesson().due() == nullptr; }
-    [[nodiscard]] bool obstacles() const { return current_.state.tool_contact.has_value(); }
+    [[nodiscard]] bool obstacles() const { return session_setup_.state.tool_contact.has_value(); }
     // Numbered as in servo::Output::touched.
-    [[nodiscard]] std::span<const ObstacleName> obstacle_names() const { return current_.obstacle_names; }
+    [[nodiscard]] std::span<const ObstacleName> obstacle_names() const {
+        return session_setup_.obstacle_names;
+    }
 
     // Records the timing of the station's servo thread.
     Status record_timing(const servo::Timing& timing) { return writer_->record_timing(timing); }
@@ -165,9 +169,9 @@ class LessonSession {
     Result<servo::Output> tick(const world::WriteHaptics& world, const servo::TickInput& input,
                                std::vector<lesson::LessonEvent>&& extra_events);
 
-    SessionSetup current_;  // its state advances with each tick
+    SessionSetup session_setup_;  // its state advances with each tick
     LessonTracker tracker_;
-    std::uint32_t checkpoints_saved_ = 0;  // times since the start; undo does not reduce it
+    std::uint32_t checkpoints_saved_ = 0;  // since the start; undo does not reduce it
     std::optional<std::size_t> requested_undo_;
     std::vector<lesson::LessonEvent> events_;
     std::optional<SessionWriter> writer_;

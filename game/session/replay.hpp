@@ -36,7 +36,7 @@ using VisitTick = std::function<bool(const ReplayTick&)>;  // false: stop
 // world::add_haptics() has created the entities, before `visit`.
 Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
                             const world::WriteHaptics& world, const VisitTick& visit);
-// The same in a world of its own.
+// As above, in a new world.
 Result<ReplayResult> replay(const SessionReader& session, SessionSetup start, const VisitTick& visit);
 
 // The recorded hand of a session as a device that repeats its motion (haptics/device/virtual_devices.hpp), in

@@ -77,8 +77,8 @@ Status keep_old_file(const std::filesystem::path& path, const std::string& file)
     std::error_code status;
     if (!std::filesystem::equivalent(path, kept, status)) {
         remove_with_logs(kept);
-        // With a hard link `path` names a session all the time. Some file systems do not support it, and
-        // some users may not link files of others.
+        // With a hard link `path` names a session at all times. Some file systems do not support hard links,
+        // and some users may not link files of other users.
         std::filesystem::create_hard_link(path, kept, status);
         if (status) std::filesystem::rename(path, kept, status);
         if (status)
@@ -159,14 +159,14 @@ struct SessionWriter::State {
     Status merge_wal();
     void update(const lesson::JointResult& result);
 
-    std::optional<FileLock> lock;  // destroyed last; both are empty after finish()
+    std::optional<FileLock> lock;  // destroyed last; lock and database are empty after finish()
     std::optional<Database> database;
     std::string file;
     double dt = 0.0;
     std::size_t chunk_ticks = 0;
     TableChecksums checksums;
     ChunkEncoder encoder;
-    std::vector<TickRecord> ticks;  // not yet committed, as are the events
+    std::vector<TickRecord> ticks;  // ticks and events that are not yet committed
     std::vector<lesson::LessonEvent> events;
     std::optional<servo::Timing> timing;
     std::vector<JointRow> joints;  // in the order of their first update()
@@ -257,9 +257,9 @@ Result<SessionWriter> SessionWriter::create(const std::filesystem::path& path, c
     BOLT_TRY_ASSIGN(auto lock, acquire_lock(real, file));
     BOLT_TRY(create_file(real, file, header, checksums));
     BOLT_TRY_ASSIGN(auto database, Database::open(real, file));
-    // NORMAL: a commit survives the death of the process, a checkpoint also a power failure; commits do not
-    // wait for the disk. A checkpoint at each megabyte keeps the longest commit short. The update changes no
-    // value, but creates the -wal file by which a reader detects a writer.
+    // NORMAL: commits do not wait for the disk. A commit survives the death of the process, and after
+    // SQLite's next checkpoint also a power failure. A checkpoint at each megabyte keeps the longest commit
+    // short. The update changes no value, but creates the -wal file by which a reader detects a writer.
     BOLT_TRY(
         database.execute("PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 256;"
                          "UPDATE meta SET value = value WHERE key = 'state'"));
@@ -276,7 +276,8 @@ Status SessionWriter::append(const TickRecord& tick) {
     State& state = *state_;
     if (state.stop_error) return fail(*state.stop_error);
     if (!is_valid(tick))
-        return file_error(state.file, "was given a tick with a value out of range", "finite values");
+        return file_error(state.file, "was given a tick with a value out of range",
+                          "enumerations and indices in their ranges");
     state.ticks.push_back(tick);
     if (state.ticks.size() < state.chunk_ticks) return {};
     return state.commit(nullptr);

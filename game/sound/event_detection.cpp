@@ -41,7 +41,7 @@ EventDetector::WrenchEnds ends_of(const servo::Setup& setup, const Pose& tool) {
     return {tool.position, tool.position + tool.orientation * Vec3(setup.wrench.handle_length, 0.0, 0.0)};
 }
 
-// Clamp force over the joint's reference load. The published law has only torques.
+// Clamp force over the joint's reference load. The published law has no clamp force: torque over its maximum.
 double load_of(const servo::Setup& setup, const world::Joint& joint) {
     if (setup.group.law == joint::Law::published)
         return std::abs(joint.torque) / setup.group.published.T_max_Nm;
@@ -159,7 +159,7 @@ void detect_nut(EventDetector& detector, const servo::Setup& setup, const Audibl
         cues.creep_speed = static_cast<float>(loaded_share * turned);
         cues.load = static_cast<float>(load);
     }
-    // A joint that slips is no longer engaged, so its load is that of the last tick.
+    // A jaw that slipped no longer engages the joint, so the joint's load is that of the last tick.
     if (contact.slipped >= 0) cues.slip = static_cast<float>(std::max(0.05, detector.load));
     detector.joint = contact.joint;
     if (engaged != nullptr) detector.nut_angle = engaged->angle;

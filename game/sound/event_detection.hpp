@@ -1,5 +1,5 @@
 // Derives sound cues from the servo's output. A replayed session therefore gives the same sounds as the
-// lesson. No clock and no allocation in detect_events.
+// lesson. detect_events reads no clock and allocates nothing.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ LessonCues lesson_cues(std::span<const lesson::LessonEvent> events);
 
 // State of the detection between ticks.
 struct EventDetector {
-    std::vector<StruckSurface> surfaces;  // result of struck_surfaces; beyond its end: castings
+    std::vector<StruckSurface> surfaces;  // result of struck_surfaces; obstacles beyond its end are castings
 
     // The positions, m, of both ends of the wrench.
     struct WrenchEnds {
@@ -44,7 +44,7 @@ struct EventDetector {
     StruckSurface last_surface = StruckSurface::casing;  // of the last contact
     double since_strike = 0.0;                           // s
     double last_strike = 0.0;                            // m/s
-    double pending_strike = 0.0;  // m/s, highest speed lost by a strike that still goes on
+    double pending_strike = 0.0;  // m/s, highest speed lost so far in a strike in progress; 0: none
 
     // Values of the last tick.
     std::int16_t joint = -1;

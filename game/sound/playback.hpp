@@ -77,8 +77,8 @@ class LiveSound {
     audio::Speaker speaker_;
 };
 
-// Renders tick by tick, without a queue. Returns whole samples whose total number follows the ticks'
-// duration.
+// Renders tick by tick, without a queue. If the samples per tick are not a whole number, their number varies
+// by one from tick to tick, so that the total matches the duration of all ticks.
 class CueRenderer {
   public:
     CueRenderer(Synth synth, double dt) : synth_(std::move(synth)), samples_per_tick_(synth_.rate * dt) {}
@@ -114,7 +114,7 @@ class Soundtrack {
     // Adds the tick that ends at `time` (s).
     Status add_tick(const servo::Setup& setup, const Audible& world, const LessonCues& lesson, double time);
 
-    // Completes the file. It does not exist before.
+    // Completes the file, which exists only from then on.
     Status finish() { return wav_.finish(); }
 
   private:

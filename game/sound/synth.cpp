@@ -76,7 +76,7 @@ double ForcePulses::next() {
 namespace {
 
 // Levels, of full scale, before the limiter. Chosen from the waveforms of lessons.
-constexpr double strike_level = 0.55, scrape_gain = 0.5, run_level = 0.06, tick_level = 0.08,
+constexpr double strike_level = 0.55, scrape_gain = 0.5, run_level = 0.06, run_pulse_level = 0.08,
                  groan_level = 0.2, click_level = 0.5, slip_level = 1.2, crackle_level = 0.04,
                  bell_level = 0.16, gong_level = 0.22;
 
@@ -105,12 +105,13 @@ ResonatorBank make_wrench(const servo::Wrench& wrench, double rate) {
     return {modes, rate};
 }
 
-// A hollow casting of cast iron, whose graphite damps it. Chosen.
+// A hollow casting of cast iron, whose graphite damps it. The values of this bank and of the
+// next two are design choices.
 constexpr ResonatorMode casing_modes[] = {{173, 0.05, 1.0}, {291, 0.04, 0.9},   {468, 0.03, 0.7},
                                           {742, 0.02, 0.5}, {1130, 0.015, 0.4}, {1730, 0.01, 0.3}};
-// A nut on its bolt: high and short. Chosen.
+// A nut on its bolt: high and short.
 constexpr ResonatorMode nut_modes[] = {{2870, 0.02, 1.0}, {4330, 0.015, 0.7}, {6120, 0.01, 0.4}};
-// Joint and wrench together, excited while the bolt is being stretched. Chosen.
+// Joint and wrench together, excited while the bolt is being stretched.
 constexpr ResonatorMode groan_modes[] = {
     {187, 0.03, 1.0}, {311, 0.025, 0.8}, {534, 0.015, 0.6}, {905, 0.01, 0.3}};
 constexpr ResonatorMode ratchet_modes[] = {{1860, 0.012, 0.8}, {3170, 0.01, 1.0}, {4720, 0.006, 0.6}};
@@ -134,7 +135,7 @@ constexpr std::uint32_t band_update_interval = 16;  // samples between updates o
 
 constexpr double full_run = 8.0;      // rad/s of a nut that is spun fast with the fingers
 constexpr double max_pitch = 3000.0;  // Hz
-constexpr double tone_from = 150.0;   // Hz; single ticks below, a tone above
+constexpr double tone_from = 150.0;   // Hz; single pulses below, a tone above
 
 // rad of rotation before a stuck nut slips: stick_angle, and at full load up to extra_stick_angle more.
 constexpr double stick_angle = 0.004, extra_stick_angle = 0.012;
@@ -153,8 +154,8 @@ double soft_limit(double x) {
 
 double white(Random& noise) { return 2.0 * noise.uniform() - 1.0; }
 
-// Adds a pulse that excites a bank to about `level`: the modes of a bank add up to the pulse's area.
-// `seconds`, `delay`: s.
+// Adds a pulse that excites a bank to about `level`: a short pulse gives each mode an amplitude of the mode's
+// level times the pulse's area. `seconds`, `delay`: s.
 void hit(ForcePulses& pulses, double level, double seconds, double rate, double delay = 0.0) {
     pulses.add(level, seconds * rate, delay * rate);
 }
@@ -187,11 +188,11 @@ double run(Synth& s) {
     s.run_phase += pitch / s.rate;
     if (s.run_phase >= 1.0) {
         s.run_phase -= 1.0;
-        const double tick_share = square(tone_from / (tone_from + pitch));
-        s.nut_pulses.add(tick_level * tick_share * (0.3 + 0.7 * level) * s.noise.uniform(0.6, 1.0),
+        const double run_pulse_share = square(tone_from / (tone_from + pitch));
+        s.nut_pulses.add(run_pulse_level * run_pulse_share * (0.3 + 0.7 * level) * s.noise.uniform(0.6, 1.0),
                          0.15e-3 * s.rate);
     }
-    // At pitches too low to be perceived as a tone only the ticks sound.
+    // At pitches too low to be perceived as a tone only the pulses sound.
     const double tone_share = square(pitch) / (square(pitch) + square(tone_from));
     const double angle = 2.0 * pi * s.run_phase;
     return run_level * level * tone_share *

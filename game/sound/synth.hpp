@@ -3,7 +3,7 @@
 //
 //   strike, click, slip, chimes   force pulses that excite resonators
 //   slide                         band-pass noise whose frequency rises with the speed
-//   run                           a tone and ticks, a fixed number per turn of the nut
+//   run                           pulses, a fixed number per turn of the nut; a tone when they are fast
 //   creep                         stick-slip: the nut sticks, then slips with a pulse
 //
 // All inputs are smoothed. A limiter keeps the output below 1, and a second one limits its slope (max_slope).

@@ -19,14 +19,19 @@ ControllerTip::ControllerTip(ControllerIo io, const Vec3& tip, const TouchOption
 Result<ControllerSample> ControllerTip::next_sample() {
     io_.timer.wait(controller_period);
     if (io_.stop()) return fail(ErrorCode::failed, "the registration was interrupted");
-    return io_.read();
+    BOLT_TRY_ASSIGN(const ControllerSample sample, io_.read());
+    if (!origin_moves_) origin_moves_ = sample.origin_moves;
+    if (sample.origin_moves != *origin_moves_)
+        return fail(ErrorCode::failed, "the headset was recentred while points were measured",
+                    "one origin for all points: measure them again");
+    return sample;
 }
 
 // A press while the controller is not tracked measures no position, so the reason is shown once more.
 Status ControllerTip::wait_for_press() {
-    (void)io_.confirmed();  // an Enter from before is no confirmation
-    bool held = true;       // a button that is held from before is no press
-    bool shown = false;     // the user knows that the controller is not tracked
+    (void)io_.confirmed();  // an earlier press of Enter does not count
+    bool held = true;       // a button that is already held does not count
+    bool shown = false;     // the message that the controller is not tracked
     double tracked_time = io_.timer.now();
     while (true) {
         BOLT_TRY_ASSIGN(const ControllerSample sample, next_sample());

@@ -1,5 +1,5 @@
-// Points of the user's choice, touched with the tip of a tracked controller and with that of an arm: their
-// positions in both frames are measured, so no mark whose place is known is needed.
+// Measures points of the user's choice in two frames: the user touches each point with the tip of a tracked
+// controller and with the tip of an arm. No mark with a known position is needed.
 #pragma once
 
 #include <functional>
@@ -13,11 +13,12 @@ namespace bolt::station_setup {
 
 // A controller as its tracker reports it now.
 struct ControllerSample {
-    std::optional<Pose> pose;  // of its grip, in the tracker's frame; none: it is not tracked
-    bool pressed = false;      // its button
+    std::optional<Pose> pose;        // of its grip, in the tracker's frame; none: it is not tracked
+    bool pressed = false;            // its button
+    std::uint32_t origin_moves = 0;  // times that the origin of the tracker's frame was moved
 };
 
-// The functions of the program that a touch with a controller uses; tests replace them as those of TouchIo.
+// The functions of the program that a touch with a controller calls. Tests replace them, as they do TouchIo.
 struct ControllerIo {
     std::function<Result<ControllerSample>()> read;  // fails if the tracker is lost
     std::function<bool()> confirmed;                 // Enter was pressed since the last call
@@ -26,29 +27,29 @@ struct ControllerIo {
     device::Timer timer;
 };
 
-// The noise of optical trackers, about a millimetre, disappears in the mean, so the limit of the motion is
-// larger than that of an arm. max_silence: a controller that is not tracked for so long is reported.
+// Permits more motion than for an arm, because optical trackers have a noise of about a millimetre, which the
+// mean removes. A controller that is not tracked for max_silence is reported.
 inline constexpr TouchOptions controller_touch{0.3, 3.0e-3, 5, 1.0};
 
-// The user turns the controller about its tip for so long, s. A tip that has slipped by some millimetres
-// leaves a larger rms.
+// Time, s, for which the user turns the controller about its tip, and limit of the rms, m, of the tip's fit.
+// A tip that has slipped by some millimetres exceeds the limit.
 inline constexpr double pivot_time = 6.0, max_pivot_rms = 2.0e-3;
 
 // The tip of a controller, in the tracker's frame: the user touches a point and presses the controller's
 // button or Enter. The position is averaged; if the hand moved, or the controller was not tracked meanwhile,
-// the point is asked for again. While it is not tracked, the program says so and waits.
+// the user must touch the point again. While the controller is not tracked, the program reports it and waits.
 class ControllerTip {
   public:
     // `tip`: m, in the frame of the grip.
     ControllerTip(ControllerIo io, const Vec3& tip, const TouchOptions& options = controller_touch);
 
-    // Finds where the tip is in the frame of the grip, and takes it for the touches that follow: the user
-    // keeps the tip on one point and turns the controller about it. Turns that do not determine the tip, or a
-    // tip that slips, are asked for again.
+    // Measures the position of the tip in the frame of the grip, and uses it in all later touches: the user
+    // keeps the tip on one point and turns the controller about it. Repeats this if the turns do not
+    // determine the tip, or if the tip has slipped.
     Result<PivotFit> find_tip();
 
-    // Shows `request` and waits until point `number`, from 0, is measured. Fails if the tracker is lost or
-    // the user ends it.
+    // Shows `request` and waits until point `number`, from 0, is measured. Fails if the tracker is lost, its
+    // origin has moved since the first sample, or the user interrupts.
     Result<Vec3> touch(std::size_t number, std::string_view request);
 
   private:
@@ -59,6 +60,7 @@ class ControllerTip {
     ControllerIo io_;
     Vec3 tip_;
     TouchOptions options_;
+    std::optional<std::uint32_t> origin_moves_;  // at the first sample
 };
 
 // Measures `count` points, each with the controller first and then with the arm: PointPair::from is in the

@@ -20,10 +20,10 @@ constexpr double release_time = 0.05;    // s until the force has ended and the 
 struct CheckedDevice {
     device::DeviceThread& thread;
     device::Timer timer = device::steady_timer();
-    servo::Histogram age{};    // of the servo thread
+    servo::Histogram age{};    // written by the servo thread
     std::uint64_t number = 0;  // of the last sample
     std::uint64_t samples = 0;
-    std::optional<station::StiffnessTrial> trial{};  // of the servo thread
+    std::optional<station::StiffnessTrial> trial{};  // stepped by the servo thread
     std::uint32_t dead_man = 0;                      // mask; 0: the device has no such button
     std::atomic<bool> held = false, ended = false;
 
@@ -54,7 +54,7 @@ Result<servo::ServoThread> run_ticks(CheckedDevice& checked) {
     });
 }
 
-// Waits for the end of the trial. Returns why it has none.
+// Waits for the end of the trial. Returns the reason if it was aborted, or else an empty text.
 Result<std::string> wait_for_trial(CheckedDevice& checked, const std::function<bool()>& stop) {
     BOLT_TRY_ASSIGN(auto servo, run_ticks(checked));
     double held_at = checked.timer.now();
@@ -73,7 +73,7 @@ Result<std::string> wait_for_trial(CheckedDevice& checked, const std::function<b
 std::string end_of(const station::StiffnessTrial& trial) {
     switch (trial.end) {
         case station::TrialEnd::reported:
-            return "all that it announces";
+            return "the full reported stiffness";
         case station::TrialEnd::oscillation:
             return fmt::format("at {:.2g} N/mm the handle keeps oscillating",
                                1e-3 * stiffness_of(trial, trial.level));

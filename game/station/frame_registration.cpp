@@ -12,7 +12,8 @@ std::string pair_name(const content::Registration& one) {
     return fmt::format("{} -> {}", content::name(one.from), content::name(one.to));
 }
 
-// Number of the point with the largest left-out residual, from 1; 0 with three points.
+// Number, from 1, of the point with the largest left-out residual; 0 if no point has one, as with three
+// points.
 std::size_t worst_point(const MeasuredRegistration& measured) {
     std::size_t worst = 0;
     double most = 0.0;
@@ -37,7 +38,7 @@ Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, cont
     measured.residuals = aligned.residuals;
     measured.left_out = left_out_residuals(fitted);
     measured.scale = aligned.scale;
-    measured.thickness = aligned.thickness;
+    measured.thickness_ratio = aligned.thickness_ratio;
     content::Registration& one = measured.registration;
     one.from = from;
     one.to = to;
@@ -89,7 +90,7 @@ std::vector<std::string> warnings_of(const MeasuredRegistration& measured) {
         warnings.push_back(fmt::format(
             "{} points and a check point are few; {} or more are advised, around the place of work",
             measured.residuals.size(), advised_points));
-    if (measured.thickness < flat)
+    if (measured.thickness_ratio < flat)
         warnings.emplace_back("the points lie near a plane, so a mirrored axis cannot be detected");
     return warnings;
 }

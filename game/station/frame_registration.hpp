@@ -16,7 +16,7 @@ namespace bolt::station_setup {
 inline constexpr double max_rms = 4e-3;
 inline constexpr double max_check_error = 5e-3;
 
-// Points for the pose besides the check point: fewer give a warning.
+// Fewer points than this give a warning; the check point does not count.
 inline constexpr std::size_t advised_points = 6;
 
 struct MeasuredRegistration {
@@ -24,11 +24,11 @@ struct MeasuredRegistration {
     std::vector<double> residuals;                // m, of each point but the check point
     std::vector<std::optional<double>> left_out;  // m, left_out_residuals() of the same points
     double check_error = 0.0;                     // m, of the check point
-    double scale = 1.0, thickness = 0.0;          // of RigidAlignment
+    double scale = 1.0, thickness_ratio = 0.0;    // of RigidAlignment
 };
 
 // The last pair is the check point: it is not used for the pose. Fails with fewer than four pairs, or as
-// align_points(), whose AlignmentFaultDetail the error then has. `date`: as content::is_utc_date().
+// align_points() fails, with the same AlignmentFaultDetail. `date`: valid for content::is_utc_date().
 Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, content::CoordinateFrame to,
                                              std::span<const PointPair> pairs, const std::string& date);
 

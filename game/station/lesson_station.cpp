@@ -50,7 +50,7 @@ class ThreadedStation final : public LessonStation {
     station::Station station_;
 };
 
-// The simulated arm moves in the time of the frames.
+// The time of the simulated arm advances with step().
 class FrameSteppedStation final : public SteppedStation {
   public:
     explicit FrameSteppedStation(const device::Description& arm)

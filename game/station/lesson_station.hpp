@@ -28,8 +28,8 @@ class LessonStation {
     virtual void set_controls(const station::StationControls& controls) = 0;
     // Fails if the command queue is full (station::Station::send).
     [[nodiscard]] virtual Status send(const station::StationCommand& command) = 0;
-    // Input from mouse and keyboard, used if no device moves the tool, or a simulated arm does; call it every
-    // frame.
+    // The input of a virtual puck, and of the hand that moves a simulated arm; call it every frame. Ignored
+    // if the station has no such mover.
     virtual void set_puck_input(const device::PuckInput& /*input*/) {}
     virtual void set_hand_motion(const device::HandMotion& /*motion*/) {}
     // Call once a frame with the time since the last one, s. Runs the ticks of that time if the station has
@@ -40,11 +40,12 @@ class LessonStation {
     virtual const station::StationTick& latest_tick() = 0;       // is updated in a pause too
     [[nodiscard]] virtual std::uint64_t lost_ticks() const = 0;  // dropped because they were not read in time
     virtual const station::DisplayedHand* hand() = 0;            // null: no gloved hand
-    virtual std::vector<std::string> fault_messages() = 0;       // of devices and glove, present ones
-    // Needs of the device that moves the tool before it can be opened again, after it was lost.
+    virtual std::vector<std::string> fault_messages() = 0;       // present faults of devices and glove
+    // After the device that moves the tool was lost: its needs before it can be opened again.
     virtual device::ArmNeeds needs() { return {}; }
-    virtual device::DeviceHealth health() { return {}; }  // of that device
-    virtual void permit_move() {}  // to that device, for its next attempt (device::MovePermission)
+    virtual device::DeviceHealth health() { return {}; }  // of the device that moves the tool
+    // Permits that device to move by itself at its next opening (device::MovePermission).
+    virtual void permit_move() {}
 
     [[nodiscard]] virtual const station::DeviceLayout& layout() const = 0;
     [[nodiscard]] virtual const servo::Setup& setup() const = 0;
@@ -61,7 +62,7 @@ Result<std::unique_ptr<LessonStation>> start_threaded_station(
     station::StationOptions options, VirtualMover mover,
     std::shared_ptr<device::MovePermission> permission = {});
 
-// Starts a SteppedStation whose simulated arm moves in the time of the frames. `arm`:
+// Starts a SteppedStation with a simulated arm, whose time advances with step(). `arm`:
 // device::simulated_arm_description() or device::tracked_hand_description().
 Result<std::unique_ptr<LessonStation>> start_frame_stepped_station(const station::StationOptions& options,
                                                                    const device::Description& arm);

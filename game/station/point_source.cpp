@@ -54,8 +54,8 @@ Result<device::DeviceSnapshot> ArmTip::next_snapshot() {
 }
 
 Status ArmTip::wait_for_press() {
-    (void)io_.confirmed();  // an Enter from before is no confirmation
-    buttons_ = ~0U;         // and a button that is held from before is no press
+    (void)io_.confirmed();  // an earlier press of Enter does not count
+    buttons_ = ~0U;         // a button that is already held does not count
     while (true) {
         BOLT_TRY_ASSIGN(const device::DeviceSnapshot snapshot, next_snapshot());
         const bool fresh = snapshot.usable && snapshot.number != sample_;

@@ -1,5 +1,5 @@
-// Sources of the points from which a registration is computed: each measures a point in its own frame while
-// its place in the other frame is known.
+// Sources of the points from which a registration is computed. A source measures, in its own frame, points
+// whose positions in the other frame are known.
 #pragma once
 
 #include <functional>
@@ -21,8 +21,8 @@ class PointSource {
     PointSource& operator=(const PointSource&) = delete;
     virtual ~PointSource() = default;
 
-    // Measures point `number`, from 0, of `count`, whose place in the other frame is `target`, m. Waits until
-    // it is measured. Fails if the source is lost or the user ends it.
+    // Measures point `number`, from 0, of `count`, whose position in the other frame is `target`, m. Waits
+    // until it is measured. Fails if the source is lost or the user interrupts.
     virtual Result<Vec3> measure(std::size_t number, std::size_t count, const Vec3& target) = 0;
 };
 
@@ -32,14 +32,14 @@ Result<std::vector<PointPair>> measure_points(PointSource& source, std::span<con
 struct TouchOptions {
     double duration = 0.3;        // s over which positions are averaged
     double max_motion = 1.0e-3;   // m, largest distance of a position from their mean
-    std::size_t min_samples = 5;  // fewer are no touch
+    std::size_t min_samples = 5;  // fewer make the touch invalid
     double max_silence = 1.0;     // s without a sample until the device counts as lost
 };
 
 // The mean of positions. Fails if the hand moved between them, or if there are too few.
 Result<Vec3> average_touch(std::span<const Vec3> positions, const TouchOptions& options = {});
 
-// The functions of the program that a touch uses; tests replace them and run in virtual time.
+// The functions of the program that a touch calls; tests replace them and run in virtual time.
 struct TouchIo {
     std::function<device::DeviceSnapshot()> snapshot;  // the device's latest sample
     std::function<bool()> confirmed;                   // Enter was pressed since the last call

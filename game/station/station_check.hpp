@@ -1,4 +1,4 @@
-// Compares a station file with the devices that it names, and makes a first one from the connected devices.
+// Compares a station file with the devices that it names, and makes a new file from the connected devices.
 #pragma once
 
 #include "game/station/station_setup.hpp"
@@ -23,12 +23,12 @@ struct StationFacts {
 StationFacts find_facts(const content::StationFile& station);
 
 // Findings that prevent the use come first. `arm` must sense a pose or a velocity, `wheel` a turn. Pass the
-// descriptions that the devices report, not those that a station has lowered.
+// descriptions that the devices report, not descriptions whose limits a station has lowered.
 std::vector<StationFinding> compare(const content::StationFile& station, const StationFacts& facts);
 std::vector<StationFinding> compare(const content::StationMover& arm, const device::Description& reported);
 std::vector<StationFinding> compare(const content::StationWheel& wheel, const device::Description& reported);
 
-// A line each.
+// One line for each finding.
 std::string describe(std::span<const StationFinding> findings);
 
 // Opens the device and reads what it reports. Fails if it cannot be opened within 3 s.

@@ -94,7 +94,7 @@ std::vector<std::string> ids_of(const DeviceSelection& selection) {
 
 namespace {
 
-// `id`: of the file, in this role; empty: it names none.
+// `id`: the device that the station file names for this role; empty: it names none.
 Status check_role(std::span<const device::ListedDevice> connected, const std::vector<std::string>& ids,
                   const std::string& id, DeviceRole role) {
     if (id.empty()) return {};
@@ -136,11 +136,11 @@ namespace fs = std::filesystem;
 constexpr int max_latency_timer = 2;   // ms
 constexpr double glove_timeout = 6.0;  // s; the handshake sends each query up to three times
 
-// Offset, m, and rotation about y, rad, of an enclosed flat bar along x from the wrist of an average right
-// hand.
+// A flat bar along x that an average right hand encloses: its offset, m, and its rotation about y, rad, from
+// the wrist.
 constexpr Vec3 handle_offset(0.0, -0.028, -0.098);
 constexpr double handle_angle = to_radians(-17.5);
-// Fractions of a full closure at which the hand must hold the handle; a grasp is not a clenched fist.
+// Fractions of a full closure at which grasps of the handle are tested; a grasp is not a clenched fist.
 constexpr std::array closures{0.7, 0.8, 0.9, 1.0};
 
 // Offsets to try, m, nearest first, because a thin handle lies deeper in the fingers.

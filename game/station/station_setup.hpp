@@ -30,8 +30,8 @@ const char* describe(DeviceRole role);
 
 // In the following, `connected` is the result of device::list_devices().
 
-// The device with this id. Fails if there is none, and then suggests the nearest id, or if it cannot be
-// opened, and then names the remedy.
+// The device with this id. Fails if there is none, with the nearest id as a suggestion, or if the device
+// cannot be opened, with the remedy.
 Result<device::ListedDevice> find_device(std::span<const device::ListedDevice> connected,
                                          const std::string& id);
 
@@ -50,7 +50,7 @@ std::vector<std::string> ids_of(const DeviceSelection& selection);
 
 // If `ids` is empty, sets it to the devices of the station file. Fails if a device of the file is connected
 // and cannot have its role, or with ErrorCode::usage if one of `ids` has the role of another device in the
-// file: its settings are for that one.
+// file, because the file's settings are for that other device.
 Status add_devices_of(const content::StationFile& station, std::span<const device::ListedDevice> connected,
                       std::vector<std::string>& ids);
 
@@ -71,8 +71,8 @@ Result<content::GloveCalibration> find_calibration(const std::string& trainee,
                                                    const std::filesystem::path& folder = {});
 
 // The pose of the wrist, in the tool's frame, of a hand around the handle at `along` m from the jaw, thumb
-// towards the jaw, palm on the side of the tool's normal. Of the poses near a natural grip, the one at which
-// the most closures of the hand grasp the handle; of equal ones the nearest.
+// towards the jaw, palm on the side of the tool's normal. Selects, among poses near a natural grip, the pose
+// at which the most closures of the hand grasp the handle; if several are equal, the nearest.
 Pose wrist_at_handle(const hand::Hand& hand, const collision::ToolShape& tool, double along);
 
 // The gloved hand at the assembly's wrench. Fails if the wrench has no contact model.
@@ -81,9 +81,11 @@ Result<station::HandSetup> make_hand_setup(const content::Assembly& assembly,
 
 struct StationRequest {
     std::vector<std::string> devices{};  // ids, at most one per role
-    // Its settings apply to those of its devices that are in `devices`; its glove and tool are not used.
+    // The settings of the station file apply to those of its devices that are in `devices`; its glove and
+    // tool are not used.
     content::StationFile station{};
-    // Used instead of the station's; empty: the station's, or the defaults of device::WheelConfig.
+    // Replaces the station's wheel configuration; empty: that of the station, or the defaults of
+    // device::WheelConfig.
     std::filesystem::path wheel_config_file{};
     // Moves the tool if no device does, for example mouse and keyboard.
     device::DeviceFactory fallback_mover{};
@@ -110,8 +112,8 @@ struct PlannedStation {
     bool obstacles = false;                                // the assembly has contact models
 };
 
-// Applies the settings of a station file to those devices of `planned` whose ids it names: the map, the
-// limits and the buttons go to the options. Returns the configuration of the wheel.
+// Applies the settings of a station file to those devices of `planned` whose ids it names: the workspace
+// mapping, the limits and the buttons go to the options. Returns the configuration of the wheel.
 device::WheelConfig apply_station(const content::StationFile& station, PlannedStation& planned);
 
 // Fails for an invalid request before it opens a device; opens only the glove, to query its identity. The

@@ -10,7 +10,7 @@ bool SteppedStation::next_tick(station::StationTick& tick) {
 }
 
 void SteppedStation::run_ticks(double seconds) {
-    for (owed_ += seconds; owed_ >= setup_.dt; owed_ -= setup_.dt) tick();
+    for (unstepped_time_ += seconds; unstepped_time_ >= setup_.dt; unstepped_time_ -= setup_.dt) tick();
 }
 
 void SteppedStation::tick() {

@@ -23,11 +23,11 @@ class SteppedStation : public LessonStation {
     [[nodiscard]] const servo::Setup& setup() const override { return setup_; }
 
   protected:
-    // Runs the ticks of that time, s. The layout, the setup and both states must have been set.
+    // Runs the ticks of the next `seconds`. Set layout_, setup_, servo_ and state_ before the first call.
     void run_ticks(double seconds);
-    // Serves the devices until `now`, s of ticks since the start, and fills in their samples.
+    // Advances the devices to `now`, s of ticks since the start, and writes their samples into `inputs`.
     virtual void read_devices(double now, station::StationInputs& inputs) = 0;
-    // Takes the commands for the devices. A test may change the tick.
+    // Writes the commands of `done` to the devices. A test may change the tick in `done`.
     virtual void write_devices(station::StationStep& done) = 0;
 
     station::DeviceLayout layout_;
@@ -42,7 +42,7 @@ class SteppedStation : public LessonStation {
     std::vector<station::StationCommand> commands_;  // of the next tick
     std::deque<station::StationTick> ticks_;         // that were not read yet
     station::StationTick latest_;
-    double now_ = 0.0, owed_ = 0.0;  // s
+    double now_ = 0.0, unstepped_time_ = 0.0;  // s; unstepped_time_: time for which no tick has run yet
     std::uint64_t number_ = 0;
 };
 

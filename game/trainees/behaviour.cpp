@@ -68,7 +68,7 @@ constexpr double max_arc_height = 0.05;  // m, of a reach between joints
 // A wrench that lags behind the intended pose by caught_distance (m) for caught_delay (s) is caught.
 constexpr double caught_distance = 0.02, caught_delay = 0.5;
 constexpr double retreat = 0.06;                  // m
-constexpr int max_misses = 3, max_fruitless = 3;  // misses and strokes before it tries another side
+constexpr int max_misses = 3, max_fruitless = 3;  // misses and strokes before the trainee tries another side
 constexpr int max_lift = 4;                       // in steps of lift_step
 constexpr double lift_step = 1e-3;                // m
 
@@ -102,8 +102,8 @@ void plan_path(TraineeState& t) {
 
 // Sets t.next_eye to a position from which the nut is visible, and returns the time, s, that the search
 // takes: 0 without obstacles or if the fingers do the step. If too little is visible the trainee first
-// requests a view from the view help, if there is one. If that view shows too little as well, it moves its
-// head.
+// requests a view from the view help, if there is one. If that view shows too little as well, the trainee
+// moves its head.
 double search_view(TraineeState& t) {
     t.next_eye = t.visibility.eye;
     if (t.obstacles() == nullptr || t.plan.fingers) return 0.0;
@@ -203,7 +203,7 @@ void start_reach(TraineeState& t) {
 
 void choose_grip_angle(TraineeState& t) {
     const double sign = t.plan.loosening ? -1.0 : 1.0;
-    // After repeated misses or fruitless strokes it tries from another side.
+    // After repeated misses or fruitless strokes the trainee tries from another side.
     const double other_side = t.consecutive_misses > max_misses || t.fruitless_strokes > max_fruitless
                                   ? t.random.uniform(-1.0, 1.0) * pi
                                   : 0.0;
@@ -324,8 +324,8 @@ void pull(TraineeState& t, const Percept& felt) {
 
 void spin(TraineeState& t, const Percept& felt) {
     t.handle_angle += t.profile.spin_speed * t.setup->dt * motion::minimum_jerk(t.elapsed() / 0.1);
-    // The torque of fingertips is too small for the device's scale, so the trainee sees that the nut is
-    // seated.
+    // The device's scale makes the torque of fingertips too small to feel, so the trainee detects a seated
+    // nut by sight.
     const bool started = t.elapsed() > 0.1 + t.profile.reaction + t.arm_lag;
     t.plan.finished = started && felt.nut_speed < seated_speed * t.profile.spin_speed;
     if (t.plan.finished || t.handle_angle - t.stroke_start > to_radians(spin_stroke))

@@ -15,7 +15,7 @@
 
 namespace bolt::trainees {
 
-// How the trainee means to carry out one step of the lesson, correctly or not.
+// The trainee's plan for one step of the lesson, correct or not.
 struct StepPlan {
     std::size_t step = SIZE_MAX;  // index into Lesson::steps
     std::size_t joint = 0;        // the joint that the trainee believes to be due
@@ -33,7 +33,7 @@ struct StepPlan {
 };
 
 // Returns the step to work on, or null if none is left. In an assessment the lesson does not report that a
-// joint is too loose, so a trainee that believes to be done continues with the following step.
+// joint is too loose, so a trainee that believes the step done continues with the next one.
 const lesson::LessonStep* next_step(const lesson::Lesson& lesson, const StepPlan& plan);
 
 // Draws the plan for the step `due`. `before`: the previous plan.
@@ -93,7 +93,7 @@ struct TraineeState {
     double reported_visibility = -1.0;        // 0…1, the value of the last event
     std::size_t reported_joint = SIZE_MAX;    // the joint of the last event
     HandDeflection deflection;
-    double arm_lag = 0.0;               // s by which a force-feedback arm follows the hand
+    double arm_lag = 0.0;               // s by which a force-feedback arm lags behind the hand
     Pose hand;                          // actual pose of the hand
     bool held_nut = false;              // held a nut in the last tick
     bool intended_pose_jumped = false;  // the intended pose jumps in this tick; the hand must not
@@ -147,7 +147,7 @@ void begin_next_action(TraineeState& t);
 // Chooses the handle angle so that the stroke is centred on the trainee's side.
 void choose_grip_angle(TraineeState& t);
 
-// Starts the reach to the nut. The head is at next_eye then.
+// Moves the head to next_eye and starts the reach to the nut.
 void start_reach(TraineeState& t);
 
 // Called at the end of a movement. Starts the movement to the next waypoint in the phase `phase`; returns

@@ -149,13 +149,13 @@ SimulatedTrainee::~SimulatedTrainee() = default;
 
 namespace {
 
-// Perceives the tick before and advances the phase. The hand has not moved yet.
+// Perceives the previous tick and advances the phase. Does not move the hand.
 IntendedPose advance(TraineeState& t, const servo::Setup& setup, const servo::State& state,
                      const lesson::Lesson& lesson) {
     t.setup = &setup;
     t.servo_state = &state;
     t.lesson = &lesson;
-    // The trainee begins in the first view of the assembly, if it names any.
+    // The trainee's eye begins in the first view of the assembly, if there is one.
     if (t.time <= 0.0 && !lesson.assembly->views.empty())
         t.visibility.eye = lesson.assembly->views.front().eye;
     t.time += setup.dt;

@@ -1,6 +1,6 @@
-// A simulated trainee, and a whole lesson carried out by it in virtual time. It sees the assembly, feels the
-// torque with a delay, moves the tool and gives way to the device's force like a hand. Its input to the servo
-// tick is that of a person: a device pose and a grip.
+// A simulated trainee, and train(), which runs a whole lesson with it in virtual time. The trainee sees the
+// assembly, feels the torque with a delay, moves the tool and gives way to the device's force like a hand.
+// Its input to the servo tick is that of a person: a device pose and a grip.
 #pragma once
 
 #include <cstdint>
@@ -38,12 +38,12 @@ class SimulatedTrainee {
     // Returns the input for the next tick from the percepts after the last one. Deterministic in the seed.
     servo::TickInput act(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson);
 
-    // As act(), for a trainee that holds a force-feedback arm: returns its intended and leaves it to the arm
-    // how far the hand follows. `hand`: the pose of the tool that the arm commands now.
+    // As act(), for a trainee that holds a force-feedback arm: returns the intended pose; the arm determines
+    // how far the hand follows it. `hand`: the pose of the tool that the arm commands now.
     IntendedPose intend(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson,
                         const Pose& hand);
 
-    // The pose of the tool that the hand commands; before the first tick, where it begins.
+    // The pose of the tool that the hand commands; before the first tick, its initial pose.
     [[nodiscard]] const Pose& hand() const;
 
     // Returns and clears the events since the last call: one of kind `visibility` for each change of the
@@ -66,7 +66,7 @@ struct TrainingProgress {
     double time = 0.0;  // s, virtual time
     std::size_t step = 0;
     std::size_t steps = 0;
-    const lesson::LessonEvent* event = nullptr;  // the latest; null: the report once per virtual second
+    const lesson::LessonEvent* event = nullptr;  // null in the report of each virtual second
 };
 
 // Runs a lesson to its end with a simulated trainee and records the session to `file` meanwhile. If `watch`

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double full_spin_drag = 120.0;  // px of drag that give the fastest twist
 constexpr double wrench_reach = 22.0;     // px from the wrench within which it is picked
-// m, in the frame of the head: between the shoulders, because the forearm only has to come from the body.
+// m, in the frame of the head: the middle of the shoulders, as only the forearm's direction depends on it.
 const Vec3 shoulder_at_head(0.0, -0.25, 0.05);
 
 std::vector<Vec3> nut_centres(const scene::SceneWorld& world, const servo::Setup& setup) {
@@ -108,7 +108,7 @@ void enter_room(ActiveLesson& active, const std::optional<RoomInput>& room) {
 
 namespace {
 
-// Finds the nut and the wrench under the pointer. They stay while the hand is dragged.
+// Finds the nut and the wrench under the pointer. They stay the same while the hand is dragged.
 void update_pointer(const scene::SceneWorld& world, ActiveLesson& active, const FrameInput& input,
                     const Projection& projection) {
     if (!input.pressed_at && active.pointer.drags_hand && input.left_down) return;
@@ -121,7 +121,7 @@ void update_pointer(const scene::SceneWorld& world, ActiveLesson& active, const 
     active.pointer.on_wrench = !hand_of(active).wrench && !active.pointer.nut && off && *off < wrench_reach;
 }
 
-// The hand of a station: a device, or a simulated arm that the mouse drags, moves it.
+// Handles the input for a station's hand, which a device moves, or the mouse through a simulated arm.
 void handle_station_input(const scene::SceneWorld& world, const LessonFrame& frame,
                           const Projection& projection) {
     ActiveLesson& active = frame.active;
@@ -137,7 +137,7 @@ void handle_station_input(const scene::SceneWorld& world, const LessonFrame& fra
                   drag_scene(world, active, projection));
 }
 
-// The hand that finds the nut by itself: the mouse chooses the nut and turns it.
+// Handles the input for the helped hand: the mouse chooses the nut and turns it.
 void handle_mouse_input(ActiveLesson& active, const FrameInput& input, const Projection& projection) {
     MouseCommand command;
     if (input.pressed_at) {
@@ -166,15 +166,15 @@ void handle_input(const scene::SceneWorld& world, LessonFrame& frame) {
     update_pointer(world, active, input, projection);
     if (input.triggered(Action::restart_step)) request_undo(active.undo, active.session->lesson(), 0);
     if (input.triggered(Action::undo)) request_undo(active.undo, active.session->lesson(), 1);
-    FrameInput of_view = input;
+    FrameInput view_input = input;
     if (active.station) {
         handle_station_input(world, frame, projection);
         // The dragged hand has used the scrolling.
-        if (active.station->dragged && input.left_down) of_view.scroll = 0.0;
+        if (active.station->dragged && input.left_down) view_input.scroll = 0.0;
     } else {
         handle_mouse_input(active, input, projection);
     }
-    move_camera(active, of_view, frame.size.y, frame.size.x / frame.size.y);
+    move_camera(active, view_input, frame.size.y, frame.size.x / frame.size.y);
 }
 
 namespace {

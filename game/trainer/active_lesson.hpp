@@ -35,7 +35,8 @@ struct PointerState {
     bool drags_hand = false;         // the drag of the left button moves the hand, not the view
     glm::dvec2 press_position{0.0};  // px, where the left button was pressed
     std::optional<std::size_t> nut;  // under the pointer
-    // The helped hand: the wrench at rest is under the pointer. A station: it is within reach of the hand.
+    // The wrench at rest is under the pointer (helped hand), within reach of the hand (device or tracked
+    // hand), or both (dragged hand).
     bool on_wrench = false;
 };
 

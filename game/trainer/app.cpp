@@ -400,7 +400,7 @@ Status App::update(const view::WindowFrame& window) {
     return {};
 }
 
-// Draws the interface, before the eyes that see its panel.
+// Draws the interface into the panel. Call it before drawing the eyes, which see the panel.
 Status App::draw_panel(gpu::FrameContext& frame) {
     render::Renderer& renderer = *gpu_->context->renderer;
     if (!gpu_->panel) {
@@ -412,21 +412,6 @@ Status App::draw_panel(gpu::FrameContext& frame) {
                                 picture_request(menu_, options_.choice.assembly, panel_extent, panel_scale)));
     gpu_->panel->clear(frame);
     return draw_interface(frame, gpu_->panel->layer());
-}
-
-Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& immersive) {
-    const Pose place = scene_in_room();
-    render::Scene scene = active_ ? active_->scene : empty_room();
-    if (immersive.can_show_surroundings && shows_surroundings()) {
-        scene.transparent = true;
-        if (active_)
-            std::erase_if(scene.objects, [&](const render::Object& object) {
-                return object.model == &gpu_->models->workshop;
-            });
-    }
-    if (in_room() && room_->panel)
-        scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
-    return draw_in_room(*gpu_->context->renderer, frame, scene, place, immersive);
 }
 
 Status App::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {

@@ -62,6 +62,7 @@ class App : public view::WindowContent {
     Status share(cluster::MessageWriter& message) override;
     // Fails if the GPU fails, or the session cannot be recorded.
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
+    void move_eyes(const view::WindowFrame& window) override;
     // Called instead of update() and draw() while the window is minimised: pauses a station.
     Status frame_while_hidden() override;
 
@@ -101,7 +102,7 @@ class App : public view::WindowContent {
         std::unique_ptr<ui::Ui> ui;
         std::unique_ptr<scene::GpuLessonModels> models;
         std::optional<text::Fonts> fonts;
-        std::optional<render::PanelPicture> panel;  // since the first immersive frame
+        std::optional<render::PanelPicture> panel;  // none before the first immersive frame
         // The window's picture, if the scene was drawn with fewer pixels.
         std::optional<render::PanelPicture> enlarged;
         bool shows_enlarged = false;
@@ -149,7 +150,7 @@ class App : public view::WindowContent {
     Preferences preferences_;
     std::vector<words::Words> languages_;
     words::Words words_;
-    std::optional<std::string> selected_language_;  // from the next frame on
+    std::optional<std::string> selected_language_;  // applied in the next frame
     lesson::ControlNames controls_;                 // of the current hand, keys and language
 
     ShownScreen screen_ = ShownScreen::menu;
@@ -171,9 +172,9 @@ class App : public view::WindowContent {
     std::optional<session::LessonOutcome> outcome_;
     std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson
 
-    std::optional<RoomState> room_;  // since a display has surrounded the user
+    std::optional<RoomState> room_;  // none until a display has surrounded the user
 
-    std::optional<LessonSender> sender_;  // since other processes show walls
+    std::optional<LessonSender> sender_;  // none if no other process shows walls
     std::uint32_t lesson_number_ = 0;     // counts the lessons of this program
     SharedModels shared_models_;          // of the lesson
 

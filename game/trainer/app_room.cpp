@@ -1,5 +1,5 @@
-// The part of App that is played in a room, in a headset or before walls: where workpiece and panel stand,
-// and the input of the hands.
+// The part of App that is played in a room, in a headset or before walls: the poses of workpiece and panel,
+// the input of the hands, and the pictures.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,8 +31,8 @@ RoomInput App::room_input(const view::ImmersiveFrame& immersive) const {
     input.head = immersive.head;
     input.hands = &immersive.hands;
     input.vibrate = immersive.vibrate;
-    // A registered arm moves in the assembly as it moves in the room. Else right is the user's right, also
-    // after the workpiece was turned.
+    // A registered arm moves in the assembly as it moves in the room. Other devices move the tool to the
+    // user's right for a push to the right, also after the user has turned the workpiece.
     if (!room_->arm && room_->workpiece)
         input.heading = glm::conjugate(scene.orientation) * room_->workpiece->orientation;
     return input;
@@ -53,8 +53,8 @@ Status App::share(cluster::MessageWriter& message) {
     return {};
 }
 
-// Pauses a lesson that its user suddenly does not see: no device may push, and a tracked hand is gone. It
-// continues when the user sees it again; the user can also resume or end it in the window before.
+// Pauses a lesson when its user no longer sees it: no device may push, and a tracked hand is lost. The lesson
+// continues when the user sees it again, unless the user resumes or ends it in the window before that.
 void App::pause_unseen(bool seen) {
     if (!room_) return;
     const bool was_seen = std::exchange(room_->seen, seen);
@@ -65,8 +65,8 @@ void App::pause_unseen(bool seen) {
     if (std::exchange(room_->paused, false)) paused = false;
 }
 
-// Once a lesson: sets the place of a registered arm, or logs why the picture does not depend on it, and
-// begins the touch check.
+// Once a lesson: if an arm is registered, sets its pose in the room and begins the touch check, or logs why
+// picture and arm cannot be aligned.
 void App::start_registered_arm(const view::ImmersiveFrame& immersive) {
     RoomState& room = *room_;
     if (!active_ || !active_->station) {
@@ -104,7 +104,7 @@ void App::start_registered_arm(const view::ImmersiveFrame& immersive) {
     if (room.touch) active_->clock.paused = true;
 }
 
-// The touch that checks the registration: the lesson stays paused, and the user's answer is performed.
+// Advances the touch check: keeps the lesson paused and performs the user's answer.
 void App::follow_touch_check(std::span<const platform::InputEvent> events, double seconds,
                              bool enter_answers) {
     if (!room_ || !room_->touch) return;
@@ -124,7 +124,7 @@ void App::follow_touch_check(std::span<const platform::InputEvent> events, doubl
     if (started || answer.ended) end_touch_check();
 }
 
-// The lesson begins, unless its user does not see it.
+// Ends the touch check and starts the lesson, unless its user does not see it.
 void App::end_touch_check() {
     if (!room_ || !room_->touch) return;
     if (waits_for_touch(*room_->touch)) log("the check of the arm's registration was skipped");
@@ -176,9 +176,35 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     } else {
         move_to_panel(events, view::fitted(panel_extent, window.size));
     }
+    trainer::update(room.vignette, scene_in_room(), window.seconds);
     const HandKeys keys{platform::Key::escape, preferences_.keys.of(Action::tool)};
     const std::vector<platform::InputEvent> hands = hand_events(room, immersive->hands, keys, window.seconds);
     events.insert(events.end(), hands.begin(), hands.end());
+}
+
+Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& immersive) {
+    const Pose place = scene_in_room();
+    render::Scene scene = active_ ? active_->scene : empty_room();
+    if (immersive.can_show_surroundings && shows_surroundings()) {
+        scene.transparent = true;
+        if (active_)
+            std::erase_if(scene.objects, [&](const render::Object& object) {
+                return object.model == &gpu_->models->workshop;
+            });
+    }
+    if (in_room() && room_->panel)
+        scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
+    BOLT_TRY(draw_in_room(*gpu_->context->renderer, frame, scene, place, immersive));
+    if (!room_) return {};
+    room_->drawn_scene = place;
+    // The real room stands still, and on walls the head is not alone.
+    const bool darkens = preferences_.settings.vignette && immersive.tracks_hands && !scene.transparent;
+    return darkens ? draw_vignette(*gpu_->context->renderer, frame, room_->vignette, immersive) : Status{};
+}
+
+void App::move_eyes(const view::WindowFrame& window) {
+    // draw() may have ended the lesson, so scene_in_room() may differ from the drawn pose.
+    if (room_) move_eyes_in_room(*gpu_->context->renderer, room_->drawn_scene, *window.immersive);
 }
 
 }  // namespace bolt::trainer

@@ -77,11 +77,11 @@ ScreenAction draw_arm(const ScreenContext& context, const ArmScreen& screen) {
 
 void pause_for_arm(StationClient& client, LessonClock& clock) {
     if (client.needs.any()) {
-        if (!client.waits_for_arm) client.paused_before = clock.paused;
+        if (!client.waits_for_arm) client.user_had_paused = clock.paused;
         client.waits_for_arm = clock.paused = true;
     } else if (client.waits_for_arm) {
         client.waits_for_arm = false;
-        clock.paused = client.paused_before;
+        clock.paused = client.user_had_paused;
     }
 }
 

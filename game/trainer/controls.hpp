@@ -97,7 +97,7 @@ bool is_bindable(platform::Key key);
 enum class BindOutcome : std::uint8_t { done, swapped, refused };
 struct BindResult {
     BindOutcome outcome = BindOutcome::done;
-    Action other = Action::tool;  // swapped: the action that had the key and now has the other one
+    Action other = Action::tool;  // swapped: the action that had the new key and now has the old one
 };
 
 // Binds `key` to `action`. If another action has the key, the two actions swap keys. Refuses, without a

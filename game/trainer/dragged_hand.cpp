@@ -11,7 +11,7 @@ namespace {
 
 constexpr double wheel_step = 0.02;              // m along the view for a notch
 constexpr double wheel_step_on_bolt = 0.01;      // m along the bolt
-constexpr double wheel_turn = to_radians(30.0);  // of the fingers for a notch: within the lead of the arm
+constexpr double wheel_turn = to_radians(30.0);  // of the fingers for a notch; below max_angular_deflection
 // s in which the hand follows a notch of the mouse wheel. An immediate step would move the tool into the
 // workpiece at 1 m/s and make the fingers slip off the nut.
 constexpr double wheel_time = 0.1, min_notch = 1e-3;
@@ -22,12 +22,12 @@ constexpr double key_turn_speed = 1.5;           // rad/s
 // pinching.
 constexpr double finger_rate = 6.0;
 
-// 1/s, HandMotion::compliance_rate in the air: the largest guiding force, 2.4 N, leads the hand at 2.7 cm/s.
+// 1/s, HandMotion::compliance_rate in the air: the largest guiding force, 2.4 N, moves the hand at 2.7 cm/s.
 // On a bolt it is 0, because the hand holds what it has pulled.
 constexpr double air_compliance = 3.0;
 
-// m that the hand leads the arm in the air. Its spring of 300 N/m then pulls with less than the 12 N of the
-// arm, so that it cannot push through a wall that holds the wrench.
+// m, HandMotion::max_deflection in the air. The hand's spring of 300 N/m then pulls with less than the 12 N
+// of the arm, so that the hand cannot push through a wall that holds the wrench.
 constexpr double air_deflection = 0.035;
 
 constexpr double min_depth = 0.15;  // m before the eye
@@ -46,8 +46,8 @@ struct HandShift {
     Vec3 turn{0.0};   // rad
 };
 
-// The movement in the plane of the picture, at the depth of `point`, that looks like `drag` (px). A point
-// beside or behind the eye counts as a little before it: the hand must not be lost there.
+// The movement in the plane of the picture, at the depth of `point`, that looks like `drag` (px). The depth
+// is at least min_depth, so that a hand beside or behind the eye can be dragged back.
 Vec3 in_picture(const Projection& projection, const Vec3& point, const glm::dvec2& drag) {
     const glm::dmat4 to_clip(projection.eye.clip_from_world);
     glm::dvec4 clip = to_clip * glm::dvec4(point, 1.0);
@@ -73,7 +73,8 @@ Vec3 grip_of(const DragScene& scene) {
     return scene.tool * Vec3(scene.wrench ? scene.handle_length : 0.0, 0.0, 0.0);
 }
 
-// The notches of this frame, of all that the mouse wheel was turned while the button is held.
+// The part of the pending notches that the hand follows in this frame. Notches count only while the button is
+// held.
 double smooth_wheel(DraggedHand& hand, const DragInput& input) {
     hand.scroll = input.mouse.left_down ? hand.scroll + input.mouse.scroll : 0.0;
     const double followed = std::min(1.0, input.seconds / wheel_time) * hand.scroll;
@@ -108,16 +109,16 @@ HandShift fingers_to_nut(const DragInput& input, const DragScene& scene) {
     return {share * (scene.nut->centre - scene.tool.position), share * glm::cross(normal, axis)};
 }
 
-// The shift that looks like `shift` in the picture but keeps the height above the bolt. Seen too flat, it
-// would be too long; `shift` is then returned.
+// The shift that looks like `shift` in the picture but keeps the height above the bolt. If the view is too
+// flat, that would be too long; then returns `shift` itself.
 Vec3 across_bolt(const DragScene& scene, const Vec3& axis, const Vec3& shift) {
     const Vec3 view = glm::normalize(grip_of(scene) - Vec3(scene.projection.eye.position));
     const double slope = glm::dot(view, axis);
     return std::abs(slope) < min_slope ? shift : shift - glm::dot(shift, axis) / slope * view;
 }
 
-// Beside a bolt a drag and the mouse wheel move the wrench across and along the bolt: nobody sees its depth
-// well enough to place the jaw along the view.
+// Beside a bolt a drag moves the wrench across the bolt and the mouse wheel along it, because depth along the
+// view is too hard to judge for placing the jaw.
 HandShift beside_bolt(const DragInput& input, const DragScene& scene) {
     const Vec3& axis = scene.nut->axis;
     const Vec3 shift = in_picture(scene.projection, grip_of(scene), input.mouse.left_drag);
@@ -162,14 +163,14 @@ void drag_hand(DraggedHand& hand, const DragInput& input, const DragScene& scene
     hand.motion.compliance_rate = eases ? ease_compliance : scene.engaged ? 0.0 : air_compliance;
     DragInput smooth = input;
     smooth.mouse.scroll = smooth_wheel(hand, input);
-    // The intention may lead far only while the hand pulls the handle, because only this needs the arm's
-    // full force. Overtightening must stay possible.
+    // The intended pose may be far ahead of the arm only while the hand pulls the handle: only this needs the
+    // arm's full force, so that the user can overtighten.
     const bool pulls = scene.engaged && smooth.mouse.scroll == 0.0;
     hand.motion.max_deflection = pulls ? device::HandMotion{}.max_deflection : air_deflection;
     HandShift motion = mouse_motion(hand, smooth, scene);
     motion.shift += key_speed * input.seconds * (scene.arm_to_assembly * input.keys.along);
     motion.turn += key_turn_speed * input.seconds * (scene.arm_to_assembly * input.keys.about);
-    // The arm holds the grip, and a turn about the jaw moves it.
+    // The arm is at the grip of the handle, and a turn about the jaw moves the grip.
     const Vec3 handle = grip_of(scene) - scene.tool.position;
     motion.shift += rotation(motion.turn) * handle - handle;
 

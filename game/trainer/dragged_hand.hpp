@@ -33,7 +33,7 @@ struct DragScene {
     // so that it can leave them.
     bool points_at_reachable = false;
     std::optional<force::Pivot> nut;           // that the hand holds or is beside
-    bool engaged = false;                      // it holds the nut
+    bool engaged = false;                      // the hand holds the nut
     double handle_length = 0.0;                // m
     Quat arm_to_assembly{1.0, 0.0, 0.0, 0.0};  // unit, rotation from the arm's frame to the assembly's
     double scale = 1.0;                        // m of the tool per m of the arm

@@ -12,23 +12,23 @@ namespace bolt::trainer {
 
 // The way in which mouse and keyboard move the hand if no device does.
 enum class HandMode : std::uint8_t {
-    helped,    // the mouse chooses a nut, and the hand goes there automatically (--hand helped)
-    free,      // the mouse moves the hand, which feels the forces of a simulated arm; runs with the frames
-    keyboard,  // keys move the tool like a puck
+    helped,         // the mouse chooses a nut, and the hand goes there automatically (--hand helped)
+    free,           // the mouse moves a hand that feels the forces of a simulated arm; stepped by the frames
+    keyboard,       // keys move the tool like a puck
     simulated_arm,  // as `free`, on the threads of a station like a real arm
-    tracked,        // a headset measures the hand; runs with the frames
+    tracked,        // a headset measures the hand; stepped by the frames
 };
 
 // The input of a lesson: mouse and keyboard, or a station with devices.
 struct Equipment {
     std::vector<std::string> devices;  // ids, as boltwright devices lists them
-    content::StationFile station;  // settings of its devices, where `devices` has them; its glove is not used
+    content::StationFile station;      // settings of its devices that are in `devices`; its glove is not used
     std::filesystem::path wheel_config_file;  // empty: the station's, or the defaults of device::WheelConfig
     std::filesystem::path glove;              // serial port; empty: no glove
     double force_scale = 1.0;                 // 0 … 1 of the devices' maximum force
     HandMode hand = HandMode::helped;         // if none of the devices moves the hand
 
-    // True if its start may take seconds, or last until the user has prepared an arm.
+    // True if opening the devices may take seconds, or last until the user has prepared an arm.
     [[nodiscard]] bool has_hardware() const { return !devices.empty() || !glove.empty(); }
     [[nodiscard]] bool needs_station() const { return has_hardware() || hand != HandMode::helped; }
     bool operator==(const Equipment&) const = default;

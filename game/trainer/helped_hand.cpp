@@ -28,7 +28,7 @@ constexpr double twist_speed = to_radians(540.0);      // rad/s, maximum
 constexpr double return_time = 0.15;                   // s
 constexpr double preferred_stroke = to_radians(60.0);  // preferred room for a pull
 constexpr double max_pull_speed = to_radians(150.0);   // rad/s
-// Conveys effort: at the greatest torque a drag turns the handle by only 1/(1 + this) of its length.
+// Conveys effort: at the greatest torque a drag turns the handle by only 1/(1 + this) of its angle.
 constexpr double drag_resistance = 2.0;
 
 const servo::NutGeometry& nut_of(const HelpedHand& hand, const servo::Setup& setup) {

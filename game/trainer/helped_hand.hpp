@@ -1,7 +1,7 @@
-// A hand controlled by a mouse. A press on a nut sends the hand there; it takes the nut or puts the wrench on
-// it, turns it while the button is held, and comes off on release. The hand plans by itself what a mouse
-// cannot specify: a path around the casing, and the side from which the handle has room to swing. It has no
-// clock and supplies the servo with poses like any other hand.
+// A hand controlled by a mouse. A press on a nut sends the hand there; the hand grips the nut or puts the
+// wrench on it, turns the nut while the button is held, and lifts off on release. The hand plans by itself
+// what a mouse cannot specify: a path around the casing, and the side from which the handle has room to
+// swing. It has no clock and supplies the servo with poses like any other hand.
 #pragma once
 
 #include <optional>
@@ -68,7 +68,7 @@ WorkingHand hand_of(const HelpedHand& hand);
 void apply_command(HelpedHand& hand, const MouseCommand& command, const servo::Setup& setup,
                    const servo::State& state);
 
-// The pose in which this hand would put the wrench that lies at `rest` onto a nut now.
+// The pose in which a helped hand would put the wrench that lies at `rest` onto a nut now.
 Pose wrench_pose_on_nut(const Pose& rest, const servo::Setup& setup, const servo::State& state,
                         std::size_t joint, bool loosens);
 

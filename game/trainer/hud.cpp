@@ -305,7 +305,7 @@ void draw_hint(const ActiveLesson& active, const HudText& texts, const glm::dvec
 
 void draw_device_messages(const ActiveLesson& active, const words::Words& w, const glm::dvec2& size,
                           float scale) {
-    // The screen about the arm has better words for what it needs.
+    // The screen about the arm explains its needs better.
     if (!active.station || active.station->needs.any()) return;
     std::vector<HudLine> lines;
     if (const auto warning = arm_warning(active.station->health)) lines.push_back({w[*warning], warm});

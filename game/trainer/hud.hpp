@@ -59,7 +59,7 @@ struct TorquePlot {
     std::optional<content::ToleranceWindow> target;
 };
 
-// Call after each tick with the wrench in the hand, when the lesson has observed it.
+// Call after each tick with the wrench in the hand, after the lesson has observed the tick.
 void observe(TorquePlot& plot, const lesson::Lesson& lesson,
              const ecs::Access<const world::Joint, const world::ToolState>& world);
 

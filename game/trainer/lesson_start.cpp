@@ -14,7 +14,7 @@ namespace bolt::trainer {
 
 namespace {
 
-// Starts the station, if the choice needs one, and takes its limits and rate over into the lesson.
+// Starts the station, if the choice needs one, and copies its limits and rate into the lesson.
 Status start_station_of(const LessonRequest& request, StartedLesson& lesson, session::SessionSetup& setup) {
     if (!request.choice.equipment.needs_station()) return {};
     session::LessonOptions& options = lesson.context.options;

@@ -62,7 +62,7 @@ Result<std::filesystem::path> make_lesson_folder(const std::filesystem::path& ou
                                                  const std::string& assembly);
 
 // Fails if the assembly cannot be loaded, a chosen device cannot be used, a model is damaged, or the session
-// file cannot be created. Close the station of an earlier lesson before, because it holds the devices.
+// file cannot be created. Close the station of an earlier lesson first, because it holds the devices.
 Result<StartedLesson> start_lesson(const LessonRequest& request);
 
 // Calls start_lesson() on a thread of its own, so that the window shows what an arm needs and takes the

@@ -10,8 +10,8 @@
 
 namespace bolt::trainer {
 
-// How the scene appears in the picture: its eye, and the size of the picture. Positions are in pixels, origin
-// at the upper left corner, y down.
+// The projection of the scene to the picture: its eye, and the size of the picture. Positions are in pixels,
+// origin at the upper left corner, y down.
 struct Projection {
     render::Eye eye;
     glm::dvec2 size{1.0};

@@ -1,6 +1,7 @@
 #include "game/trainer/room_state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -12,10 +13,17 @@ namespace {
 
 constexpr double head_to_workpiece = 0.40;  // m, horizontally, to the front of the workpiece
 constexpr double panel_below_eyes = 0.02, panel_least_height = 0.9;  // m
-// Sticks: the deflection that turns the workpiece by a step, that below which it is at rest, and m/s.
+// Deflections of a stick: above the first it turns or raises the workpiece, below the second it is at rest.
 constexpr float stick_turns = 0.7F, stick_rests = 0.3F;
-constexpr double stick_raise = 0.2, max_raise = 0.4;
+constexpr double stick_raise = 0.2, max_raise = 0.4;          // m/s; m
 constexpr float pressed_above = 0.6F, released_below = 0.4F;  // of the trigger
+// Design choices. The angles are from the direction of the head, rad: the vignette is clear below its edge
+// and black `vignette_blur` beyond; open, its edge is outside the view.
+constexpr double vignette_closed = to_radians(25.0), vignette_open = to_radians(70.0),
+                 vignette_blur = to_radians(15.0);
+constexpr double vignette_closing = 0.1, vignette_opening = 0.4;         // s
+constexpr double visible_speed = 0.005;                                  // m/s and rad/s
+constexpr double max_motion = 0.05, max_motion_angle = to_radians(5.0);  // m and rad in a frame
 
 // The rotation about the vertical that turns −z to where the head looks.
 Quat heading(const Pose& head) {
@@ -40,6 +48,36 @@ void apply_stick(RoomState& room, const glm::vec2& stick, bool& used, double sec
         room.height =
             std::clamp(room.height + std::copysign(stick_raise * seconds, static_cast<double>(stick.y)),
                        -max_raise, max_raise);
+}
+
+// A ring around the direction of the head, in the picture of an eye: vertices at three angles from it, clear
+// at the first, black at the others.
+render::Overlay vignette_ring(const render::Eye& eye, const Quat& head, VkExtent2D size, double edge) {
+    constexpr std::uint32_t segments = 48;
+    const std::array<double, 3> angles{edge, edge + vignette_blur, to_radians(88.0)};
+    render::Overlay overlay;
+    const glm::vec2 half = 0.5F * glm::vec2(size.width, size.height);
+    for (std::uint32_t i = 0; i < segments; ++i) {
+        const double around = 2.0 * pi * i / segments;
+        for (std::size_t ring = 0; ring < angles.size(); ++ring) {
+            const double out = std::sin(angles[ring]);
+            const glm::vec3 direction(
+                head * Vec3(out * std::cos(around), out * std::sin(around), -std::cos(angles[ring])));
+            const glm::vec4 clip = eye.clip_from_world * glm::vec4(eye.position + direction, 1.0F);
+            overlay.vertices.push_back(
+                {half + half * glm::vec2(clip) / std::max(clip.w, 0.01F), {}, ring == 0 ? 0U : 0xFF000000U});
+            const auto first = static_cast<std::uint32_t>(ring + 3 * i);
+            const auto next = static_cast<std::uint32_t>(ring + 3 * ((i + 1) % segments));
+            if (ring + 1 < angles.size())
+                overlay.indices.insert(overlay.indices.end(),
+                                       {first, first + 1, next, next, first + 1, next + 1});
+        }
+    }
+    render::OverlayDraw draw;
+    draw.scissor = {{0, 0}, size};
+    draw.count = static_cast<std::uint32_t>(overlay.indices.size());
+    overlay.draws.push_back(draw);
+    return overlay;
 }
 
 }  // namespace
@@ -119,7 +157,7 @@ std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& 
         apply_stick(room, hand.active ? hand.stick : glm::vec2(0.0F), room.stick_used[side], seconds);
         if (!hand.active || !hand.aim || !room.panel) continue;
         const auto hit = panel_point(*room.panel, hand.aim->pose);
-        // If both hands point at the panel, the one that presses counts, else the right one.
+        // If both hands point at the panel, the one that presses harder counts; if equal, the right one.
         if (!hit || (at && hand.select < select)) continue;
         at = hit;
         select = hand.select;
@@ -152,14 +190,52 @@ void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown
         if (glm::dvec2* at = pointer_position(event)) *at = (*at - offset) / size * panel;
 }
 
+static std::vector<render::Eye> eyes_in_scene(const view::EyeGroup& group, const Pose& scene_in_room) {
+    std::vector<render::Eye> eyes;
+    for (const render::Eye& eye : group.eyes) eyes.push_back(render::seen_from(eye, scene_in_room));
+    return eyes;
+}
+
 Status draw_in_room(render::Renderer& renderer, gpu::FrameContext& frame, const render::Scene& scene,
                     const Pose& scene_in_room, const view::ImmersiveFrame& immersive) {
     for (std::uint32_t i = 0; i < immersive.groups.size(); ++i) {
-        const view::EyeGroup& group = immersive.groups[i];
-        std::vector<render::Eye> eyes;
-        for (const render::Eye& eye : group.eyes) eyes.push_back(render::seen_from(eye, scene_in_room));
+        const std::vector<render::Eye> eyes = eyes_in_scene(immersive.groups[i], scene_in_room);
         if (!eyes.empty())
-            BOLT_TRY(renderer.render(frame, scene, eyes, group.size, view::immersive_group + i));
+            BOLT_TRY(
+                renderer.render(frame, scene, eyes, immersive.groups[i].size, view::immersive_group + i));
+    }
+    return {};
+}
+
+void move_eyes_in_room(render::Renderer& renderer, const Pose& scene_in_room,
+                       const view::ImmersiveFrame& immersive) {
+    for (std::uint32_t i = 0; i < immersive.groups.size(); ++i)
+        renderer.move_eyes(eyes_in_scene(immersive.groups[i], scene_in_room), view::immersive_group + i);
+}
+
+void update(Vignette& vignette, const Pose& scene_in_room, double seconds) {
+    const std::optional<Pose> before = std::exchange(vignette.scene, scene_in_room);
+    bool moves = false;
+    if (before && seconds > 0.0) {
+        const double motion = glm::distance(before->position, scene_in_room.position);
+        const double turn = glm::length(turn_between(before->orientation, scene_in_room.orientation));
+        moves = motion < max_motion && turn < max_motion_angle &&
+                std::max(motion, turn) > visible_speed * seconds;
+    }
+    vignette.strength = moves ? std::min(1.0, vignette.strength + seconds / vignette_closing)
+                              : std::max(0.0, vignette.strength - seconds / vignette_opening);
+}
+
+Status draw_vignette(render::Renderer& renderer, gpu::FrameContext& frame, const Vignette& vignette,
+                     const view::ImmersiveFrame& immersive) {
+    if (vignette.strength <= 0.0) return {};
+    const double edge = vignette_open + vignette.strength * (vignette_closed - vignette_open);
+    for (std::uint32_t i = 0; i < immersive.groups.size(); ++i) {
+        const view::EyeGroup& group = immersive.groups[i];
+        for (std::uint32_t eye = 0; eye < group.eyes.size(); ++eye)
+            BOLT_TRY(renderer.draw_over(
+                frame, vignette_ring(group.eyes[eye], immersive.head.orientation, group.size, edge),
+                renderer.picture(eye, view::immersive_group + i)));
     }
     return {};
 }

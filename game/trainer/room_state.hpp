@@ -1,5 +1,5 @@
 // A lesson in a headset or between projection walls: where the workpiece and the panel of the user interface
-// stand in the room, and the pointer on the panel. Nothing moves with the head. Poses are in the room's frame
+// stand in the room, and the pointer on the panel. Neither moves with the head. Poses are in the room's frame
 // (view::ImmersiveFrame) unless a comment says otherwise.
 #pragma once
 
@@ -33,11 +33,18 @@ struct PanelPointer {
 
 // The state of a room from frame to frame. It is kept while the display is lost for a short time, so that
 // workpiece and panel stay where they are.
+// Darkens the edge of the view while the scene moves although the head does not: motion at the edge of the
+// view makes people sick.
+struct Vignette {
+    std::optional<Pose> scene;  // of the last frame, in the room
+    double strength = 0.0;      // 0 open … 1 closed
+};
+
 struct RoomState {
     std::optional<Pose> workpiece;  // pose of the assembly's frame; none: not placed yet
     std::optional<Pose> panel;  // pose of its centre: x right, y up, z towards the user; none: not placed yet
     PanelPointer pointer;
-    std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};  // in the last frame, by hand
+    std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};  // in the last frame, for each hand
     double height = 0.0;  // m that the user has raised the workpiece
     int turns = 0;        // steps by which the user has turned it
     // The arm's frame in the room, if the station file has the registration and the arm's scale is 1; else
@@ -45,10 +52,12 @@ struct RoomState {
     std::optional<Pose> arm;
     std::uint32_t arm_lesson = 0;     // number of the lesson for which `arm` was set; 0: none
     std::optional<TouchCheck> touch;  // checks that registration before the lesson begins
-    bool touch_done = false;          // it was checked or skipped since the room was centred
-    bool shown = false;               // the display surrounds the user in this frame
-    bool seen = false;                // the user saw the lesson in the last frame
-    bool paused = false;              // the lesson is paused because the user does not see it
+    bool touch_done = false;          // the check ended or was skipped since the room was centred
+    Vignette vignette;
+    Pose drawn_scene;     // pose of the scene's frame in the room, as it was last drawn
+    bool shown = false;   // the display surrounds the user in this frame
+    bool seen = false;    // the user saw the lesson in the last frame
+    bool paused = false;  // the lesson is paused because the user does not see it
 };
 
 // The functions below take the bounding box of the workpiece as `box`, in the assembly's frame.
@@ -97,6 +106,18 @@ void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown
 // Draws the scene for each group of eyes. `scene_in_room`: the pose of the scene's frame.
 Status draw_in_room(render::Renderer& renderer, gpu::FrameContext& frame, const render::Scene& scene,
                     const Pose& scene_in_room, const view::ImmersiveFrame& immersive);
+
+// Moves the eyes of the pictures that draw_in_room() has recorded in this frame.
+void move_eyes_in_room(render::Renderer& renderer, const Pose& scene_in_room,
+                       const view::ImmersiveFrame& immersive);
+
+// Call once a frame. The vignette closes within 0.1 s while the scene moves in the room, and opens within 0.4
+// s when it stands; a jump of more than 5 cm or 5° is no motion that the user sees.
+void update(Vignette& vignette, const Pose& scene_in_room, double seconds);
+
+// Draws the vignette over the pictures of draw_in_room(), around the direction of the head.
+Status draw_vignette(render::Renderer& renderer, gpu::FrameContext& frame, const Vignette& vignette,
+                     const view::ImmersiveFrame& immersive);
 
 // The panel in the scene whose frame is `scene_in_room`.
 render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture);

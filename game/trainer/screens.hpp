@@ -73,7 +73,7 @@ void note_widget(const ScreenContext& context, words::TextKey key);
 void draw_text(const std::string& line);
 // `width`: px, at which the text wraps; 0: the rest of the dialog.
 void draw_wrapped(const std::string& line, const glm::vec4& color, float width = 0.0F);
-// A button of a row of which one is chosen. Returns true when it is pressed.
+// A button in a row of alternatives. Returns true when it is pressed.
 bool draw_choice_button(const std::string& label, bool is_chosen);
 inline constexpr glm::vec4 muted_text{0.75F, 0.8F, 0.85F, 1.0F};    // for explanations
 inline constexpr glm::vec4 warning_text{1.0F, 0.55F, 0.45F, 1.0F};  // for what is wrong or missing

@@ -113,6 +113,8 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     note_widget(context, "menu.force_arrow");
     ImGui::Checkbox(words["menu.surroundings"].c_str(), &settings.surroundings);
     note_widget(context, "menu.surroundings");
+    ImGui::Checkbox(words["menu.vignette"].c_str(), &settings.vignette);
+    note_widget(context, "menu.vignette");
 }
 
 void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {

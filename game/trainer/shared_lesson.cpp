@@ -30,13 +30,13 @@ render::Scene empty_room() {
 void LessonSender::write(cluster::MessageWriter& message, const SharedFrame& frame) {
     const std::uint32_t lesson = frame.models != nullptr ? frame.lesson : 0;
     message.put(lesson);
-    const bool news = lesson != lesson_;
-    // Models that were uploaded anew have other addresses, though the others still have theirs.
-    if (news || frame.on_gpu != on_gpu_) scene_.restart();
+    const bool is_new_lesson = lesson != lesson_;
+    // After a new upload the models have other addresses, so the scene cannot be compared with the last one.
+    if (is_new_lesson || frame.on_gpu != on_gpu_) scene_.restart();
     lesson_ = lesson;
     on_gpu_ = frame.on_gpu;
-    message.put(news);
-    if (news && frame.models != nullptr) {
+    message.put(is_new_lesson);
+    if (is_new_lesson && frame.models != nullptr) {
         for (const std::string* text : {&frame.models->assembly, &frame.models->variant, &frame.models->tool})
             message.put_text(*text);
         message.put(frame.models->side);
@@ -64,7 +64,7 @@ void FollowedLesson::release() {
     lesson_ = 0;
 }
 
-// The assembly's folder may be elsewhere on this computer; then the one of its name is taken.
+// If this computer does not have the assembly's folder at that path, loads the assembly of the same name.
 Status FollowedLesson::load(const SharedModels& shared) {
     const std::filesystem::path sent(shared.assembly);
     std::error_code ignored;
@@ -82,9 +82,9 @@ Status FollowedLesson::load(const SharedModels& shared) {
 
 Status FollowedLesson::follow(cluster::MessageReader& message) {
     const auto lesson = message.get<std::uint32_t>();
-    const bool news = message.get<bool>();
-    if (news || lesson != lesson_) scene_ = empty_room();
-    if (news && lesson != 0) {
+    const bool is_new_lesson = message.get<bool>();
+    if (is_new_lesson || lesson != lesson_) scene_ = empty_room();
+    if (is_new_lesson && lesson != 0) {
         SharedModels shared;
         for (std::string* text : {&shared.assembly, &shared.variant, &shared.tool})
             *text = message.get_text();

@@ -13,7 +13,7 @@
 
 namespace bolt::trainer {
 
-// The models that a lesson shows, as every process can load them from its content.
+// The names of a lesson's models, from which every process can load them from its own content.
 struct SharedModels {
     std::string assembly, variant, tool;  // as LessonChoice
     hand::Side side = hand::Side::right;
@@ -22,7 +22,7 @@ struct SharedModels {
 // The values of a frame that the first process sends.
 struct SharedFrame {
     const SharedModels* models = nullptr;  // null: there is no lesson
-    std::uint32_t lesson = 0;              // number of the lesson; a new one has its models loaded
+    std::uint32_t lesson = 0;              // number of the lesson; on a new one the others load its models
     const scene::GpuLessonModels* on_gpu = nullptr;
     const render::Scene* scene = nullptr;
     Pose scene_in_room;

@@ -127,7 +127,7 @@ void update_client(StationClient& client, const session::LessonSession& session)
                            glm::distance(hand_at, nut_at(session, *client.near_nut)) < to_wrench;
 }
 
-// Sends one-time commands: checkpoints, undo, and moves of the tool to its initial pose.
+// Sends one-time commands: checkpoints, undo, and the pose at which to place the tool.
 Status send_commands(StationClient& client, const session::LessonSession& session,
                      const UserActions& actions) {
     for (; client.checkpoints_sent < session.target_checkpoints(); ++client.checkpoints_sent)
@@ -180,7 +180,7 @@ Status send_actions(StationClient& client, const session::LessonSession& session
     if (client.dragged) client.link->set_hand_motion(client.dragged->motion);
     if (client.tracked) {
         client.link->set_hand_motion(client.tracked->motion);
-        // An open hand is where it is shown: its orientation may differ after it has held the wrench.
+        // A hand that has released the wrench may have another orientation than the tool: place the tool.
         const bool wrench = client.latest.input.grip == servo::Grip::wrench;
         if (std::exchange(client.tracked->had_wrench, wrench) && !wrench) client.tool_placed = false;
     }
@@ -199,12 +199,13 @@ Status send_actions(StationClient& client, const session::LessonSession& session
     controls.dead_man_timeout = dead_man_timeout;
     controls.view = actions.view;
     const lesson::LessonStep* due = session.lesson().due();
-    const bool leads = due != nullptr && session.lesson().guides;
-    controls.guide = leads ? static_cast<std::int16_t>(due->joint) : std::int16_t{-1};
+    const bool guides_to_due = due != nullptr && session.lesson().guides;
+    controls.guide = guides_to_due ? static_cast<std::int16_t>(due->joint) : std::int16_t{-1};
     // A nut attracts the tool only while the hand is closed.
     const auto attracting_nut =
-        leads ? std::optional(due->joint)
-              : nearest_nut(session, client.latest.output.constrained_tool.position, attraction_range);
+        guides_to_due
+            ? std::optional(due->joint)
+            : nearest_nut(session, client.latest.output.constrained_tool.position, attraction_range);
     controls.approach_joint =
         attracting_nut && closes ? static_cast<std::int16_t>(*attracting_nut) : std::int16_t{-1};
     controls.set_torque = static_cast<float>(lesson::wrench_set_torque(session.lesson()));

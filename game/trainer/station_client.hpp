@@ -22,9 +22,9 @@
 
 namespace bolt::trainer {
 
-// A keyboard as a puck, for a station that no device moves. W A S D move the tool away, left, near and right,
-// Q and E down and up. Left and right turn it about the vertical, up and down pitch it, page up and down roll
-// it. The space bar is the puck's button.
+// A keyboard as a puck, for a station in which no device moves the tool. W, A, S and D move the tool away, to
+// the left, nearer and to the right; Q and E down and up. Left and right turn it about the vertical, up and
+// down pitch it, page up and down roll it. The space bar is the puck's button.
 class KeyboardPuck {
   public:
     // Losing the keyboard focus releases all keys.
@@ -57,7 +57,7 @@ struct StationClient {
     std::vector<std::string> fault_messages;  // of devices and glove
     device::DeviceHealth health;              // of the device that moves the tool
     device::ArmNeeds needs;                   // of the device that moves the tool, after it was lost
-    hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench, in the hand or at rest
+    hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench (held or at rest)
     bool gloved = false;
     bool has_gripper = false;  // of the device that moves the tool
     bool glove_lost = false;   // the glove sends no valid samples
@@ -71,13 +71,13 @@ struct StationClient {
     // Derived from the latest tick.
     std::optional<std::size_t> near_nut;  // nut within reach of the tool
     bool near_wrench = false;             // the resting wrench is within reach of the hand
-    bool nut_is_nearer = false;           // than the wrench, of both within reach: the hand closes on the nut
+    bool nut_is_nearer = false;           // near_nut is nearer than the wrench: the hand closes on the nut
     double nut_angle_at_grip = 0.0;       // rad, angle of the held nut when it was engaged
 
     // Kept from frame to frame.
-    bool hand_closed = false;    // in the previous frame
-    bool waits_for_arm = false;  // the lesson is paused until the arm has what it needs
-    bool paused_before = false;  // the user had paused the lesson before the arm did
+    bool hand_closed = false;      // in the previous frame
+    bool waits_for_arm = false;    // the lesson is paused until the arm has what it needs
+    bool user_had_paused = false;  // the user had paused the lesson before the arm did
 };
 
 // Angle in rad by which a gloved hand can turn a nut before it has to let go and turn back. A forearm rotates

@@ -19,8 +19,8 @@ struct StepUndo {
 // the last step.
 const lesson::LessonStep* due(const StepUndo& undo, const lesson::Lesson& lesson);
 
-// Requests that the due step (0), or the one `steps` before it, begins again. Ignored in an assessment and if
-// there are not so many steps.
+// Requests a restart of the step that is `steps` before the due one; 0: of the due step. Ignored in an
+// assessment and if there are not so many steps.
 void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t steps);
 
 // Call with every event of the lesson. A mistake in a guided lesson requests an undo; the undo itself clears

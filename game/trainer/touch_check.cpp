@@ -24,7 +24,7 @@ void show_phase(TouchCheck& check, TouchPhase phase) {
     check.shown = 0.0;
 }
 
-// Collects positions for the time of a touch, and for more if the pictures are slow.
+// Collects positions for the duration of a touch, and for longer if slow frames give too few of them.
 void measure(TouchCheck& check, const std::optional<station::MoverSample>& mover) {
     const station_setup::TouchOptions options;
     if (mover) check.touched.push_back(check.room_from_arm * (mover->pose * check.tip));

@@ -32,7 +32,7 @@ struct TouchCheck {
     double error = 0.0;         // m, of the result
     double shown = 0.0;         // s for which the phase is shown
     std::vector<Vec3> touched;  // m, positions of the tip in the room
-    std::uint32_t held = ~0U;   // buttons of the arm; one that is held from before is no press
+    std::uint32_t held = ~0U;   // buttons of the arm that were held before; only another one is a press
 };
 
 // True until there is a result.
@@ -40,7 +40,7 @@ inline bool waits_for_touch(const TouchCheck& check) {
     return check.phase == TouchPhase::waiting || check.phase == TouchPhase::measuring;
 }
 
-// None if the registration, between an arm and the room in either direction, has no check point.
+// None if the registration is not between arm and room, in either direction, or has no check point.
 std::optional<TouchCheck> touch_check_of(const content::Registration& registration);
 
 // Call once a frame. `mover`: StationTick::mover; while there is none, nothing is measured. `confirmed`: the

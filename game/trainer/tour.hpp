@@ -33,7 +33,7 @@ inline constexpr std::size_t tour_task_count = 8;
 struct Tour {
     std::array<bool, tour_task_count> done{};
     double turned = 0.0;  // rad, by which the trainee has turned the view
-    bool paused = false;  // the lesson is paused; its end completes TourTask::pause
+    bool paused = false;  // the lesson is paused; resuming it completes TourTask::pause
 
     // The first task that is not done; `tour_task_count` if all are.
     [[nodiscard]] std::size_t due_task() const;

@@ -7,12 +7,12 @@ namespace bolt::trainer {
 
 namespace {
 
-// m that the hand leads the arm. In the air its spring of 300 N/m then pulls with less than the 12 N of the
-// arm, so that it cannot push through a wall; on a bolt a pull needs all the strength.
+// m, HandMotion::max_deflection. In the air the hand's spring of 300 N/m then pulls with less than the 12 N
+// of the arm, so that the hand cannot push through a wall; on a bolt a pull needs the arm's full force.
 constexpr double open_deflection = 0.035, pull_deflection = 0.06;
 
 // m from the palm to the point where thumb and index finger meet, in the frame of the grip pose of a right
-// hand: X into the palm, Y from the fingertips to the wrist, −Z to the thumb. About an adult's.
+// hand: X into the palm, Y from the fingertips to the wrist, −Z to the thumb. Typical of adults.
 constexpr double pinch_out = 0.03, pinch_along = 0.08, pinch_thumb = 0.03;
 
 // Distance of thumb tip and index fingertip at which tracked fingers count as open, and as closed, m.

@@ -1,6 +1,6 @@
 // A hand whose pose a headset measures, by a controller or by its cameras. It reaches, closes on the wrench
-// or on a nut, and opens; nothing moves the tool but the hand. It feels no force, so the shown hand is held
-// back where the real one would be, and the controller vibrates.
+// or on a nut, and opens; only the hand moves the tool. It feels no force, so a simulated arm stops the drawn
+// hand where a real arm would stop it, and the controller vibrates.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ struct TrackedHandInput {
     bool engaged = false;   // the tool holds a nut
 };
 
-// How far the hand is closed, 0 … 1: by a button of the controller, or by the fingers.
+// The closure of the hand, 0 … 1, from a button of the controller or from the fingers.
 double closing(const xr::HandInput& hand);
 
 // The pose of the palm (XR_EXT_hand_tracking's or the controller's grip), in the room; none: not tracked.
@@ -36,7 +36,7 @@ std::optional<Pose> palm_of(const xr::HandInput& hand, xr::Side side);
 // axis points back along the fingers.
 Pose fingertips_at_palm(xr::Side side);
 
-// Call once a frame. Without a tracked hand it keeps its pose and opens.
+// Call once a frame. A hand that is not tracked keeps its pose and opens.
 void track_hand(TrackedHand& tracked, const TrackedHandInput& input);
 
 }  // namespace bolt::trainer

@@ -26,8 +26,8 @@ Viewpoint viewpoint_of(const Orbit& orbit);
 // the two eyes of a stereo view, whose axes meet at the target (pictures.hpp).
 render::Eye eye_of(const Orbit& orbit, const render::BoundingBox& box, float aspect, float offset = 0.0F);
 
-// The following take positions and movements of the cursor in units of the picture's height, from its middle,
-// x to the right, y up. So they do not depend on the picture's size.
+// The following functions take positions and movements of the cursor in units of the picture's height, from
+// its middle, x to the right, y up. So they do not depend on the picture's size.
 
 // Rotates by the cursor's movement, half a turn per picture height; the model follows the cursor.
 void turn(Orbit& orbit, glm::dvec2 by);
@@ -95,8 +95,8 @@ struct CloseUpEye {
 
 // Searches the directions from above the handle outwards and stops at the first with sufficient visibility
 // during a swing of the wrench by `swing` rad (signed, about the bolt), or else returns the best direction.
-// `tool`: target.wrench, or the fingers' frame if there is no wrench. Fingers approach along x, so their eye
-// is on the opposite side.
+// `tool`: target.wrench, or the fingers' frame if there is no wrench. Fingers come from +x, so their search
+// begins on the opposite side.
 CloseUpEye close_up_eye(const ViewTarget& target, const Pose& tool, double swing,
                         motion::VisibilityModel& model);
 

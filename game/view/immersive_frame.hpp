@@ -29,8 +29,7 @@ struct ImmersiveFrame {
     std::function<bool(const Vec3&)> shows;
     bool recentred = false;   // the room's origin has moved since the last frame
     bool floor_known = true;  // y is 0 at the floor; false: at the eyes of a seated user
-    // Group i is drawn as the renderer's group immersive_group + i. Nothing is drawn without groups, and for
-    // a group without eyes.
+    // Group i is drawn as the renderer's group immersive_group + i; a group without eyes is not drawn.
     std::vector<EyeGroup> groups;
     xr::Hands hands;
     bool can_show_surroundings = false;  // where the picture is transparent

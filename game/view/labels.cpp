@@ -71,7 +71,7 @@ float overhang(const LabelBox& box, const glm::vec2& moved, const glm::vec2& pic
 }
 
 // Adds the moves that place the box just beside each box that it overlaps. The grid of steps is too small to
-// leave a large box.
+// move it clear of a large one.
 void add_escapes(const LabelBox& box, std::span<const LabelBox> placed, std::vector<glm::vec2>& moves) {
     constexpr float clear = gap + 0.01F;
     const auto overlaps = [&](const LabelBox& other) { return overlap(box, other, glm::vec2(0.0F)); };

@@ -24,7 +24,8 @@ struct Palette {
     glm::vec4 high_text{1.0F, 0.35F, 0.3F, 1.0F};
 };
 
-// The colours of the palette `distinct` differ without red or green cones too (tests/view/palette.cpp).
+// The colours of the palette `distinct` also differ for an eye without red or green cones
+// (tests/view/palette.cpp).
 Palette palette_of(content::PaletteKind kind);
 
 // The verdict on a joint; a damaged joint counts as high.
@@ -47,9 +48,9 @@ struct LabelBox {
 LabelBox box_of(const text::Fonts& fonts, const render::Label& label, const render::Eye& eye,
                 const glm::vec2& picture);
 
-// Changes `offset_px` of the labels of placement on_screen. Moves each to the nearest free place, beginning
-// with the lowest: there it overlaps no other label and no rectangle of `occupied` (px). If its anchor is in
-// the picture, so is the whole label. Where there is no room, labels may overlap.
+// Changes `offset_px` of the labels of placement on_screen. Beginning with the lowest, moves each label to
+// the nearest place where it overlaps no label placed before and no rectangle of `occupied` (px). A label
+// whose anchor is in the picture is placed wholly in it. Where there is no room, labels may overlap.
 void separate_labels(const text::Fonts& fonts, std::span<render::Label> labels, const render::Eye& eye,
                      const glm::vec2& picture, std::span<const render::Rectangle> occupied = {});
 

@@ -130,7 +130,7 @@ Status PanelSender::record(gpu::Device& device, gpu::FrameContext& frame, const 
     return {};
 }
 
-// The frame that the copy was recorded in is complete once so many later ones have begun.
+// The frame that recorded the copy is complete once gpu::frames_in_flight later frames have begun.
 void PanelSender::write(cluster::MessageWriter& message) {
     std::vector<PanelTile> tiles;
     if (recorded_ && copy_.size() > 0 && frame_ >= *recorded_ + gpu::frames_in_flight) {

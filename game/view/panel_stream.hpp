@@ -32,12 +32,13 @@ Result<std::vector<PanelTile>> get_tiles(cluster::MessageReader& message, VkExte
 
 class PanelSender {
   public:
-    // Copies the panel's picture, which this frame has drawn, for a later write(), unless the GPU may still
-    // work on the last copy.
+    // Copies the panel's picture, which this frame has drawn, for a later write(). Does nothing if the last
+    // copy has not been written yet.
     Status record(gpu::Device& device, gpu::FrameContext& frame, const render::PanelPicture& panel);
-    // Writes what has changed in the newest complete copy. It is two frames old or more.
+    // Writes the changed tiles of the copy once the GPU has completed it, two frames after record() or later;
+    // before that, no tiles.
     void write(cluster::MessageWriter& message);
-    // Before the GPU objects are destroyed; the receivers keep their picture.
+    // Call it before the GPU objects are destroyed; the receivers keep their picture.
     void release();
 
   private:
@@ -52,7 +53,7 @@ class PanelReceiver {
   public:
     // Reads what PanelSender::write() wrote; it is shown from the next draw() on.
     Status read(cluster::MessageReader& message);
-    // Copies new tiles to the panel's picture. The frame's draws come afterwards.
+    // Copies new tiles to the panel's picture. Call it before the frame draws the panel.
     Status draw(gpu::Device& device, gpu::FrameContext& frame);
     // Null: nothing has been received.
     [[nodiscard]] const render::PanelPicture* picture() const { return picture_ ? &*picture_ : nullptr; }

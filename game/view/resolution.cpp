@@ -28,7 +28,7 @@ bool update(ResolutionControl& control, const FrameTime& frame) {
         before > 0 && gpu_time * pixels(before - 1) / pixels(before) < comfortable * period;
     control.comfortable_for = could_raise ? control.comfortable_for + frame.elapsed : 0.0;
     if (control.too_long >= frames_to_lower) {
-        // At once to the step that should suffice: every step on the way would cost missed frames.
+        // Skips to the step that should suffice, because each step on the way would cost missed frames.
         while (control.step < control.coarsest &&
                gpu_time * pixels(control.step) / pixels(before) > permitted * period)
             ++control.step;

@@ -14,10 +14,10 @@ namespace bolt::view {
 inline constexpr float resolution_steps[] = {1.0F, 0.85F, 0.72F, 0.6F, 0.5F, 0.42F, 0.35F};
 
 struct ResolutionControl {
-    int coarsest = static_cast<int>(std::size(resolution_steps)) - 1;  // index of the lowest permitted one
+    int coarsest = static_cast<int>(std::size(resolution_steps)) - 1;  // index of the lowest permitted step
     int step = 0;                                                      // index of resolution_steps
     int too_long = 0;              // frames in a row that took longer than permitted
-    double comfortable_for = 0.0;  // s for which the next larger resolution would also be possible
+    double comfortable_for = 0.0;  // s for which the next higher resolution would be possible too
 };
 
 struct FrameTime {
@@ -27,9 +27,9 @@ struct FrameTime {
 };
 
 // Call once a frame. Lowers the resolution at the second frame in a row that takes more than 90 % of the
-// period, and raises it only if for a second the cost at the higher one, which grows with the number of
-// pixels, would have been below 75 %. Returns true if the resolution changed; then ignore the times of frames
-// that were already drawn.
+// period. Raises it by a step if for a second the estimated time at that step, in proportion to the number of
+// pixels, is below 75 %. Returns true if the resolution changed; then ignore the times of frames that were
+// already drawn.
 bool update(ResolutionControl& control, const FrameTime& frame);
 
 // The fraction of the full width and height.

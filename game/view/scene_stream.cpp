@@ -23,11 +23,11 @@ enum ObjectPart : std::uint8_t {
 constexpr std::uint8_t all_parts = 31;
 // Bits of the flags of an object.
 enum ObjectFlag : std::uint8_t { flag_flat = 1, flag_moves = 2, flag_cut = 4 };
-constexpr std::uint32_t no_more = 0xFFFFFFFF;  // instead of the index of an object or label
+constexpr std::uint32_t no_more = 0xFFFFFFFF;  // ends a list: in place of the index of an object or label
 // Bytes of a new object and of a new label, at least: a damaged message must not take all memory.
 constexpr std::size_t smallest_object = 99, smallest_label = 117;
 
-// A transformation without projection as three rows, exactly.
+// An affine transformation as three rows, without loss.
 void put_transform(MessageWriter& message, const glm::mat4& m) {
     for (glm::length_t row = 0; row < 3; ++row)
         message.put(glm::vec4(m[0][row], m[1][row], m[2][row], m[3][row]));
@@ -126,8 +126,8 @@ void get_object(MessageReader& message, render::Object& object, std::uint8_t par
     if ((parts & part_deformation) != 0) object.deformation = get_deformation(message);
 }
 
-// Returns true if the renderer can draw the object: its mesh exists, its values are finite, and it has the
-// joints that the parts of the mesh follow.
+// Returns true if the renderer can draw the object: its mesh exists, its values are finite, and its
+// deformation has all joints that the mesh refers to.
 bool can_be_drawn(const render::Object& object) {
     if (object.model == nullptr || object.mesh >= object.model->meshes.size()) return false;
     if (!is_finite(object.world) || !std::isfinite(object.opacity)) return false;

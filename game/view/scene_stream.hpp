@@ -1,5 +1,6 @@
-// Sends the scene of each frame to other processes, which draw it from other eyes: only the differences from
-// the frame before, because most parts of a lesson rest. Sender and receiver have the same models.
+// Sends the scene of each frame to other processes, which draw it for their own eyes. A message has only the
+// differences from the frame before, because most parts of a lesson rest. Sender and receiver have the same
+// models.
 #pragma once
 
 #include <span>
@@ -16,7 +17,7 @@ struct StreamedModels {
     const render::EnvironmentLight* light = nullptr;
 };
 
-// Writes scenes for read_scene(), without their panels, Object::node, and objects of other models.
+// Writes scenes for read_scene(), without panels, Object::node, and objects whose model is not streamed.
 class SceneSender {
   public:
     void write(cluster::MessageWriter& message, const render::Scene& scene, const StreamedModels& models);
@@ -29,8 +30,8 @@ class SceneSender {
     bool whole_ = true;
 };
 
-// Changes the scene of the frame before as the next message says. Fails, and leaves the scene without objects
-// and labels, if the message is damaged, refers to a model that is not there, or has values that cannot be
+// Applies the next message to the scene of the frame before. Fails, and leaves the scene without objects and
+// labels, if the message is damaged, refers to a model that `models` lacks, or has values that cannot be
 // drawn.
 Status read_scene(cluster::MessageReader& message, const StreamedModels& models, render::Scene& scene);
 

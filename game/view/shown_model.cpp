@@ -49,7 +49,7 @@ render::Perspective lens(const render::BoundingBox& box, const glm::vec3& eye, c
     const float reach =
         glm::distance(eye, 0.5F * (box.low + box.high)) + 0.5F * glm::distance(box.low, box.high);
     lens.zfar = 1.05F * reach;
-    // Nearer than the target at any distance.
+    // The near plane is nearer than the target at any distance.
     lens.znear = std::min(0.005F * reach, 0.1F * glm::distance(eye, target));
     return lens;
 }

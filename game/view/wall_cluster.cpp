@@ -25,9 +25,9 @@ constexpr double forever = std::numeric_limits<double>::infinity();
 enum class MessageKind : std::uint8_t {
     hello,    // the fingerprint of a process that is ready
     frame,    // a ClusterFrame
-    drawn,    // its delay in the frame before, and the input of its windows
+    drawn,    // the sender's delay in the frame before, and the input of its windows
     present,  // the permission
-    failed,   // exit code and words of an error
+    failed,   // exit code and text of an error
     end,      // the first process ends; the reason
 };
 
@@ -97,7 +97,7 @@ Error lost_process(Cluster& cluster, int process) {
 }
 
 Error strange_message(const Cluster& cluster, int process) {
-    return {ErrorCode::failed, fmt::format("{} sent a message that does not fit", cluster.describe(process)),
+    return {ErrorCode::failed, fmt::format("{} sent an unexpected message", cluster.describe(process)),
             "the same program in all processes"};
 }
 
@@ -106,7 +106,7 @@ ErrorCode get_code(MessageReader& message) {
     return code >= 1 && code <= 4 ? static_cast<ErrorCode>(code) : ErrorCode::failed;
 }
 
-// The error with which the first process has ended; none: it has ended in order.
+// The error with which the first process has ended; none: it has ended without one.
 std::optional<Error> reason_of_end(const Cluster& cluster, MessageReader& message) {
     Error error;
     error.code = get_code(message);
@@ -116,7 +116,7 @@ std::optional<Error> reason_of_end(const Cluster& cluster, MessageReader& messag
     return error;
 }
 
-// The error of another process, which begins with where it happened.
+// The error that another process has reported, with the name of that process before it.
 Error reported_error(const Cluster& cluster, int process, MessageReader& message) {
     Error error;
     error.code = get_code(message);
@@ -147,7 +147,6 @@ Result<std::optional<Message>> WallLeader::answer_of(int process) {
 Result<WallLeader> WallLeader::begin(Cluster& cluster, std::uint64_t fingerprint, StopWaiting stop,
                                      std::function<void(const std::string&)> log) {
     WallLeader leader(cluster, std::move(stop), std::move(log));
-    leader.delays_.resize(static_cast<std::size_t>(cluster.size()), 0.0);
     for (int process = 1; process < cluster.size(); ++process) {
         BOLT_TRY_ASSIGN(const auto answer, leader.answer_of(process));
         if (!answer) continue;  // the program ends
@@ -215,15 +214,15 @@ Status WallLeader::permit() {
 void WallLeader::presented() { own_delay_ = steady_seconds() - permitted_; }
 
 void WallLeader::end(const std::optional<Error>& error) {
-    if (!std::exchange(ended_, true)) dismiss(*cluster_, error);
+    if (!std::exchange(ended_, true)) end_others(*cluster_, error);
 }
 
-void WallLeader::dismiss(Cluster& cluster, const std::optional<Error>& error) {
+void WallLeader::end_others(Cluster& cluster, const std::optional<Error>& error) {
     MessageWriter message;
     message.put(MessageKind::end);
     message.put(static_cast<std::uint8_t>(error ? error->code : ErrorCode::failed));
     message.put_text(error ? error->message() : "");
-    // A process that has ended already needs no message.
+    // A failure is ignored: a process that has already ended needs no message.
     for (int process = 1; process < cluster.size(); ++process) (void)cluster.send(process, message.message());
 }
 

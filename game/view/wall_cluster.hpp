@@ -35,8 +35,8 @@ using StopWaiting = std::function<bool()>;
 class WallLeader {
   public:
     // Waits until all processes have opened their walls. Fails with the error of a process that could not, or
-    // if its `fingerprint` differs: that of the program and of the display file. `log` receives a line when a
-    // process is slow to answer; it may be empty.
+    // if a process has another `fingerprint`, the hash of the program's version and the display file. `log`
+    // receives a line when a process is slow to answer; it may be empty.
     static Result<WallLeader> begin(cluster::Cluster& cluster, std::uint64_t fingerprint, StopWaiting stop,
                                     std::function<void(const std::string&)> log);
 
@@ -50,7 +50,7 @@ class WallLeader {
     // Ends the other processes; a second call does nothing. With an error they fail too, with its exit code.
     void end(const std::optional<Error>& error);
     // As end(), for a start that fails before begin() has succeeded.
-    static void dismiss(cluster::Cluster& cluster, const std::optional<Error>& error);
+    static void end_others(cluster::Cluster& cluster, const std::optional<Error>& error);
 
     // One line for the log: frames, bytes of a frame, and how far apart the processes presented.
     [[nodiscard]] std::string summary() const;
@@ -63,9 +63,8 @@ class WallLeader {
     cluster::Cluster* cluster_;
     StopWaiting stop_;
     std::function<void(const std::string&)> log_;
-    double permitted_ = 0.0;      // s, when the last frame was permitted
-    double own_delay_ = 0.0;      // s, from there until this process had presented it
-    std::vector<double> delays_;  // s, likewise of each other process, for the frame before
+    double permitted_ = 0.0;  // s, when the last frame was permitted
+    double own_delay_ = 0.0;  // s, from then until this process had presented it
     bool ended_ = false;
     std::vector<float> skews_;          // s, of each frame: from the first process that presented to the last
     std::vector<std::uint32_t> sizes_;  // bytes of each frame

@@ -36,7 +36,7 @@ content::PatternEye eye_of(std::size_t eye, std::size_t count) {
     return eye == 0 ? content::PatternEye::left : content::PatternEye::right;
 }
 
-// A picture of a wall: x to the right and y down, px, from m to the right of and above the lower left corner.
+// Converts points of a wall (m, right and up from its lower left corner) to its picture (px, right and down).
 struct PatternPicture {
     glm::dvec2 pixels_per_meter{0.0};
     double height = 0.0;  // px
@@ -51,7 +51,7 @@ void add_pattern(const content::TestPattern& pattern, const PatternPicture& pict
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const auto right = static_cast<float>(list.GetClipRectMax().x) - 1.0F,
                bottom = static_cast<float>(list.GetClipRectMax().y) - 1.0F;
-    // Lines on the edge of the picture are inside it.
+    // Moves lines on the edge of the picture inside it.
     const auto inside = [&](const ImVec2& at) {
         return ImVec2(std::clamp(at.x, 1.0F, right), std::clamp(at.y, 1.0F, bottom));
     };

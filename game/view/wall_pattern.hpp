@@ -37,7 +37,7 @@ class WallPattern : public WindowContent {
     const content::DisplayFile& displays_;
     std::unique_ptr<GpuResources> gpu_;
     std::uint64_t frame_number_ = 0;
-    bool follows_ = false;  // the number comes from another process
+    bool follows_ = false;  // frame_number_ comes from another process
     bool closed_ = false;
 };
 

@@ -175,7 +175,7 @@ Walls::~Walls() {
     leader_->end({});
 }
 
-Status Walls::gather(std::uint64_t fingerprint, StopWaiting stop) {
+Status Walls::wait_for_processes(std::uint64_t fingerprint, StopWaiting stop) {
     if (cluster_ == nullptr || cluster_->process() != 0) return {};
     BOLT_TRY_ASSIGN(auto leader, WallLeader::begin(*cluster_, fingerprint, std::move(stop), log_));
     leader_.emplace(std::move(leader));

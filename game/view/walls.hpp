@@ -36,8 +36,8 @@ struct WallWindow {
 // The monitors that this process can use, and its number. `cluster`: null: it is the only process.
 content::DisplayHost this_host(const platform::Desktop& desktop, const cluster::Cluster* cluster = nullptr);
 
-// The windows of the outputs of this process. Fails if one is on a monitor that is not connected or on
-// another X display, if an output is of a process that does not exist, or if this process has none.
+// The windows of the outputs of this process. Fails if an output is on a monitor that is not connected, on
+// another X display, or of a process that does not exist. A process other than the first needs an output.
 Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& displays,
                                                   const content::DisplayHost& host);
 
@@ -67,7 +67,7 @@ class Walls {
 
     // Waits until the other processes have opened their walls (WallLeader::begin). Does nothing if this is
     // the only process.
-    Status gather(std::uint64_t fingerprint, StopWaiting stop);
+    Status wait_for_processes(std::uint64_t fingerprint, StopWaiting stop);
 
     // Creates the swapchains; release() destroys them before the device is destroyed.
     Status start(gpu::Device& device, const gpu::Instance& instance);

@@ -24,7 +24,7 @@ VkExtent2D size_of(const platform::Window& window) {
     return {size.width, size.height};
 }
 
-// At half of the width and height labels in the scene can still be read.
+// At half the width and height, labels in the scene can still be read.
 constexpr ResolutionControl full_in_window{.coarsest = 4};
 constexpr double window_period = 1.0 / 30;  // s; a smooth lesson, with more pixels than at 60 Hz
 
@@ -34,9 +34,9 @@ struct Canvas {
     std::unique_ptr<gpu::Swapchain> swapchain;
     double last_frame = 0.0;  // s, when it began
     ResolutionControl headset_resolution, window_resolution = full_in_window;
-    const ResolutionControl* adapted = nullptr;  // the one of these that the last frame adapted
+    const ResolutionControl* adapted = nullptr;  // the one of the two that the last frame adapted
     int old_frames = 0;                          // frames in flight that were drawn at another resolution
-    double late_since = 0.0;  // s, since when the headset's runtime has released no frame; 0: it did
+    double late_since = 0.0;  // s, time since which the headset's runtime is late; 0: it is not
     std::vector<platform::InputEvent> events;  // for the next frame
 
     Canvas() = default;
@@ -54,6 +54,7 @@ Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instan
     render::RendererOptions renderer;
     renderer.level_error_px = window_level_error;
     renderer.keep_depth = options.headset != nullptr;
+    if (options.headset != nullptr) renderer.margin = 0.02F;  // about 1°; recording takes 1 to 2 ms
     gpu::VulkanCreator* creator = options.headset != nullptr ? options.headset->creator() : nullptr;
     Canvas canvas;
     BOLT_TRY_ASSIGN(auto gpu_context,
@@ -65,7 +66,7 @@ Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instan
     return canvas;
 }
 
-// The pictures of the eyes, for the headset. Without a kept depth it is not submitted.
+// The pictures of the eyes, for the headset, and their depth if the renderer has kept it.
 std::vector<xr::EyePicture> eye_pictures(const render::Renderer& renderer, const EyeGroup& group) {
     std::vector<xr::EyePicture> pictures;
     for (std::uint32_t eye = 0; eye < group.eyes.size(); ++eye) {
@@ -111,12 +112,15 @@ class FrameLoop {
     [[nodiscard]] bool minimised() const;
     [[nodiscard]] double refresh_rate() const;  // Hz, of window or walls; 0: unknown
 
-    // Adds the events of all windows to those of the next frame. While only a minimised window is there,
-    // waits for them. Returns false if that was closed, because its content gets no frame to see it.
+    // Adds the events of all windows to those of the next frame. `only_minimised`: a minimised window is the
+    // only display. Then waits for events, and returns false if the window was closed, because the content
+    // gets no frame with this event.
     bool poll_events(bool only_minimised);
     Status draw();
     Status draw_window(WindowFrame window);
     Status draw_headset(xr::HeadsetFrame& frame, WindowFrame window);
+    // Moves the eyes of the recorded pictures to the latest prediction of the headset's pose.
+    void latch_eyes(xr::HeadsetFrame& frame, const WindowFrame& window, ImmersiveFrame& immersive);
     Status draw_walls(WindowFrame window);
     // Adapts the resolution to the time that the GPU took for the last frame. `period`: s, that a frame may
     // take; `elapsed`: s, since the last call.
@@ -166,6 +170,17 @@ Status FrameLoop::draw_window(WindowFrame window) {
     return {};
 }
 
+void FrameLoop::latch_eyes(xr::HeadsetFrame& frame, const WindowFrame& window, ImmersiveFrame& immersive) {
+    const xr::HeadView recorded = frame.view;
+    options_.headset->locate(frame);
+    if (frame.view.eyes.size() != recorded.eyes.size()) {
+        frame.view = recorded;
+        return;
+    }
+    immersive.groups = {eye_group(frame.view, immersive.groups.front().size)};
+    content_.move_eyes(window);
+}
+
 // A frame of the headset; the window mirrors the first eye, and never delays the headset.
 Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
     xr::Headset& headset = *options_.headset;
@@ -193,9 +208,10 @@ Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
         immersive.groups = {eye_group(frame.view, size)};
     }
     BOLT_TRY(content_.draw(*recorded, window));
-    // The user may have changed it while the interface was drawn.
+    // The user may have changed shows_surroundings() while the interface was drawn.
     frame.surroundings = immersive.can_show_surroundings && content_.shows_surroundings();
     const bool drawn = !immersive.groups.empty() && !immersive.groups.front().eyes.empty();
+    if (drawn) latch_eyes(frame, window, immersive);
     if (!drawn) {
         BOLT_TRY(gpu.frames->submit(*recorded));
     } else {
@@ -237,7 +253,7 @@ Status FrameLoop::draw_walls(WindowFrame window) {
         BOLT_TRY(gpu::present(*gpu.frames, *recorded, windows));
         return {};
     }
-    // All present when all GPUs have finished, so that no wall lags behind by its drawing.
+    // All processes present when all GPUs have finished, so that no wall lags behind the others.
     BOLT_TRY(gpu::present(*gpu.frames, *recorded, windows, [&]() -> Status {
         BOLT_TRY(gpu.device->idle());
         return walls.wait_for_others();

@@ -23,7 +23,7 @@ struct WindowFrame {
     double seconds = 0.0;                       // since the last frame
     const ImmersiveFrame* immersive = nullptr;  // null: the window is the only display
     // The share of the window's width and height at which a scene is drawn, below 1 if the GPU is too slow
-    // for all pixels. The interface has all of them.
+    // for all pixels. The interface is always drawn with all pixels.
     float resolution = 1.0F;
 };
 
@@ -45,12 +45,17 @@ class WindowContent {
     // with one, each group of eyes is drawn as a group of the renderer. The poses of the eyes may be newer
     // than those of update().
     virtual Status draw(gpu::FrameContext& frame, const WindowFrame& window) = 0;
-    // The picture for the window, when drawn. With an immersive frame the window shows all of it.
+    // Called between draw() and the submission of a headset's frame, if its eyes have moved meanwhile: moves
+    // those of the recorded pictures (Renderer::move_eyes).
+    virtual void move_eyes(const WindowFrame&) {}
+    // The picture for the window, valid after draw(). On walls the control window shows all of it; the window
+    // of a headset does not use it.
     [[nodiscard]] virtual render::ImageLayer window_picture(const render::Renderer& renderer) const {
         return renderer.picture(0);
     }
-    // On walls of several processes: share() writes what the others need to draw this frame, after update();
-    // there, follow() reads it before update(). Contents that are shown by one process need neither.
+    // On walls of several processes, the first one calls share() after update(), to write what the others
+    // need to draw the frame. The others call follow() before update(), to read it. Contents that only one
+    // process shows need neither.
     virtual Status share(cluster::MessageWriter&) { return {}; }
     virtual Status follow(cluster::MessageReader&) { return {}; }
     // Called instead of update() and draw() while the window is minimised and no headset is used.
@@ -90,7 +95,7 @@ class OrbitControl {
     glm::dvec2 cursor_{0.0};
 };
 
-// How run_in_window() runs the content.
+// The options of run_in_window().
 struct WindowRunOptions {
     std::string gpu{};               // part of the name of the GPU to use; empty: the best
     std::function<bool()> stop{};    // polled every frame; true closes the window
@@ -99,8 +104,8 @@ struct WindowRunOptions {
     // Lower the resolution of a headset if the GPU cannot keep its frame rate, and that of scenes in the
     // window if it cannot draw 30 frames a second.
     bool adapts_resolution = true;
-    // With a headset: how `instance` was created. It is created again by the headset's runtime when that is
-    // found, and with the same log.
+    // With a headset: the options of `instance`. When a headset is found, its runtime creates the instance
+    // again with these options and the same log.
     gpu::InstanceOptions instance{};
 };
 

@@ -73,7 +73,7 @@ Result<std::unique_ptr<Recording>> replay_session(const session::SessionReader& 
     world::World world;
     world::add_haptics(world, replayed.state);
     recording->states.push_back(state_of(world));
-    recording->lesson_of.push_back(0);
+    recording->lesson_index.push_back(0);
     const auto keep_lesson = [&](const lesson::Lesson& lesson) {
         recording->lessons.push_back(lesson);
         recording->lessons.back().assembly = &recording->start.assembly;
@@ -93,7 +93,7 @@ Result<std::unique_ptr<Recording>> replay_session(const session::SessionReader& 
                 keep_lesson(tick.lesson);
             if (tick.time + 0.5 * dt >= static_cast<double>(recording->states.size()) * recording->period) {
                 recording->states.push_back(state_of(world));
-                recording->lesson_of.push_back(recording->lessons.size() - 1);
+                recording->lesson_index.push_back(recording->lessons.size() - 1);
             }
             return true;
         }));

@@ -36,22 +36,23 @@ RecordedState state_of(const world::ReadHaptics& world);
 void write_state(const world::WriteHaptics& world, const RecordedState& state);
 
 struct Recording {
-    session::SessionSetup start;  // of the lesson; its tool contact stays at the start
+    session::SessionSetup start;  // setup and state at the start of the lesson; not advanced
     analysis::SessionData data;
-    double period = 0.02;                 // s between two of `states`
-    std::vector<RecordedState> states;    // the first one at the start of the lesson
-    std::vector<lesson::Lesson> lessons;  // as they were when a step began or ended
-    std::vector<std::size_t> lesson_of;   // for each of `states` an index into `lessons`
-    std::vector<TimelineMark> marks;      // in order of time
-    std::uint64_t mismatches = 0;         // ticks that differ from the recording
+    double period = 0.02;                   // s between two of `states`
+    std::vector<RecordedState> states;      // the first one at the start of the lesson
+    std::vector<lesson::Lesson> lessons;    // copies, one whenever a step began, ended or was undone
+    std::vector<std::size_t> lesson_index;  // for each of `states` an index into `lessons`
+    std::vector<TimelineMark> marks;        // in order of time
+    std::uint64_t mismatches = 0;           // ticks that differ from the recording
 
     [[nodiscard]] double duration() const { return static_cast<double>(states.size() - 1) * period; }
     // The state nearest to the time.
     [[nodiscard]] std::size_t index_at(double time) const;
     // The step of the lesson at the time: the last mark before it that is no mistake. Null before the first.
     [[nodiscard]] const TimelineMark* chapter_at(double time) const;
-    // The beginning of the next chapter (`by` 1), or of the one that lasts at `time` (`by` −1; the previous
-    // one within its first second). The end or the start of the session if there is none.
+    // The start (s) of another chapter. `by` 1: the next one; the end of the session if there is none. `by`
+    // −1: the present one, or in its first second the previous one; the start of the session if there is
+    // none.
     [[nodiscard]] double neighbouring_chapter(double time, int by) const;
 };
 

@@ -149,7 +149,7 @@ void Viewer::advance(double seconds) {
     const double before = time_;
     if (playing_) seek(time_ + speed_ * std::min(seconds, longest_frame));
     if (time_ >= recording_->duration()) playing_ = false;
-    moved_ = std::max(time_ - before, 0.0);
+    played_ = std::max(time_ - before, 0.0);
 }
 
 const world::Joint* Viewer::joint_at_work() const {
@@ -219,9 +219,9 @@ Status Viewer::update(const view::WindowFrame& window) {
     const std::size_t index = recording_->index_at(time_);
     write_state(replay.workplace.world, recording_->states[index]);
     const session::SessionSetup& start = recording_->start;
-    const film::ReplayMoment moment{start.setup, recording_->lessons[recording_->lesson_of[index]],
+    const film::ReplayMoment moment{start.setup, recording_->lessons[recording_->lesson_index[index]],
                                     start.state.tool_contact ? &*start.state.tool_contact : nullptr,
-                                    options_.words, moved_};
+                                    options_.words, played_};
     film::place(replay, moment);
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     follow_work(static_cast<double>(aspect));

@@ -28,7 +28,7 @@ struct ViewerOptions {
 
 class Viewer : public view::WindowContent {
   public:
-    // Loads the models. `recording` stays with the viewer.
+    // Loads the models.
     static Result<std::unique_ptr<Viewer>> create(std::unique_ptr<Recording> recording,
                                                   ViewerOptions options);
     ~Viewer() override;
@@ -81,7 +81,7 @@ class Viewer : public view::WindowContent {
     ViewerOptions options_;
     scene::LessonModels models_;
 
-    double time_ = 0.0, speed_ = 1.0, moved_ = 0.0;  // s; times real time; s since the last frame
+    double time_ = 0.0, speed_ = 1.0, played_ = 0.0;  // s; times real time; s played in this frame
     bool playing_ = true, closed_ = false, full_screen_requested_ = false;
     bool follows_ = true;    // the camera turns to the joint at work
     std::string view_name_;  // the chosen named view

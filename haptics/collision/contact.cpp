@@ -108,7 +108,7 @@ class Reducer {
                                         : nearer(all_.near[a.index], all_.near[b.index]);
     }
 
-    // If the contact that this one merged with at a smaller merge distance is kept again, it merges again.
+    // True if the contact that this one merged with at a smaller merge distance is kept again.
     [[nodiscard]] bool is_merged_again(const RankedContact& one) const {
         return one.merged_with != unmerged && all_.kept_in[one.merged_with] == iteration_;
     }

@@ -103,7 +103,7 @@ struct DeferredContact {
     // Set and read by the narrow phase.
     std::uint32_t sample = 0;  // index of the sample
     double accumulated = 0.0;  // m, the sample's accumulated motion when it was deferred
-    std::uint32_t body = 0;    // index
+    std::uint32_t body = 0;    // index in `CollisionWorld::bodies`
     bool of_tool = false;      // the sample is the tool's
     bool resolved = false;     // the exact query has been done, with or without a contact as its result
 };

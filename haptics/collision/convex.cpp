@@ -298,7 +298,7 @@ Separation separation(const Convex& tool, const Convex& obstacle, const Pose& to
     for (std::uint32_t i = 0; i < obstacle.faces.size(); ++i) {
         const HalfSpace& plane = obstacle.faces[i].plane;
         if (glm::dot(plane.normal, middle) - plane.offset < best.distance)
-            continue;  // no point is further out
+            continue;  // the tool's nearest point is no further out than its middle
         const double distance = min_along(posed.all(), plane.normal) - plane.offset;
         if (distance > best.distance + face_preference)
             best = {distance, plane.normal, FeaturePair::obstacle_face, i, 0};

@@ -10,7 +10,7 @@ namespace {
 
 // m; radius searched beyond the necessary one for a piece that had no edge near it.
 constexpr double edge_lookahead = 3e-3;
-// m and rad; cached candidates are searched again when less than this remains of their bounds.
+// m and rad; the edges are searched again when less than this remains of the cached candidates' bounds.
 constexpr double min_cached_distance = 0.1e-3, min_cached_turn = 2e-3;
 
 bool nearer_crossing(const Crossing& a, const Crossing& b) {
@@ -43,9 +43,9 @@ struct EdgeGathering {
     }
 };
 
-// Largest cosine between the common perpendicular, taken away from each of the two solids, and the inward
-// directions of that solid's edge. At most 0: the perpendicular points out of both solids, so the edges face
-// each other. Above 0: a face, a vertex or another edge is nearer.
+// Largest cosine between an inward direction of an edge and the common perpendicular away from that edge's
+// solid: `normal` for `edge`, −`normal` for `piece`. At most 0: the perpendicular points out of both solids,
+// so the edges face each other. Above 0: a face, a vertex or another edge is nearer.
 double facing_excess(const Ridge& edge, const EdgePiece& piece, const Vec3& normal) {
     double excess = -1.0;
     for (std::size_t i = 0; i < 2; ++i)
@@ -82,83 +82,107 @@ bool needs_large_turn(EdgeGathering& g, const Ridge& edge) {
     return turn > useful_turn;
 }
 
-// Compares one edge with the piece. The bounds hold because turning the piece by φ turns the perpendicular by
-// at most 1.5 φ divided by the sine of the angle between the edges, while φ is below a third of that sine.
-void add_edge_pair(EdgeGathering& g, std::uint32_t index) {
-    const Ridge& edge = g.solid->ridges[index];
-    const Vec3 a(edge.ends[0]);
-    const Vec3 b(edge.ends[1]);
-    const Vec3 middle = 0.5 * (a + b);
-    const Vec3 half = 0.5 * (b - a);
-    const Vec3 across = glm::cross(g.piece->half, half);
-    const double size = glm::length(across);
-    const double length = glm::length(half);
-    const double sine = size / (g.length * length);
-    Crossing crossing;
-    if (sine > 1e-3) {
-        crossing.normal = across / size;
-        const double excess = std::min(facing_excess(edge, *g.piece, crossing.normal),
-                                       facing_excess(edge, *g.piece, -crossing.normal));
-        const double turn = excess * sine / 3.0;
-        if (turn >= g.turn) return;
-        if (turn > useful_turn) {
-            g.turn = turn;
-            return;
-        }
-        if (excess > 0.0) {
-            const ClosestSegmentParameters at =
-                closest_on_segments(g.piece->middle, g.piece->half, middle, half);
-            const Vec3 between = g.piece->middle + at.s * g.piece->half - middle - at.t * half;
-            if (glm::dot(between, between) <= g.radius * g.radius) g.turn = turn;
-            return;
-        }
+// An edge and the piece, and where they are closest.
+struct EdgePair {
+    const Ridge& edge;
+    Vec3 middle, half;  // of the edge
+    Vec3 across;        // the half of the piece × that of the edge
+    double size;        // of `across`
+    double length;      // m, of `half`
+    double sine;        // of the angle between them
+    ClosestSegmentParameters at;
+};
+
+EdgePair edge_pair(const EdgeGathering& g, const Ridge& edge) {
+    const Vec3 a(edge.ends[0]), b(edge.ends[1]);
+    EdgePair pair{edge, 0.5 * (a + b), 0.5 * (b - a), {}, 0.0, 0.0, 0.0, {}};
+    pair.across = glm::cross(g.piece->half, pair.half);
+    pair.size = glm::length(pair.across);
+    pair.length = glm::length(pair.half);
+    pair.sine = pair.size / (g.length * pair.length);
+    return pair;
+}
+
+// Returns true if the edges do not face each other. Then bounds the turn until they may: turning the piece by
+// φ turns the perpendicular by at most 1.5 φ divided by `sine`, while φ is below a third of it.
+bool faces_away(EdgeGathering& g, EdgePair& pair, const Vec3& normal) {
+    const double excess =
+        std::min(facing_excess(pair.edge, *g.piece, normal), facing_excess(pair.edge, *g.piece, -normal));
+    const double turn = excess * pair.sine / 3.0;
+    if (turn >= g.turn) return true;
+    if (turn > useful_turn) {
+        g.turn = turn;
+        return true;
     }
-    const ClosestSegmentParameters at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
-    crossing.on_piece = g.piece->middle + at.s * g.piece->half;
-    crossing.on_edge = middle + at.t * half;
+    pair.at = closest_on_segments(g.piece->middle, g.piece->half, pair.middle, pair.half);
+    if (excess <= 0.0) return false;
+    const Vec3 between = g.piece->middle + pair.at.s * g.piece->half - pair.middle - pair.at.t * pair.half;
+    if (glm::dot(between, between) <= g.radius * g.radius) g.turn = turn;
+    return true;
+}
+
+// Bounds the motion until the feet of the perpendicular, which lie beyond the ends now, reach them. `apart`
+// and `beyond`: m, the distance of the segments, and how much further than a crossing they are.
+void bound_feet(EdgeGathering& g, const EdgePair& pair, const Vec3& normal, double apart, double beyond) {
+    const Vec3 between = pair.middle - g.piece->middle;
+    const double on_piece = glm::dot(glm::cross(between, pair.half), pair.across) / (pair.size * pair.size);
+    const double on_edge =
+        glm::dot(glm::cross(between, g.piece->half), pair.across) / (pair.size * pair.size);
+    // m by which the feet lie beyond the ends. A displacement moves them by at most 1.12 times itself, a turn
+    // by at most 4.8 times the distance times the turn, both divided by the sine.
+    const double over =
+        std::max((std::abs(on_piece) - 1.0) * g.length, (std::abs(on_edge) - 1.0) * pair.length);
+    double clear = std::min(apart, 0.4 * over * pair.sine);
+    double turn = std::min(0.05 * pair.sine, over * pair.sine * pair.sine / (10.0 * apart));
+    // The lines are apart and must touch before they can pass each other. Their distance decreases at most by
+    // the displacement plus the turn times the distance of the foot.
+    const double distance = -glm::dot(between, normal);
+    if (const double until = std::min(apart, 0.8 * distance); until > clear) {
+        clear = until;
+        turn = std::min(0.05 * pair.sine, 0.15 * distance / (std::abs(on_piece) * g.length + 1e-9));
+    }
+    if (clear > beyond) {
+        g.clear = std::min(g.clear, clear);
+        g.turn = std::min(g.turn, turn);
+    } else {
+        g.clear = std::min(g.clear, beyond);
+    }
+}
+
+// Compares one edge with the piece: adds their crossing, or bounds the motion until there may be one.
+void add_edge_pair(EdgeGathering& g, std::uint32_t index) {
+    EdgePair pair = edge_pair(g, g.solid->ridges[index]);
+    const bool parallel = !(pair.sine > 1e-3);
+    Crossing crossing;
+    if (parallel) {
+        pair.at = closest_on_segments(g.piece->middle, g.piece->half, pair.middle, pair.half);
+    } else {
+        crossing.normal = pair.across / pair.size;
+        if (faces_away(g, pair, crossing.normal)) return;
+    }
+    crossing.on_piece = g.piece->middle + pair.at.s * g.piece->half;
+    crossing.on_edge = pair.middle + pair.at.t * pair.half;
     const double apart = glm::length(crossing.on_piece - crossing.on_edge);
     if (apart > g.radius) return;
     // Nearly parallel edges are compared at their middles only; the error is at most their angle times the
     // length.
-    const double beyond = apart - max_crossing_depth - (at.inner ? 0.0 : 2e-3 * g.length);
-    if (!(sine > 1e-3)) {
+    const double beyond = apart - max_crossing_depth - (pair.at.inner ? 0.0 : 2e-3 * g.length);
+    if (parallel) {
         g.clear = std::min(g.clear, beyond);
         return;
     }
-    if (glm::dot(crossing.normal, Vec3(edge.normals[0]) + Vec3(edge.normals[1])) < 0.0)
+    if (glm::dot(crossing.normal, Vec3(pair.edge.normals[0]) + Vec3(pair.edge.normals[1])) < 0.0)
         crossing.normal = -crossing.normal;
-    if (!at.inner) {
-        const Vec3 between = middle - g.piece->middle;
-        const double on_piece = glm::dot(glm::cross(between, half), across) / (size * size);
-        const double on_edge = glm::dot(glm::cross(between, g.piece->half), across) / (size * size);
-        // m by which the feet of the perpendicular lie beyond the ends. A displacement moves them by at
-        // most 1.12 times itself, a turn by at most 4.8 times the distance times the turn, both divided by
-        // the sine.
-        const double over =
-            std::max((std::abs(on_piece) - 1.0) * g.length, (std::abs(on_edge) - 1.0) * length);
-        double clear = std::min(apart, 0.4 * over * sine);
-        double turn = std::min(0.05 * sine, over * sine * sine / (10.0 * apart));
-        // The lines are apart and must touch before they can pass each other. Their distance decreases at
-        // most by the displacement plus the turn times the distance of the foot.
-        const double distance = -glm::dot(between, crossing.normal);
-        if (const double until = std::min(apart, 0.8 * distance); until > clear) {
-            clear = until;
-            turn = std::min(0.05 * sine, 0.15 * distance / (std::abs(on_piece) * g.length + 1e-9));
-        }
-        if (clear > beyond) {
-            g.clear = std::min(g.clear, clear);
-            g.turn = std::min(g.turn, turn);
-        } else {
-            g.clear = std::min(g.clear, beyond);
-        }
+    if (!pair.at.inner) {
+        bound_feet(g, pair, crossing.normal, apart, beyond);
         return;
     }
     crossing.distance = glm::dot(crossing.on_piece - crossing.on_edge, crossing.normal);
-    crossing.edge = edge.sharp_edge;
+    crossing.edge = pair.edge.sharp_edge;
     if (crossing.distance > 0.0) {
         // The edges can change sides only by passing through each other.
         g.clear = std::min(g.clear, 0.9 * crossing.distance);
-        g.turn = std::min(g.turn, 0.1 * sine);
+        g.turn = std::min(g.turn, 0.1 * pair.sine);
     } else {
         g.clear = std::min(g.clear, beyond);
     }

@@ -36,18 +36,19 @@ struct EdgeQueryResult {
 };
 
 // Two edges face each other if their common perpendicular points out of both solids; otherwise a face, a
-// vertex or another edge is nearer. These are the candidate edges of a solid for a piece: any other edge is
-// further than the radius of the query, or does not face the piece until it has turned by `turn` (rad).
+// vertex or another edge is nearer. FacingEdges lists the candidate edges of a solid for a piece. Any other
+// edge is further than the radius of the query, or cannot face the piece until the piece has turned by `turn`
+// (rad).
 struct FacingEdges {
     std::array<std::uint32_t, 40> ridges{};  // indices in `Solid::ridges`
     std::uint32_t count = 0;
-    bool all = false;  // all candidates fitted
+    bool all = false;  // all candidates fitted into `ridges`
     double turn = 0.0;
 };
 
-// Finds the crossings within `band` of the piece whose edges face each other. If the output is too small, it
-// gets the nearest. `other` is the solid that the piece belongs to, `to_other` leads into its frame. Edges
-// further than `radius` are ignored. Fills `facing`.
+// Finds the crossings of the piece, within `band`, with edges of `solid` that face it. If the output is too
+// small, the nearest crossings are written. `other` is the solid that the piece belongs to; `to_other` maps
+// the frame of `solid` to that of `other`. Edges further than `radius` are ignored. Fills `facing`.
 EdgeQueryResult query_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
                             const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
                             FacingEdges& facing);

@@ -85,8 +85,8 @@ class SurfaceQueryPass {
           band_(band),
           collected_(collected) {}
 
-    // `origin_radius`: m, of the tool. Relative to an obstacle's samples the whole tool moves, so its radius
-    // about the origin bounds their motion.
+    // `origin_radius`: m, of the tool. Seen from an obstacle's samples the tool moves, so the motion of the
+    // tool's outermost point bounds the change of their distances.
     void run(SurfaceQueryCache& cache, const PairCache& pair, double origin_radius) const {
         const AccumulatedMotion motion{pair.moved, pair.turned, origin_radius};
         const std::size_t top = samples_.levels.size() - 1;
@@ -183,9 +183,9 @@ class SurfaceQueryPass {
         return gap > 0.0 ? gap : no_bound;
     }
 
-    // Queries the samples of a cluster whose bound no longer holds; `remaining`: what remains of it. If a
-    // sample was near at the last query, the bound of the whole cluster is unlikely to help and is not
-    // computed.
+    // Queries those samples of a cluster whose bounds no longer hold. `remaining`: m, what remains of the
+    // cluster's own bound. If a sample was near at the last query, a new bound of the whole cluster is
+    // unlikely to help and is not computed.
     DistanceBound query_cluster(SurfaceQueryCache& cache, const Cluster& cluster, const Vec3& middle,
                                 double remaining, bool near_before, const SampleMotion& accumulated) const {
         const std::span<DistanceBound> sample_bounds =
@@ -304,8 +304,9 @@ class SurfaceQueryPass {
         return obstacle_of(world_, body_, of_tool_ ? triangle : samples_.samples[index].triangle);
     }
 
-    // Defers the contact of a point outside; false if the leaf is not convex. In a convex leaf the point has
-    // at most one contact, whose position and normal are bounded.
+    // Defers the contact of a point outside. In a convex leaf the point has at most one contact, whose
+    // position and normal are bounded. False if the leaf is not convex, its normals spread too far, or
+    // the buffer is full.
     [[nodiscard]] bool defer(std::uint32_t index, const Vec3& at, const OctreeQuery& octree_query,
                              double lower, double accumulated) const {
         if (!octree_query.leaf->convex || octree_query.leaf->spread > max_normal_spread) return false;

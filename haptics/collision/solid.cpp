@@ -227,7 +227,7 @@ SeparatingPlane make_plane(const ContactMesh& mesh, const Vec3& p, const Candida
     const Vec3 between = p - c.point;
     SeparatingPlane plane{std::sqrt(c.squared), c.point, {}, c.triangle};
     const bool inside = glm::dot(between, pseudo) < 0.0;
-    // On the surface itself and above the inside of a face, the direction is the surface's normal.
+    // On the surface itself and over the interior of a face, the direction is the surface's normal.
     plane.normal = c.region < 6 && plane.distance > 1e-9
                        ? between / (inside ? -plane.distance : plane.distance)
                        : glm::normalize(pseudo);
@@ -235,8 +235,8 @@ SeparatingPlane make_plane(const ContactMesh& mesh, const Vec3& p, const Candida
     return plane;
 }
 
-// The plane of the nearest surface. Where parts touch, surfaces coincide, and the one that the point is
-// inside of takes precedence: a point inside one part also lies on the other part's surface, from outside.
+// The plane of the nearest surface. Where two parts touch, their surfaces coincide: a point is then inside
+// one part and, at the same distance, outside the other. The part that contains the point takes precedence.
 SeparatingPlane nearest_plane(const PointGathering& g) {
     const bool inside = g.inside.squared < PointGathering::limit &&
                         std::sqrt(g.inside.squared) <= std::sqrt(g.nearest.squared) + coincidence_tolerance;
@@ -254,8 +254,8 @@ bool is_behind_plane(const ContactMesh& mesh, const Candidate& c, const Separati
     const double along = glm::dot(face, plane.normal);
     const double slope = std::sqrt(std::max(0.0, 1.0 - along * along));
     const double height = glm::dot(c.point - plane.point, plane.normal);
-    // Upper bound of the distance, within the triangle's plane, from the closest point to any point of the
-    // band.
+    // Upper bound of the distance, within the triangle's plane, from the closest point to any point within
+    // the band.
     const double span = std::sqrt(std::max(0.0, band2 - c.squared)) + std::sqrt(c.squared);
     return height + slope * span <= plane_tolerance;
 }

@@ -11,11 +11,7 @@ constexpr int levels = octree_levels;
 const double half_diagonal = 0.5 * std::sqrt(3.0);  // of a cell of size 1
 // rad; a leaf whose normals spread further does not use its plane.
 constexpr float max_leaf_spread = 1.3F;
-// A cell with at most `few_triangles` that are nearly in a plane, or with at most `very_few_triangles`, is
-// not divided.
-constexpr std::size_t few_triangles = 8;
-constexpr std::size_t very_few_triangles = 10;
-const double nearly_planar = std::cos(to_radians(3.0));
+constexpr std::size_t few_triangles = 10;  // a cell with at most so many is not divided
 // m; exceeds the error of coordinates in float.
 constexpr double octree_rounding = 1e-6;
 // m; a leaf is not convex if a triangle rises by more than this above another's plane.
@@ -36,9 +32,7 @@ class OctreeBuilder {
         const double distance = query_point(solid_, middle, within, 0.0, {}).distance;
         octree_.nodes[node].distance = static_cast<float>(distance);
         OctreeLeaf leaf = leaf_plane(listed);
-        const bool is_simple =
-            listed.size() <= very_few_triangles ||
-            (listed.size() <= few_triangles && std::cos(static_cast<double>(leaf.spread)) > nearly_planar);
+        const bool is_simple = listed.size() <= few_triangles;
         // A cell that lists nothing is not divided if all of it is clear of the surface by a fraction of its
         // size.
         const bool is_clear = std::abs(distance) > 1.25 * half_diagonal * size;

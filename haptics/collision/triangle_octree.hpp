@@ -1,4 +1,4 @@
-// An octree over the surroundings of a solid, built at load and refined near curved surface. A leaf stores
+// An octree over the surroundings of a solid, built at load and refined near curved surfaces. A leaf stores
 // the signed distance of its centre and the triangles within `listing_distance` of any point in it. A query
 // returns distance bounds without visiting triangles; near the surface the listed triangles give exact
 // distances.
@@ -16,8 +16,9 @@ inline constexpr std::size_t max_listed = 256;      // triangles of a leaf; a le
 
 struct OctreeLeaf {
     std::uint32_t begin = 0, end = 0;  // range in `TriangleOctree::triangles`
-    // Index in `TriangleOctree::boxes` of the triangles' bounding boxes: the lowest x of all, …, the highest
-    // z of all. Each coordinate is padded to a multiple of four entries.
+    // First index in `TriangleOctree::boxes` of the triangles' bounding boxes: the lowest x of every
+    // triangle, then y, then z, then the highest x, y and z. Each coordinate is padded to a multiple of four
+    // entries.
     std::uint32_t boxes = 0;
     // The plane of the points x with normal · x = height. All triangles are behind it; `spread` (rad) bounds
     // the angle between their normals and the plane's.

@@ -22,9 +22,8 @@ struct ToolShape {
     Solid solid;
     TriangleOctree octree;
     SurfaceSamples samples;
-    [[nodiscard]] double origin_radius() const {
-        return solid.origin_radius;
-    }  // m, greatest distance from the tool's origin
+    // m, greatest distance from the tool's origin.
+    [[nodiscard]] double origin_radius() const { return solid.origin_radius; }
 };
 
 // Fails if a part is not closed, since the inside of the tool must be defined, or if the options are invalid.
@@ -34,7 +33,7 @@ struct Obstacle {
     ObstacleId id;                      // copied to its contacts
     const ContactMesh* mesh = nullptr;  // may be shared; must live until make_world returns
     Pose pose;                          // to the assembly
-    bool moves = false;                 // also set for what may be switched off or overlaps other obstacles
+    bool moves = false;                 // also set for a part that may be disabled or overlaps others
 };
 
 struct WorldOptions {
@@ -87,7 +86,7 @@ struct SurfacePoint {
 // Spreads `count` points over a mesh evenly by area. Deterministic.
 std::vector<SurfacePoint> sample_surface(const ContactMesh& mesh, std::size_t count);
 
-// As sample_surface, without points that face into the body: a bore is filled by its bolt.
+// As sample_surface, without points that face another surface of the solid, as in a bore: its bolt fills it.
 std::vector<SurfacePoint> sample_outer_surface(const Solid& solid, std::size_t count);
 
 struct Visibility {

@@ -47,7 +47,7 @@ Result<std::unique_ptr<DeviceDriver>> open_listed_force_dimension(const ListedDe
                                 steady_timer());
 }
 
-// The vendor's library has to reserve an arm to find it, so the arm is listed where the library is present.
+// The vendor's library finds an arm only by reserving it, so one arm is listed if the library is present.
 std::vector<ListedDevice> list_open_haptics() {
     const char* const name = "OpenHaptics arm";
     const Result<OpenHapticsApi> api = load_open_haptics(open_haptics_libraries());
@@ -62,7 +62,7 @@ Result<std::unique_ptr<DeviceDriver>> open_listed_open_haptics(const ListedDevic
     return open_open_haptics(api, steady_timer());
 }
 
-// Every listing of devices calls this, also on computers without a service.
+// Short, because every listing of devices tries to connect, also on computers without a service.
 constexpr double haply_list_timeout = 0.1;  // s
 
 std::vector<ListedDevice> list_haply_arms() {

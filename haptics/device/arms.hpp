@@ -1,5 +1,5 @@
-// Arms through their vendors' libraries or services, and through plug-ins: one row for each backend, with the
-// functions that list its arms and open one of them.
+// Backends for arms: the vendors' libraries and services, and plug-ins. Each backend has a function that
+// lists its arms and one that opens an arm.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,9 @@ namespace bolt::device {
 
 struct ArmBackend {
     std::string_view name;  // an arm's id is NAME:INDEX, or NAME:PLUG-IN:INDEX
-    // Returns the arms that are connected now; none if the backend's library is absent, because a computer
-    // without an arm needs none. A library that cannot be used is listed as an arm with an error.
+    // Returns the arms that are connected now. An absent library gives an empty list, not an error, because a
+    // computer without an arm needs no library. A library that cannot be used is listed as an arm with an
+    // error.
     std::vector<ListedDevice> (*list)();
     Result<std::unique_ptr<DeviceDriver>> (*open)(const ListedDevice& listed, const OpenOptions& options);
 };

@@ -158,7 +158,7 @@ std::string udev_rule(const HidIdentity& identity) {
 std::vector<ListedDevice> list_devices(bool others) {
     std::vector<ListedDevice> out = list_arms();
     for (const HidNode& one : enumerate_nodes()) out.push_back(listed(one));
-    // Disconnected in the meantime.
+    // Omits devices that were disconnected in the meantime.
     std::erase_if(out, [](const ListedDevice& device) { return device.error && device.error->lost; });
     // Supported devices first, so that their ids do not depend on `others`: a puck's receiver is also a
     // keyboard.

@@ -27,7 +27,8 @@ struct HidIdentity {
 };
 
 struct ListedDevice {
-    // For example /dev/hidraw3; changes when the device is replugged. Of an arm: the library or service.
+    // HID device: its node, for example /dev/hidraw3; changes when the device is replugged. Arm: its library
+    // or service.
     std::string path;
     // An arm: VENDOR:INDEX, for example force-dimension:0. Others: VENDOR:PRODUCT[:SERIAL], for example
     // 256f:c62e; #2 is appended for a second identical device.
@@ -36,14 +37,14 @@ struct ListedDevice {
     DeviceKind kind = DeviceKind::other;
     std::optional<Error> error;  // why it cannot be used, with a remedy
 
-    // False if it cannot be opened. An arm that only needs its preparation can.
+    // False if the device cannot be opened. An arm that only needs its preparation counts as usable.
     [[nodiscard]] bool usable() const { return !error || preparation_of(*error).need != DeviceNeed::none; }
 };
 
 // The devices connected now; with `others` also unsupported ones such as keyboards.
 std::vector<ListedDevice> list_devices(bool others = false);
 
-// kg. The arms can lift 1 to 2 kg, depending on the model; the rest is left for forces.
+// kg. The arms can lift 1 to 2 kg, depending on the model; this limit leaves a part for rendered forces.
 inline constexpr double max_effector_mass = 1.0;
 
 struct OpenOptions {
@@ -54,16 +55,16 @@ struct OpenOptions {
     // `max_effector_mass`. 0: the handle that the factory has mounted.
     double effector_mass = 0.0;
     std::shared_ptr<UnfinishedCalibrations>
-        waiting_arms{};                            // of plug-ins, from one attempt to the next; may be null
+        waiting_arms{};                            // keeps plug-in arms open between attempts; may be null
     std::shared_ptr<MovePermission> permission{};  // factory_for() sets `arm_may_move` from it; may be null
 };
 
 Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const OpenOptions& options = {});
 
-// The factory searches for the id each time it opens.
+// The factory looks the id up at each opening.
 DeviceFactory factory_for(std::string id, const OpenOptions& options = {});
 
-// The decisions of list_devices() and open(), from the arguments alone.
+// The pure parts of list_devices() and open().
 DeviceKind kind_of(const HidIdentity& identity, const ReportDescriptor& descriptor);
 std::string id_of(const HidIdentity& identity);
 // A udev rule for a device that tools/udev does not cover.

@@ -46,7 +46,7 @@ struct Description {
     std::string id;             // the same each time this unit is plugged in
     std::string model, serial;  // as the device reports them; empty: it does not
     Sensing sensing = Sensing::pose;
-    bool senses_rotation = true;    // of the hand; Sensing::pose
+    bool senses_rotation = true;    // of the hand; with Sensing::pose
     std::array<bool, 6> renders{};  // force along x, y, z, torque about them; magnitudes in `limits`
     force::OutputLimits limits;     // force 0 and torque 0: input only
     double rate = 1000.0;           // samples per second while the hand moves
@@ -55,17 +55,17 @@ struct Description {
     Vec3 half_workspace{0.0};
     Vec3 axis{0.0, 0.0, 1.0};  // unit, of Sensing::angle
     int buttons = 0;
-    bool senses_gripper = false;       // jaws for thumb and finger; Sensing::pose
+    bool senses_gripper = false;       // jaws for thumb and finger; with Sensing::pose
     std::vector<std::string> remarks;  // restrictions and peculiarities, each with a remedy
 };
 
 // Calibration and heat of an open device, as far as the device reports them.
 struct DeviceHealth {
-    // Its position is calibrated; none: it needs no calibration or does not report it.
+    // The device has calibrated its position; none: no calibration is needed or reported.
     std::optional<bool> calibrated;
-    // 0 … 1, of its hottest motor: at 1 the device ends its force. None: it does not report it.
+    // 0 … 1, of the hottest motor: at 1 the device ends its force. None: not reported.
     std::optional<double> heat;
-    bool cooling = false;  // it renders no force until its motors are cool
+    bool cooling = false;  // the device renders no force until its motors are cool
 };
 inline constexpr double warm_threshold = 0.8;  // heat from which the user should rest the arm
 [[nodiscard]] inline bool is_warm(const DeviceHealth& c) {
@@ -73,21 +73,21 @@ inline constexpr double warm_threshold = 0.8;  // heat from which the user shoul
 }
 
 struct Sample {
-    Pose pose;                   // of the handle, device frame; Sensing::pose
-    Vec3 velocity{0.0};          // m/s, Sensing::velocity
+    Pose pose;                   // of the handle, device frame; with Sensing::pose
+    Vec3 velocity{0.0};          // m/s; with Sensing::velocity
     Vec3 angular_velocity{0.0};  // rad/s
-    double angle = 0.0;          // rad, right-handed about the axis; Sensing::angle
+    double angle = 0.0;          // rad, right-handed about the axis; with Sensing::angle
     std::uint32_t buttons = 0;   // bit i: button i is pressed
-    double gripper = 1.0;        // 0 closed … 1 fully open; Description::senses_gripper
+    double gripper = 1.0;        // 0 closed … 1 fully open; with Description::senses_gripper
     double time = 0.0;           // s, when it was read, on the caller's clock
 };
 
-// The error of a device that is disconnected or has ended its force: the supervisor opens it again.
+// The error of a device that is disconnected or has ended its force: the supervisor reopens the device.
 Error lost_device_error(std::string what, std::string expected);
 
-// The error of an arm that is connected and cannot be opened before it has what it needs.
+// The error of an arm that is connected and cannot be opened before `preparation` is done.
 Error unprepared_device_error(std::string what, std::string expected, Preparation preparation);
-// The same for an arm that would have to move by itself and has no permission.
+// The same for an arm that must move by itself to find its position and has no permission to move.
 Error move_permission_error(const std::string& name, std::string_view id);
 
 // The interface of a driver: a device that measures the hand and may render force. A driver neither reopens a
@@ -126,12 +126,12 @@ struct WheelConfig {
     double full_torque = 25.0;
     double max_torque = 2.0;  // N·m, limit of the rendered torque
 
-    // Encoder counts per turn, for boards that report counts. 0: unknown, the angle follows from `range`.
+    // Encoder counts per turn, for boards that report counts. 0: unknown; `range` then gives the angle.
     double counts_per_turn = 0.0;
-    // rad from stop to stop, for wheels that do not report it.
+    // rad from stop to stop, for wheels that do not report their range.
     double range = to_radians(900.0);
 
-    bool reversed = false;      // the motor pulls in the opposite direction
+    bool reversed = false;      // the motor turns against the commanded direction
     Vec3 axis{0.0, 0.0, -1.0};  // unit, device frame: clockwise as the user sees it is positive
     bool operator==(const WheelConfig&) const = default;
 };
@@ -147,7 +147,7 @@ struct PuckResponse {
 // Describes a device in plain text for `boltwright devices`: one line each for model and serial number, what
 // it senses, what it renders, and its remarks.
 std::vector<std::string> summary_lines(const Description& description);
-// Its calibration and temperature, as far as it reports them.
+// Describes calibration and motor heat, as far as the device reports them.
 std::vector<std::string> summary_lines(const DeviceHealth& health);
 
 }  // namespace bolt::device

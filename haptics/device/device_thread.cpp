@@ -35,8 +35,8 @@ bool DeviceSupervisor::expects_samples() const {
 
 namespace {
 
-// m from the middle of an arm's reach within which a position is plausible, in units of the reach; for an arm
-// of unknown reach, in m.
+// A position is plausible up to `plausible_reaches` times the reach from its middle; for an arm of unknown
+// reach, up to `plausible_distance` (m).
 constexpr double plausible_reaches = 4.0, plausible_distance = 2.0;
 
 bool is_within_reach(const Vec3& position, const Vec3& reach) {

@@ -13,11 +13,11 @@
 namespace bolt::device {
 
 struct SupervisorOptions {
-    double first_retry_delay = 0.05, max_retry_delay = 1.0;  // s between two attempts to open; doubles
+    double first_retry_delay = 0.05, max_retry_delay = 1.0;  // s between attempts to open; the delay doubles
     // s without a new command until the force is released. With one more poll and one write the device
     // has released its force after 20 ms at the latest.
     double command_timeout = 0.015;
-    double max_silence = 0.25;  // s without a valid sample until this is reported
+    double max_silence = 0.25;  // s without a valid sample until the silence is reported
     double reopen_after = 1.0;  // s of silence until the device is reopened
 };
 
@@ -37,7 +37,7 @@ enum class DeviceState : std::uint8_t {
 struct DeviceStatus {
     DeviceState state = DeviceState::absent;
     std::string fault_message;                        // plain text with a remedy; empty: none
-    Preparation preparation;                          // need that must be met before it can be opened
+    Preparation preparation;                          // action needed before the device can be opened
     DeviceHealth health;                              // while open
     std::shared_ptr<const Description> description;   // from the last opening; null: never opened
     std::uint64_t openings = 0, failed_openings = 0;  // successful and failed attempts to open
@@ -45,19 +45,19 @@ struct DeviceStatus {
     std::uint64_t silence_timeouts = 0;               // closed after reopen_after s of silence
     std::uint64_t samples = 0, malformed_samples = 0;
     std::uint64_t writes = 0;
-    double write_time = 0.0, longest_write = 0.0;  // s that the driver took for them
+    double write_time = 0.0, longest_write = 0.0;  // s that the driver took for writes
     std::uint64_t command_timeouts = 0;            // command timeouts while a force was rendered
 };
 
 // Keeps one device usable: opens it, reopens it with exponential backoff after a loss or silence, reports the
-// problem in plain text, and releases the force when commands stop. Its only effects are the device's and the
-// timer's; DeviceThread runs it on a thread.
+// problem in plain text, and releases the force when commands stop. It acts only through device and timer, so
+// that tests run it in virtual time; DeviceThread runs it on a thread.
 class DeviceSupervisor {
   public:
     DeviceSupervisor(DeviceFactory open, Timer timer, const SupervisorOptions& options = {});
     DeviceSupervisor(const DeviceSupervisor&) = delete;
     DeviceSupervisor& operator=(const DeviceSupervisor&) = delete;
-    ~DeviceSupervisor();  // closes
+    ~DeviceSupervisor();  // closes the device
 
     // Waits a few milliseconds at most for a sample or for the next attempt to open, then writes the command
     // that `latest_command` returns. nullopt: no new valid sample.
@@ -105,8 +105,8 @@ struct DeviceMailboxes {
     TripleBuffer<DeviceStatus> statuses;
 };
 
-// Polls the supervisor once and updates the mailboxes. The thread repeats it; tests call it in virtual time.
-// `snapshot` is the last published one.
+// Polls the supervisor once and updates the mailboxes. DeviceThread repeats this call; tests make it in
+// virtual time. `snapshot` is the last published snapshot.
 void run_once(DeviceSupervisor& supervisor, DeviceMailboxes& mailboxes, DeviceSnapshot& snapshot);
 
 struct DeviceThreadOptions {
@@ -130,12 +130,12 @@ class DeviceThread {
     // At most 0.1 s old. One calling thread, not necessarily the servo's.
     const DeviceStatus& status();
 
-    // s since the driver's last call returned. A driver that hangs cannot update its report.
+    // s since the driver's last call returned. While a driver hangs, status() is not updated.
     [[nodiscard]] double blocked_for() const;
 
-    // Waits until the device is open and returns its description; the error after `timeout` s states why it
-    // is not. The time in which the device needs something and `on_preparation` waits for it does not count.
-    // Reads status(), so call it from the same thread.
+    // Waits until the device is open and returns its description; fails with the reason after `timeout` s.
+    // The timeout starts again while the device needs a preparation and `on_preparation` returns true. Call
+    // from the thread that reads status().
     Result<std::shared_ptr<const Description>> wait_until_open(double timeout,
                                                                const PreparationHandler& on_preparation = {});
 

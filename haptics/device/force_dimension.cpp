@@ -33,29 +33,29 @@ constexpr int status_interval = 20;  // samples between two queries of the statu
 constexpr double gripper_range = to_radians(30.0);
 
 // The vendor's frame has x to the user, y to the right and z up.
-Vec3 ours(const Vec3& theirs) { return {theirs.y, theirs.z, theirs.x}; }
-Vec3 theirs(const Vec3& ours) { return {ours.z, ours.x, ours.y}; }
+Vec3 from_vendor_frame(const Vec3& theirs) { return {theirs.y, theirs.z, theirs.x}; }
+Vec3 to_vendor_frame(const Vec3& ours) { return {ours.z, ours.x, ours.y}; }
 
-Quat ours(const double rotation[3][3]) {
-    glm::dmat3 matrix(1.0);  // columns are our axes of the grip, in our frame
+Quat from_vendor_frame(const double rotation[3][3]) {
+    glm::dmat3 matrix(1.0);  // columns: the grip's axes as we define them, in our frame
     for (int column = 0; column < 3; ++column) {
         Vec3 unit(0.0);
         unit[column] = 1.0;
-        const Vec3 axis = theirs(unit);
+        const Vec3 axis = to_vendor_frame(unit);
         Vec3 turned(0.0);
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) turned[i] += rotation[i][j] * axis[j];
-        matrix[column] = ours(turned);
+        matrix[column] = from_vendor_frame(turned);
     }
     return glm::normalize(glm::quat_cast(matrix));
 }
 
-Error arm_error(const ForceDimensionApi& api, const std::string& name, const char* doing) {
+Error arm_error(const ForceDimensionApi& api, const std::string& name, const char* failure) {
     const int code = api.get_error();
     const char* text = api.get_error_text();
     Error error;
     error.code = ErrorCode::no_device;
-    error.what = fmt::format("{}: {}: {}", name, doing, text != nullptr ? text : "no reason given");
+    error.what = fmt::format("{}: {}: {}", name, failure, text != nullptr ? text : "no reason given");
     error.expected = code == error_in_use ? "an arm that no other program uses"
                                           : "an arm that is switched on and connected by USB";
     error.lost = code == error_communication || code == error_no_device || code == error_timeout ||
@@ -65,8 +65,9 @@ Error arm_error(const ForceDimensionApi& api, const std::string& name, const cha
 
 // Force, torque, stiffness and half the workspace of CHAI3D (CDeltaDevices), by the numbers of dhdc.h.
 // Damping is not published; these are low values of ours, not measured on arms. With 15 N·s/m the steps of a
-// Falcon's encoders (64 µm) change the force by up to 14 % of its greatest in a millisecond, with 5 by 9 %
-// (bolt-arm-validation). Arms of an unknown number get the smallest values of the arms with their joints.
+// Falcon's encoders (64 µm) change the force by up to 14 % of the greatest force in a millisecond; with
+// 5 N·s/m, by up to 9 % (bolt-arm-validation). Arms of an unknown number get the smallest values of the arms
+// with the same joints.
 struct ModelLimits {
     int type;
     const char* name;
@@ -186,14 +187,14 @@ class ForceDimensionArm final : public DeviceDriver {
         double rotation[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         const int result = api_.get_frame(&position.x, &position.y, &position.z, rotation, id_);
         if (result < 0) return fail(arm_error(api_, description_.name, "its position cannot be read"));
-        if (result == time_guard) return std::optional<Sample>{};  // the last one again
+        if (result == time_guard) return std::optional<Sample>{};  // no new sample
         Sample sample;
-        sample.pose = {ours(position), ours(rotation)};
+        sample.pose = {from_vendor_frame(position), from_vendor_frame(rotation)};
         sample.buttons = api_.get_button_mask(id_);
         if (description_.senses_gripper) BOLT_TRY(read_gripper(sample));
         sample.time = timer_.now();
-        // The library compensates the weight for the position at each call, so that it must be called also
-        // while the program sends no new force.
+        // Each call computes the weight compensation for the present position, so the library must be called
+        // also while the program sends no new force.
         if (!std::exchange(sent_, false)) BOLT_TRY(send(command_));
         return std::optional<Sample>(sample);
     }
@@ -226,15 +227,15 @@ class ForceDimensionArm final : public DeviceDriver {
     }
 
     Status send(const force::OutputCommand& command) {
-        const Vec3 force = theirs(command.force);
-        const Vec3 torque = description_.limits.torque > 0.0 ? theirs(command.torque) : Vec3(0.0);
+        const Vec3 force = to_vendor_frame(command.force);
+        const Vec3 torque = description_.limits.torque > 0.0 ? to_vendor_frame(command.torque) : Vec3(0.0);
         if (api_.set_forces(force.x, force.y, force.z, torque.x, torque.y, torque.z, 0.0, id_) < 0)
             return failure("its force cannot be set");
         return {};
     }
 
-    [[nodiscard]] Status failure(const char* doing) const {
-        return fail(arm_error(api_, description_.name, doing));
+    [[nodiscard]] Status failure(const char* failure) const {
+        return fail(arm_error(api_, description_.name, failure));
     }
 
     // An arm that has braked must be opened again, so that its force grows slowly from zero.
@@ -255,8 +256,8 @@ class ForceDimensionArm final : public DeviceDriver {
     Timer timer_;
     Description description_;
     double next_;                   // s, time of the next sample
-    force::OutputCommand command_;  // the latest
-    bool sent_ = false;             // since the latest sample
+    force::OutputCommand command_;  // of the latest write()
+    bool sent_ = false;             // a command was sent since the latest sample
     int since_status_ = 0;
 };
 

@@ -33,7 +33,7 @@ struct ForceDimensionApi {
                       char id) = nullptr;
     int (*get_error)() = nullptr;
     const char* (*get_error_text)() = nullptr;
-    // Null in a library that lacks them; the arm can be used without.
+    // Null in a library that lacks them; the arm can be used without them.
     bool (*has_gripper)(char id) = nullptr;
     int (*get_gripper_angle)(double* radian, char id) = nullptr;  // negative on a left-handed arm
     int (*get_type)(char id) = nullptr;
@@ -55,10 +55,10 @@ struct ForceDimensionOptions {
     double effector_mass = 0.0;  // kg, OpenOptions::effector_mass
 };
 
-// Opens arm `index`, which then compensates its weight; the brakes hold it when it is closed. If it would
-// have to move by itself and may not, the error has DeviceNeed::permission. Its limits are those of its
-// model, and of its joints if the model is unknown (docs/decisions.md). The factory's limit of its speed is
-// not changed.
+// Opens arm `index`, which then compensates its weight; the brakes hold it when it is closed. If the arm must
+// move by itself and `may_move` is false, the error has DeviceNeed::permission. The limits are those of the
+// model or, for an unknown model, the smallest of the arms with the same joints (docs/decisions.md). The
+// speed limit that the factory has set stays.
 Result<std::unique_ptr<DeviceDriver>> open_force_dimension(const ForceDimensionApi& api,
                                                            const ForceDimensionOptions& options, Timer timer);
 

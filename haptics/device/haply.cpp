@@ -130,7 +130,7 @@ class HaplyArm final : public DeviceDriver {
 
     [[nodiscard]] const Description& description() const override { return description_; }
 
-    // An arm that loses its calibration is lost.
+    // Always calibrated: an arm that loses its calibration counts as lost.
     [[nodiscard]] DeviceHealth health() const override { return {true, {}, false}; }
 
     Result<std::optional<Sample>> read(double timeout) override {
@@ -163,7 +163,7 @@ class HaplyArm final : public DeviceDriver {
         return s;
     }
 
-    // The thread.
+    // The thread's function.
     void run(const std::stop_token& stop) {
         using Clock = std::chrono::steady_clock;
         constexpr auto step =
@@ -181,7 +181,7 @@ class HaplyArm final : public DeviceDriver {
             lost_.store(true, std::memory_order_release);
             break;
         }
-        // The service also releases the force when messages stop, but only its documentation states that.
+        // Sends zero force although the service, by its documentation, releases the force when messages stop.
         // Waits for the answer, because closing a connection with unread answers may drop sent messages.
         if (send(Vec3(0.0))) (void)connection_.states.receive(answer_wait);
     }

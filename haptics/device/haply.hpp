@@ -29,7 +29,7 @@ Result<std::vector<HaplyListing>> list_haply(const HaplyService& service, double
 
 // Opens the service's arm `index`, from 0, with the grip of the same index if there is one. Fails if the arm
 // is not calibrated. A thread exchanges messages with the service: one force, then one state, at most every
-// millisecond. `timer` gives the age of a force: after 20 ms it is zero.
+// millisecond. `timer` measures the age of a force: a force older than 20 ms is replaced by zero.
 Result<std::unique_ptr<DeviceDriver>> open_haply(const HaplyService& service, int index, Timer timer);
 
 }  // namespace bolt::device

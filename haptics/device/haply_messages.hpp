@@ -1,6 +1,6 @@
 // The messages of Haply's service (its documentation, 3.1 to 3.5): JSON, in m, m/s and N, in a frame with x
-// to the right, y forward (away from the user) and z up. All messages are validated: one that is
-// not JSON, lacks a field or has an implausible value is an error.
+// to the right, y forward (away from the user) and z up. All messages are validated: a message that is not
+// JSON, lacks a field or has an implausible value is an error.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace bolt::device {
 struct HaplyArmEntry {
     std::string id;           // printable ASCII without quotes
     bool calibrated = false;  // otherwise its positions are wrong
-    Vec3 middle{0.0};         // m, of the reach, the service's frame
+    Vec3 middle{0.0};         // m, middle of the reach, in the service's frame
 };
 
 struct HaplyGripEntry {

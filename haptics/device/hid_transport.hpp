@@ -46,7 +46,7 @@ std::mutex& hidapi_lock();
 // disconnected.
 Result<std::unique_ptr<HidTransport>> open_hid(const std::filesystem::path& node);
 
-// Checks that the node can be opened for reading and writing, with the same errors.
+// Checks that the node can be opened for reading and writing. Fails as open_hid().
 Status can_open_hid(const std::filesystem::path& node);
 
 // Reads the report descriptor from sysfs, because hidapi 0.13 does not return it.

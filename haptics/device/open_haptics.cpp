@@ -50,11 +50,11 @@ unsigned gravest_error(const OpenHapticsApi& api) {
 
 bool is_lost(unsigned code) { return code >= first_fault && code < no_licence && code != already_initiated; }
 
-Error arm_error(const OpenHapticsApi& api, const std::string& name, const char* doing, unsigned code) {
+Error arm_error(const OpenHapticsApi& api, const std::string& name, const char* failure, unsigned code) {
     const char* text = code != 0 ? api.get_error_text(code) : nullptr;
     Error error;
     error.code = ErrorCode::no_device;
-    error.what = fmt::format("{}: {}: {}", name, doing, text != nullptr ? text : "no reason given");
+    error.what = fmt::format("{}: {}: {}", name, failure, text != nullptr ? text : "no reason given");
     error.expected = code == no_licence          ? "a licence of OpenHaptics for this computer"
                      : code == already_initiated ? "an arm that no other program uses"
                                                  : "an arm that is switched on, connected, and set up with "
@@ -144,7 +144,7 @@ class OpenHapticsArm final : public DeviceDriver {
 
     // Starts the scheduler and calibrates. Call once.
     Status start() {
-        gravest_error(api_);  // of queries that an older version does not support
+        gravest_error(api_);  // discards errors of queries that an older version lacks
         callback_ = api_.schedule(FrameCallback::run, &frames_, highest_priority);
         api_.start_scheduler();
         wait_for(start_timeout, [&] { return report_.calibration == calibrated || report_.fault != 0; });
@@ -189,8 +189,8 @@ class OpenHapticsArm final : public DeviceDriver {
     [[nodiscard]] Error lost() const {
         return arm_error(api_, arm_.description.name, "its forces have ended", report_.fault);
     }
-    [[nodiscard]] Status failure(const char* doing, unsigned code) const {
-        return fail(arm_error(api_, arm_.description.name, doing, code));
+    [[nodiscard]] Status failure(const char* failure, unsigned code) const {
+        return fail(arm_error(api_, arm_.description.name, failure, code));
     }
 
     void update_report() {

@@ -39,8 +39,8 @@ struct OpenHapticsApi {
     void (*unschedule)(unsigned long callback) = nullptr;
 };
 
-// Where the library may be: in $OH_SDK_BASE, which the vendor's installer sets (its folder lib: not
-// confirmed), in /usr/lib, or in the loader's path. Version 3.4 before 3.0.
+// Where the library may be: in $OH_SDK_BASE/lib (the vendor's installer sets the variable; the folder lib is
+// not confirmed), in /usr/lib, or in the loader's path. Version 3.4 is preferred to 3.0.
 std::vector<std::filesystem::path> open_haptics_libraries();
 
 // ErrorCode::no_device if the library is absent; another code if it cannot be loaded or lacks a function.
@@ -48,7 +48,7 @@ std::vector<std::filesystem::path> open_haptics_libraries();
 Result<OpenHapticsApi> load_open_haptics(const std::vector<std::filesystem::path>& candidates);
 
 // Opens the arm that the vendor's setup program made the default one, and calibrates it if that needs no help
-// of the user. Its limits are what it reports, and never more than those of its model (docs/decisions.md).
+// of the user. Its limits are those that it reports, at most those of its model (docs/decisions.md).
 // `timer` is read from the vendor's thread too.
 Result<std::unique_ptr<DeviceDriver>> open_open_haptics(const OpenHapticsApi& api, Timer timer);
 

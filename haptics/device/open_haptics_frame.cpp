@@ -11,8 +11,8 @@ namespace {
 // hdDefines.h. Lengths are in mm.
 constexpr unsigned get_buttons = 0x2000, get_transform = 0x2052, get_motor_heat = 0x2605, set_force = 0x2700;
 
-// s; an older command renders no force, because the device thread hangs. Two more frames may pass
-// before the force ends, 20 ms after the last command.
+// s; a command older than this renders no force, because the device thread then hangs. The force may last two
+// more frames, so it ends at most 20 ms after the last command.
 constexpr double max_command_age = 18e-3;
 constexpr double fade_time = 10e-3;  // s from full strength to none after an error of the forces
 constexpr double pause_time = 0.5;   // s without such an error before the force returns
@@ -23,7 +23,7 @@ constexpr double hot = 0.95, cool = 0.7;
 constexpr int heat_interval = 20;     // frames between two queries of the heat
 constexpr double max_distance = 2.0;  // m from the origin; a position beyond is invalid
 
-// The pose in the vendor's transform, whose columns follow each other; nullopt if it is implausible.
+// The pose in the vendor's transform, a column-major matrix; nullopt if the pose is implausible.
 std::optional<Pose> pose_in(const Doubles& m, bool with_rotation) {
     Pose pose{mm * Vec3(m[12], m[13], m[14]), {1.0, 0.0, 0.0, 0.0}};
     if (!(glm::length(pose.position) < max_distance)) return {};
@@ -77,7 +77,7 @@ void FrameCallback::run_frame() {
     reports.write(report_);
 }
 
-// The position may jump when it is calibrated, so the forces are off before.
+// The forces are off until the arm is calibrated, because its position may jump then.
 void FrameCallback::calibrate() {
     report_.calibration = api_.check_calibration();
     if (report_.calibration == needs_update) api_.update_calibration(arm_.calibration_style);
@@ -92,7 +92,8 @@ void FrameCallback::take_sample(const Pose& pose, double now) {
     ++report_.number;
 }
 
-// A refused call does not prolong the pause, because calls are refused until the forces are enabled again.
+// Codes below warm_motors are refused calls. They do not prolong a pause, because all calls are refused until
+// the forces are enabled again.
 void FrameCallback::note_error(unsigned code, double now) {
     if (code >= warm_motors || now >= paused_until_) paused_until_ = now + pause_time;
     report_.cooling = report_.cooling || code == warm_motors;

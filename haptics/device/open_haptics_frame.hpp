@@ -1,5 +1,5 @@
-// The part of the driver of OpenHaptics' arms that runs on the vendor's thread, and its values of
-// hdDefines.h.
+// The part of the driver of OpenHaptics' arms that runs on the vendor's thread, and the constants of
+// hdDefines.h that it uses.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ int get_integer(const OpenHapticsApi& api, unsigned what);
 // Pops the errors from the stack and passes their codes to `note`, the newest first.
 template <class Note>
 void take_errors(const OpenHapticsApi& api, const Note& note) {
-    constexpr int max_errors = 100;  // a broken library would keep the vendor's thread here
+    constexpr int max_errors = 100;  // a broken library may never report 0
     for (int i = 0; i < max_errors; ++i) {
         const unsigned code = api.get_error().code;
         if (code == 0) return;
@@ -51,7 +51,7 @@ struct TimedCommand {
 };
 
 // s without a frame after which the device thread switches the forces off, because the library keeps
-// rendering the last one. The first frame after it switches them on again, and the force grows from zero.
+// rendering the last force. The next frame switches them on again, and the force grows from zero.
 inline constexpr double max_frame_age = 15e-3;
 
 struct FrameReport {
@@ -65,9 +65,9 @@ struct FrameReport {
     bool released = false;       // a frame without force has ended since release()
 };
 
-// One frame at each tick of the vendor's scheduler. The vendor owns the clock, and a late frame delays the
-// control of the motors. So its thread only takes the latest command from a mailbox and leaves a report in
-// another: it never waits for the device thread.
+// Runs one frame at each tick of the vendor's scheduler, on the vendor's thread. A late frame delays the
+// control of the motors, so a frame never waits for the device thread: it takes the latest command from one
+// mailbox and leaves a report in another.
 class FrameCallback {
   public:
     FrameCallback(const OpenHapticsApi& api, unsigned id, const ArmProperties& arm, Timer timer)
@@ -98,7 +98,7 @@ class FrameCallback {
     double before_;               // s, time of the last frame
     double strength_ = 1.0;       // share of the command that is rendered
     double paused_until_ = -1e9;  // s
-    int frames_to_heat_ = 0;      // until the heat is queried again
+    int frames_to_heat_ = 0;      // frames until the heat is queried again
     std::atomic<bool> releases_ = false;
 };
 

@@ -48,7 +48,7 @@ constexpr std::array plugin_limits{
 };
 constexpr double max_reach = 1.0;  // m
 
-// Sets the limits, each no larger than the largest.
+// Sets the limits to the reported values, each at most its PluginLimit::max.
 Status take_limits(const bw_arm_info_v1& info, Description& d) {
     for (const PluginLimit& limit : plugin_limits) {
         const double reported = info.*limit.reported;
@@ -64,7 +64,7 @@ Status take_limits(const bw_arm_info_v1& info, Description& d) {
     return {};
 }
 
-// Without axes of force or of torque their limits are 0.
+// Fails if forces or torques are rendered with a limit of 0. Resets the limits of what is not rendered.
 Status check_axes(Description& d) {
     const auto any = [&](std::size_t first) {
         return d.renders[first] || d.renders[first + 1] || d.renders[first + 2];
@@ -134,7 +134,7 @@ Result<Description> describe_plugin_arm(const bw_arm_info_v1& info, const std::f
     return d;
 }
 
-// Returns what is wrong with a state; null: nothing is.
+// Returns the fault of a state; null: none.
 const char* fault_of(const bw_arm_state_v1& state, const Pose& pose) {
     if (!finite(pose.position) || glm::length(pose.position) > farthest_position)
         return "it reports a position that is not within 2 m";
@@ -265,7 +265,7 @@ Result<PluginReply> calibrate(ArmProcess& process, bool may_move, bool may_wait,
     }
 }
 
-// `too_late`: its calibration has taken calibration_time.
+// `too_late`: the calibration has taken longer than calibration_time.
 Error calibration_error(const ArmProcess& process, const PluginReply& reply, const std::string& id,
                         bool too_late) {
     Error error;

@@ -15,13 +15,13 @@ namespace bolt::device {
 // searched.
 std::vector<std::filesystem::path> plugin_folders();
 
-// The files *.so in `folders`, sorted by name; of two with one name the first.
+// The files *.so in `folders`, sorted by name; the first of those with the same name.
 std::vector<std::filesystem::path> find_plugins(const std::vector<std::filesystem::path>& folders);
 
 // An arm's id: plugin:NAME:INDEX.
 std::string plugin_arm_id(const std::filesystem::path& plugin, int index);
 
-// How many arms the plug-in has now, at most 16. Starts the plug-in for that.
+// Starts the plug-in and returns the number of its arms now, at most 16.
 Result<int> count_plugin_arms(const std::filesystem::path& plugin);
 
 // Plug-in processes that stay open between two attempts to open an arm, by arm id, so that a calibration
@@ -36,10 +36,11 @@ struct PluginArmOptions {
     std::shared_ptr<UnfinishedCalibrations> waiting{};  // null: an arm that waits for its user is closed
 };
 
-// Opens arm `index`. The error has a need (preparation_of()) if the arm would have to move by itself and may
-// not, if the user must act, or, with `waiting` and without `may_move`, if it calibrates for longer than half
-// a second. With `waiting` the arm stays open in the last two cases and continues its calibration when it is
-// opened again.
+// Opens arm `index`. The error has a need (preparation_of()) in these cases:
+// - permission: the arm must move by itself, and `may_move` is false;
+// - user: the user must act;
+// - wait: with `waiting` and without `may_move`, the arm calibrates for longer than 0.5 s.
+// For user and wait, the arm stays open in `waiting` and continues its calibration at the next opening.
 Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& options, Timer timer);
 
 }  // namespace bolt::device

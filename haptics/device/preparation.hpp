@@ -17,7 +17,7 @@ namespace bolt::device {
 enum class DeviceNeed : std::uint8_t {
     none,
     permission,  // to move by itself, so that it finds its position
-    inkwell,     // its stylus or handle in the inkwell, where it is calibrated
+    inkwell,     // its stylus or handle in the inkwell, which calibrates the arm
     user,        // the action that Preparation::instruction names
     wait,        // it calibrates itself without a visible movement
 };
@@ -39,17 +39,17 @@ inline void set_preparation(Error& error, Preparation preparation) {
     error.detail = std::move(detail);
 }
 
-// The preparation that an attempt to open a device lacked; DeviceNeed::none: it failed for another reason.
+// The preparation that the device needed when opening failed; DeviceNeed::none: it failed for another reason.
 inline Preparation preparation_of(const Error& error) {
     const auto* detail = dynamic_cast<const PreparationDetail*>(error.detail.get());
     return detail != nullptr ? detail->preparation : Preparation{};
 }
 
-// Holds for one attempt to open an arm, so that an arm that loses its position later needs a new one. All
-// members may be called from any thread.
+// Permits one attempt to open an arm, so that an arm that loses its position later needs a new permission.
+// All members may be called from any thread.
 class MovePermission {
   public:
-    // For the next attempt. Call it only after a message to the user to keep hands and things clear. No
+    // Permits the next attempt. Call only after a message to the user to keep hands and things clear. No
     // effect during an attempt that has the permission already.
     void grant() {
         auto expected = State::none;
@@ -74,7 +74,7 @@ class MovePermission {
 // preparation. May wait, for example for an answer.
 using PreparationHandler = std::function<bool(const Preparation& preparation)>;
 
-// How an arm reaches the user while it is opened. The default: a need is an error, and no arm moves.
+// Connects an arm that is being opened with the user. By default a need is an error, and no arm moves.
 struct ArmDialog {
     PreparationHandler on_preparation{};
     std::shared_ptr<MovePermission> permission{};

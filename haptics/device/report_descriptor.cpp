@@ -98,7 +98,7 @@ class DescriptorParser {
         if (size == 2) return static_cast<std::int16_t>(value);
         return static_cast<std::int32_t>(value);
     }
-    // One byte below 16 is a signed number of four bits.
+    // A value of one byte below 16 is a signed number of four bits.
     static std::int32_t exponent_of(std::uint32_t value, std::size_t size) {
         if (size != 1 || value >= 16) return static_cast<std::int32_t>(signed_of(value, size));
         const auto nibble = static_cast<std::int32_t>(value);

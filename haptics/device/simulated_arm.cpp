@@ -57,7 +57,7 @@ void step(ArmModel& arm, const force::OutputCommand& command, double dt) {
 namespace {
 
 constexpr double sample_period = 1e-3;   // s between two samples
-constexpr int max_late_steps = 20;       // of one read; a longer gap is left out
+constexpr int max_late_steps = 20;       // that one read makes up for; a longer delay is skipped
 constexpr double rounding = 1e-9;        // s
 constexpr double input_timeout = 0.25;   // s without set_motion() until the buttons count as released
 constexpr double smoothing_time = 0.02;  // s in which the intention follows the mouse: about a frame
@@ -82,7 +82,8 @@ struct SimulatedArm::Shared {
 
 namespace {
 
-// The arm's intention is the pose that the hand aims at. `wanted` is that of the mouse, which moves in steps.
+// `commanded_intention_` is the intended pose as the mouse sets it, in steps; ArmModel::intention follows it
+// smoothly.
 template <class Shared>
 class SimulatedArmDevice final : public DeviceDriver {
   public:
@@ -136,29 +137,31 @@ class SimulatedArmDevice final : public DeviceDriver {
             motion.gripper = 1.0;
         }
         if (motion.buttons == 0 && last_.buttons != 0) relax();
-        wanted_.position += motion.moved - last_.moved;
-        wanted_.orientation =
-            glm::normalize(motion.turned * glm::conjugate(last_.turned) * wanted_.orientation);
+        commanded_intention_.position += motion.moved - last_.moved;
+        commanded_intention_.orientation =
+            glm::normalize(motion.turned * glm::conjugate(last_.turned) * commanded_intention_.orientation);
         last_ = motion;
     }
 
     // A hand that releases the handle stays at its pose.
-    void relax() { wanted_ = shared_->arm.intention = shared_->arm.pose; }
+    void relax() { commanded_intention_ = shared_->arm.intention = shared_->arm.pose; }
 
     void advance() {
         ArmModel& arm = shared_->arm;
-        if (last_.target) wanted_ = *last_.target;
-        wanted_.position = arm.pose.position +
-                           force::clamp_length(wanted_.position - arm.pose.position, last_.max_deflection);
-        const Vec3 ahead = turn_between(arm.pose.orientation, wanted_.orientation);
+        if (last_.target) commanded_intention_ = *last_.target;
+        commanded_intention_.position =
+            arm.pose.position +
+            force::clamp_length(commanded_intention_.position - arm.pose.position, last_.max_deflection);
+        const Vec3 ahead = turn_between(arm.pose.orientation, commanded_intention_.orientation);
         if (glm::length(ahead) > last_.max_angular_deflection)
-            wanted_.orientation = glm::normalize(
+            commanded_intention_.orientation = glm::normalize(
                 rotation(force::clamp_length(ahead, last_.max_angular_deflection)) * arm.pose.orientation);
         const double yielded_share = std::min(1.0, last_.compliance_rate * sample_period);
-        wanted_.position += yielded_share * (arm.pose.position - wanted_.position);
+        commanded_intention_.position += yielded_share * (arm.pose.position - commanded_intention_.position);
         const double share = sample_period / (last_.target ? target_smoothing_time : smoothing_time);
-        const Vec3 step_along = share * (wanted_.position - arm.intention.position),
-                   step_about = share * turn_between(arm.intention.orientation, wanted_.orientation);
+        const Vec3 step_along = share * (commanded_intention_.position - arm.intention.position),
+                   step_about =
+                       share * turn_between(arm.intention.orientation, commanded_intention_.orientation);
         arm.intention.position += step_along;
         arm.intention.orientation = glm::normalize(rotation(step_about) * arm.intention.orientation);
         if (last_.target) {
@@ -171,7 +174,7 @@ class SimulatedArmDevice final : public DeviceDriver {
     std::shared_ptr<Shared> shared_;
     force::OutputCommand command_;
     HandMotion last_;
-    Pose wanted_;
+    Pose commanded_intention_;
     double next_;  // s, time of the next sample
 };
 

@@ -1,5 +1,5 @@
-// A force-feedback arm and the hand that holds it, as a mass on a spring: for tests, and as a device that
-// anyone has, whose hand a mouse moves.
+// A force-feedback arm and the hand that holds it, simulated as a mass on a spring: for tests, and as a
+// device for users without hardware, whose mouse moves the hand.
 //
 // The hand is a mass, a damper and a spring to its intended pose, the model of Hogan (Controlling impedance
 // at the man/machine interface, ICRA 1989). The arm adds mass, dry friction, the steps of its encoders and a
@@ -13,7 +13,7 @@
 
 namespace bolt::device {
 
-// The values of the hand that holds the arm and of the arm itself, as one system.
+// Parameters of the arm and of the hand that holds it, combined into one system.
 struct HandAndArmParameters {
     double mass = 0.3;               // kg, hand and device
     double damping = 5.0;            // N·s/m
@@ -43,7 +43,7 @@ struct ArmModel {
 
 // The pose that the encoders measure.
 Pose encoder_pose(const ArmModel& arm);
-// Moves arm and hand for `dt` s, a multiple of 25 µs, under a command that was sent at the beginning.
+// Moves arm and hand for `dt` s, a multiple of 25 µs. The command is sent at the beginning of the step.
 void step(ArmModel& arm, const force::OutputCommand& command, double dt);
 
 // The motion of the hand that holds a simulated arm. `moved` and `turned` are totals since the beginning, so
@@ -77,7 +77,7 @@ class SimulatedArm {
     // Call once a frame, from one thread. Never waits. After 0.25 s without a call the buttons are released.
     void set_motion(const HandMotion& motion);
 
-    // Its devices may outlive the arm; their buttons are then released.
+    // Devices that the factory opened may outlive the arm; their buttons are then released.
     [[nodiscard]] DeviceFactory factory();
 
   private:
@@ -90,8 +90,8 @@ class SimulatedArm {
 Description simulated_arm_description();
 HandAndArmParameters simulated_arm_parameters();
 
-// The simulated arm that a tracked hand moves. Contacts and seated nuts hold this arm back, and so the drawn
-// hand. Closing the hand closes the arm's gripper.
+// The simulated arm that a tracked hand moves. Contacts and seated nuts hold this arm back, and with it the
+// drawn hand. Closing the hand closes the arm's gripper.
 Description tracked_hand_description();
 
 }  // namespace bolt::device

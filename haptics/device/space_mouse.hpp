@@ -28,7 +28,7 @@ struct SixAxisState {
 Result<SixAxisLayout> six_axis_layout(const ReportDescriptor& descriptor);
 
 // Decodes an input report from hidapi (numbered reports begin with their id) into `state`. Returns false if
-// it has none of these fields or is too short.
+// the report has none of these fields or is too short.
 bool decode_report(const SixAxisLayout& layout, std::span<const std::uint8_t> report, SixAxisState& state);
 
 // The driver of a puck: deflection becomes velocity (Sensing::velocity). It renders no force. A puck at rest
@@ -40,7 +40,7 @@ Result<std::unique_ptr<DeviceDriver>> make_space_mouse(std::unique_ptr<HidTransp
                                                        SecondsClock clock = steady_seconds);
 
 struct PuckRates {
-    Vec3 velocity{0.0};          // m/s, device.hpp's frame
+    Vec3 velocity{0.0};          // m/s, in the device frame (device.hpp)
     Vec3 angular_velocity{0.0};  // rad/s
 };
 PuckRates rates_of(const SixAxisState& state, const PuckResponse& response);

@@ -35,7 +35,7 @@ struct ForceFeedbackLayout {
     std::int64_t load_success = 0;           // value of `status` after a successful load
 };
 
-// Fails if the device has no constant force, or one of a single sign.
+// Fails if the device has no constant force, or one whose magnitude has a single sign.
 Result<ForceFeedbackLayout> force_feedback_layout(const ReportDescriptor& descriptor);
 
 // Parses the `block_load` report: the block index, nullopt if loading is not complete, an error if memory is

@@ -1,5 +1,5 @@
-// Loads a vendor's library at run time: nothing of the vendor is needed to build, and a computer without the
-// library has the same program.
+// Loads a vendor's library at run time, so that the build needs no files of the vendor and the same program
+// runs on a computer without the library.
 #pragma once
 
 #include <dlfcn.h>
@@ -16,12 +16,12 @@ namespace bolt::device {
 class VendorLibrary {
   public:
     // Loads the first of `candidates` that exists: a path, or a name without a slash, which the loader
-    // searches. ErrorCode::no_device if none can be loaded; the error then states why the last existing one
-    // could not. The library stays loaded until the program ends, because vendors' threads may outlive a
-    // device.
+    // searches. If none can be loaded: ErrorCode::failed with the reason for the last path that exists, or
+    // ErrorCode::no_device if no path exists. The library stays loaded until the program ends, because
+    // vendors' threads may outlive a device.
     static Result<VendorLibrary> open(std::span<const std::filesystem::path> candidates);
 
-    // Sets `function` to the symbol. A missing one is added to missing().
+    // Sets `function` to the symbol, or to null; check() then fails.
     template <class Function>
     void find(const char* name, Function*& function) {
         function = reinterpret_cast<Function*>(dlsym(handle_, name));

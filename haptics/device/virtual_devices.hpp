@@ -35,7 +35,7 @@ class VirtualPuck {
     // Call at least once a frame, from one thread. Never waits.
     void set_input(const PuckInput& input);
 
-    // Its devices may outlive the puck; they then report zero velocity.
+    // Devices that the factory opened may outlive the puck; they then report zero velocity.
     [[nodiscard]] DeviceFactory factory();
 
   private:
@@ -67,7 +67,7 @@ struct FaultInterval {
 };
 
 // The hand that holds a scripted device, for tests: a mass, pulled by a spring and damper to the intended
-// pose and pushed by the device's force. The hand at the arm that a user can select is HandAndArmParameters
+// pose and pushed by the device's force. The arm that a user can select has HandAndArmParameters instead
 // (simulated_arm.hpp). Defaults: a relaxed grip, the middle of the ranges in tests/support/random_arm.hpp.
 struct HandImpedance {
     double mass = 0.3, stiffness = 300.0, damping = 10.0;          // kg, N/m, N·s/m
@@ -83,8 +83,8 @@ struct ScriptedDeviceOptions {
 
 // A device for tests: a script gives the intended motion, an optional hand impedance yields to the rendered
 // force, and faults of real devices can be injected. The arm that a user can select is SimulatedArm
-// (simulated_arm.hpp). Works on any clock. Not thread-safe: one thread uses it, or a test without threads
-// in virtual time. It must outlive the connections that its factory creates.
+// (simulated_arm.hpp). Works on any clock. Not thread-safe: call it and its connections from one thread. It
+// must outlive the connections that its factory creates.
 class ScriptedDevice {
   public:
     ScriptedDevice(ScriptedDeviceOptions design, Timer timer);

@@ -91,7 +91,7 @@ struct WebSocket::Connection {
     asio::io_context io{1};
     beast::websocket::stream<beast::tcp_stream> stream{io};
     beast::flat_buffer buffer;
-    bool reading = false;  // a read is under way, possibly since an earlier call
+    bool reading = false;  // a read is in progress, possibly since an earlier call
     std::optional<ErrorOfBoost> read;
 
     beast::tcp_stream& tcp() { return beast::get_lowest_layer(stream); }
@@ -138,7 +138,7 @@ Result<std::optional<std::string>> WebSocket::receive(double timeout) {
     }
     const Clock::time_point end = in(timeout);
     c.io.restart();
-    // A time that has passed runs nothing, so what is already there is read first.
+    // poll_one() first reads what has arrived, because run_one_until() does nothing once `end` has passed.
     while (!c.read && (c.io.poll_one() > 0 || c.io.run_one_until(end) > 0)) {
     }
     if (!c.read) return std::optional<std::string>{};

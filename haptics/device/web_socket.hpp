@@ -21,7 +21,7 @@ struct SocketAddress {
 
 inline constexpr std::size_t max_message_size = 65536;  // bytes; a larger message is an error
 
-// Times out after `timeout` s. All errors have ErrorCode::no_device, and name the address.
+// Each call times out after `timeout` s. All errors have ErrorCode::no_device, and name the address.
 class WebSocket {
   public:
     static Result<WebSocket> connect(const SocketAddress& address, double timeout);

@@ -30,7 +30,7 @@ std::array<std::uint8_t, report_bytes> encode_message(const Message& message) {
     const std::span<std::uint8_t> all(bytes);
     bytes[0] = report_id;
     bytes[1] = static_cast<std::uint8_t>(message.type);
-    put_little_endian(all.subspan(2, 2), message.of_class);
+    put_little_endian(all.subspan(2, 2), message.class_id);
     bytes[4] = message.instance;
     put_little_endian(all.subspan(5, 4), message.command);
     put_little_endian(all.subspan(9, 8), static_cast<std::uint64_t>(message.data));
@@ -42,7 +42,7 @@ std::optional<Message> decode_message(std::span<const std::uint8_t> report) {
     if (report.size() < report_bytes || report[0] != report_id) return std::nullopt;
     Message m;
     m.type = static_cast<MessageType>(report[1]);
-    m.of_class = static_cast<std::uint16_t>(get_little_endian(report.subspan(2, 2)));
+    m.class_id = static_cast<std::uint16_t>(get_little_endian(report.subspan(2, 2)));
     m.instance = report[4];
     m.command = static_cast<std::uint32_t>(get_little_endian(report.subspan(5, 4)));
     m.data = static_cast<std::int64_t>(get_little_endian(report.subspan(9, 8)));
@@ -50,9 +50,9 @@ std::optional<Message> decode_message(std::span<const std::uint8_t> report) {
     return m;
 }
 
-std::optional<std::int64_t> reply_value(Command question, const Message& message) {
-    if (message.type != MessageType::request || message.of_class != axis_class || message.instance != 0 ||
-        message.command != static_cast<std::uint32_t>(question))
+std::optional<std::int64_t> reply_value(Command command, const Message& message) {
+    if (message.type != MessageType::request || message.class_id != axis_class || message.instance != 0 ||
+        message.command != static_cast<std::uint32_t>(command))
         return std::nullopt;
     return message.data;
 }
@@ -212,9 +212,9 @@ class OpenFfboard : public DeviceDriver {
         const double since = begun - requested_at_;
         // Replies delay axis reports, so request no more than needed.
         if (since >= (reply_pending_ ? position_retry : has_counts() ? 0.0 : position_interval)) {
-            const auto question = open_ffboard::encode_message(
+            const auto command = open_ffboard::encode_message(
                 {.command = static_cast<std::uint32_t>(open_ffboard::Command::position)});
-            BOLT_TRY(core_.transport->write(question));
+            BOLT_TRY(core_.transport->write(command));
             requested_at_ = begun;
             reply_pending_ = true;
         }
@@ -252,16 +252,16 @@ class OpenFfboard : public DeviceDriver {
 };
 
 // nullopt: no reply.
-Result<std::optional<std::int64_t>> query_setting(WheelCore& core, open_ffboard::Command question) {
+Result<std::optional<std::int64_t>> query_setting(WheelCore& core, open_ffboard::Command command) {
     for (int i = 0; i < max_attempts; ++i) {
-        const auto bytes = open_ffboard::encode_message({.command = static_cast<std::uint32_t>(question)});
+        const auto bytes = open_ffboard::encode_message({.command = static_cast<std::uint32_t>(command)});
         BOLT_TRY(core.transport->write(bytes));
         const double until = core.clock() + reply_timeout;
         for (int n = 0; n < max_wheel_reports; ++n) {
             BOLT_TRY_ASSIGN(const auto report, core.transport->read(std::max(until - core.clock(), 0.0)));
             if (report.empty()) break;
             if (const auto message = open_ffboard::decode_message(report)) {
-                if (const auto reply = reply_value(question, *message)) return reply;
+                if (const auto reply = reply_value(command, *message)) return reply;
             } else {
                 decode_report(core.axis, report, core.state);
             }

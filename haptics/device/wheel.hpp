@@ -42,7 +42,7 @@ constexpr double full_power = 32767.0;
 
 struct Message {
     MessageType type = MessageType::request;
-    std::uint16_t of_class = axis_class;
+    std::uint16_t class_id = axis_class;
     std::uint8_t instance = 0;
     std::uint32_t command = 0;
     std::int64_t data = 0;
@@ -55,8 +55,8 @@ std::array<std::uint8_t, report_bytes> encode_message(const Message& message);
 // Returns nullopt for another report or a short one.
 std::optional<Message> decode_message(std::span<const std::uint8_t> report);
 
-// The value that axis 0 returns for `question`; nullopt if the message is not that reply.
-std::optional<std::int64_t> reply_value(Command question, const Message& message);
+// The value that axis 0 returns for `command`; nullopt if the message is not that reply.
+std::optional<std::int64_t> reply_value(Command command, const Message& message);
 
 }  // namespace bolt::device::open_ffboard
 

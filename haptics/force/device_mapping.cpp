@@ -40,7 +40,7 @@ Pose to_assembly(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, b
     const Quat& q = device.orientation;
     if (!std::isfinite(p.x + p.y + p.z + q.w + q.x + q.y + q.z)) return device;
     const double step = w.fade > 0.0 ? dt / w.fade : 1.0;
-    s.share = std::clamp(s.share + (clutch ? -step : step), 0.0, 1.0);
+    s.force_share = std::clamp(s.force_share + (clutch ? -step : step), 0.0, 1.0);
     if (clutch) {
         realign(w, s, device, s.commanded_tool);
     } else {
@@ -92,8 +92,8 @@ Vec3 rotated_half_workspace(const Quat& rotation, const Vec3& reach) {
 
 OutputCommand to_device(const WorkspaceMap& w, const WorkspaceState& s, const OutputCommand& on_tool) {
     const Quat back = glm::conjugate(to_viewer(w, s));
-    return {back * on_tool.force * (s.share * w.power_ratio * w.scale),
-            back * on_tool.torque * (s.share * w.power_ratio)};
+    return {back * on_tool.force * (s.force_share * w.power_ratio * w.scale),
+            back * on_tool.torque * (s.force_share * w.power_ratio)};
 }
 
 OutputLimits in_assembly(const WorkspaceMap& w, const OutputLimits& device) {
@@ -114,14 +114,14 @@ OutputLimits in_assembly(const WorkspaceMap& w, const OutputLimits& device) {
 
 namespace {
 
-constexpr double share = 0.8;  // of the device's range that the largest torque of the lesson uses
+constexpr double used_torque_share = 0.8;  // of the device's range that the largest torque of the lesson uses
 
 }  // namespace
 
 TorqueRendering make_torque_rendering(const OutputLimits& limits, double max_torque, double handle_length) {
     const double range = std::max(max_torque, 1.0);
-    if (limits.torque > 0.0) return {std::min(1.0, share * limits.torque / range), 0.0};
-    return {0.0, std::min(1.0 / handle_length, share * limits.force / range)};
+    if (limits.torque > 0.0) return {std::min(1.0, used_torque_share * limits.torque / range), 0.0};
+    return {0.0, std::min(1.0 / handle_length, used_torque_share * limits.force / range)};
 }
 
 OutputCommand render_torque(const TorqueRendering& r, double torque, const Vec3& axis, const Vec3& handle) {

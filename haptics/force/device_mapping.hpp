@@ -32,16 +32,16 @@ struct WorkspaceMap {
 };
 
 struct WorkspaceState {
-    Vec3 centre{0.0};  // m: point = centre + scale · heading · rotation · device
-    // tool = heading · rotation · device · tool_to_device
+    Vec3 centre{0.0};  // m: lever end = centre + scale · heading · rotation · device position
+    // Tool orientation = heading · rotation · device orientation · tool_to_device.
     Quat tool_to_device{1.0, 0.0, 0.0, 0.0};
-    // Unit, about the assembly's y: where the viewer stands, so that right stays right when the view turns.
+    // Unit, about the assembly's y: turns with the view, so that the hand's right stays right in the picture.
     Quat heading{1.0, 0.0, 0.0, 0.0};
     // m from the tool's origin along its x to the point that follows the device: 0 for fingers and for a
     // device with torque; the length of the wrench for a device whose force acts at the end of the handle.
     double lever_arm = 0.0;
-    Pose commanded_tool;  // in the assembly's frame, at the last tick
-    double share = 1.0;   // 0 … 1, share of the force that is rendered
+    Pose commanded_tool;       // in the assembly's frame, at the last tick
+    double force_share = 1.0;  // 0 … 1, share of the force that is rendered
 };
 
 // Returns the state in which the device pose `device` maps to the tool pose `tool`.
@@ -70,17 +70,17 @@ struct Pivot {
 
 // The pose of a wrench on a bolt whose handle the hand holds at `lever_end`, `lever_arm` m from the jaw:
 // the pose `held`, turned about the bolt so that the handle points to `lever_end`, and moved so that it
-// ends there. The wrist may turn freely in the hand, because a device without torque cannot hold it. If the
-// `lever_end` is on the axis, `held` is moved and not turned.
+// ends there. The device's orientation has no effect, because a device without torque cannot hold the wrist.
+// If `lever_end` is on the axis, `held` is moved and not turned.
 Pose pivoted(const Pivot& pivot, const Pose& held, double lever_arm, const Vec3& lever_end);
 
 // The smallest scale, at least 1, at which the end of a wrench of `handle_length` m that points to the user
-// swings by 60° within 90 % of the device's reach (m, half the workspace along each axis), of which x and z
-// count. A reach of 0 is unknown: 1.
+// swings by 60° within 90 % of the device's reach (m, half the workspace along each axis). Only x and z
+// count; a reach of 0 is unknown and does not raise the scale.
 double fitted_scale(const Vec3& reach, double handle_length);
 
-// The reach (m, half the workspace) along the axes to which `rotation` rotates those of the device, through
-// its middle. 0 if the reach along a device axis that contributes is unknown.
+// The reach (m, half the workspace, from its middle) along the axes of the frame into which `rotation` maps
+// the device's frame. 0 if the reach along a device axis that contributes is unknown.
 Vec3 rotated_half_workspace(const Quat& rotation, const Vec3& reach);
 
 OutputCommand to_device(const WorkspaceMap& workspace, const WorkspaceState& state,

@@ -243,8 +243,8 @@ ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& 
     if (s.path.count == 0) return {};
     // J stored with the spring of the last tick and the tool of this one.
     const double stored_before = stored_in(g, s, tool);
-    // J that the force of the last tick did along the path.
-    const double led = s.at_end ? 0.0 : glm::dot(s.force, tool.position - s.tool);
+    // J, work of the last tick's force along the path.
+    const double guided_work = s.at_end ? 0.0 : glm::dot(s.force, tool.position - s.tool);
 
     const bool target_unchanged = target.id >= 0 && target.id == s.target.id;
     if (target_unchanged) {  // the nut descends as it turns
@@ -252,15 +252,16 @@ ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& 
         move_end(s.path, target);
         if (s.at_end) s.along = s.max_along = length(s.path);
     }
-    const double whole = length(s.path);
+    const double path_length = length(s.path);
     // A path of one segment ends at the target itself.
-    const double limit = s.path.count > 2 ? whole - lowest_permitted_height(s.target, tool.position) : whole;
-    s.along = std::min(s.along, whole);
+    const double limit =
+        s.path.count > 2 ? path_length - lowest_permitted_height(s.target, tool.position) : path_length;
+    s.along = std::min(s.along, path_length);
     const bool seen = advance_pull_point(s, tool.position, limit, free, dt);
-    const double remaining = whole - s.along;
+    const double remaining = path_length - s.along;
     s.at_end = remaining <= 0.0;
     const Vec3 to_pull_point = point_at(s.path, s.along) - tool.position;
-    const double distance = glm::length(to_pull_point), left = distance + remaining;
+    const double distance = glm::length(to_pull_point), distance_left = distance + remaining;
 
     // The path is dropped if the pull point has retreated, or if the tool waits at it without line of sight
     // to the path beyond: an obstacle blocks this path, and another one may exist. A pull point that is held
@@ -272,18 +273,19 @@ ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& 
     const double share = target_unchanged && path_usable ? std::clamp(g.mode_share, 0.0, 1.0) : 0.0;
     s.force_share = step_towards(s.force_share, share, g.fade_rate * dt);
     s.torque_share =
-        step_towards(s.torque_share, left < g.alignment_distance ? share : 0.0, g.fade_rate * dt);
+        step_towards(s.torque_share, distance_left < g.alignment_distance ? share : 0.0, g.fade_rate * dt);
 
     // Softens the pull near a point of the path; at the target the law is exact.
     const double min_distance = std::clamp(remaining, 1e-12, softening_radius);
-    s.force = to_pull_point * (s.force_share * guiding_pull(g, left) / std::max(distance, min_distance));
+    s.force =
+        to_pull_point * (s.force_share * guiding_pull(g, distance_left) / std::max(distance, min_distance));
     s.tool = tool.position;
     ForceRequest out;
     out.command.force = s.force;
     out.command.torque =
         s.torque_share * aligning_torque(g.max_torque, s.target.hexagon, tool.jaw, tool.normal);
     out.stored_energy = stored_in(g, s, tool);
-    out.injected_energy = out.stored_energy - stored_before + led;
+    out.injected_energy = out.stored_energy - stored_before + guided_work;
     // Another path is planned after `time_to_replan`.
     if (s.force_share == 0.0 && s.torque_share == 0.0 && !path_usable) s.path = {};
     return out;

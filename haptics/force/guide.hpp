@@ -21,7 +21,7 @@ struct GuidingParameters {
     double max_force = 3.0;            // N
     double max_torque = 0.2;           // N·m, of the aligning torque
     double alignment_distance = 0.08;  // m to the target within which the torque acts
-    double mode_share = 1.0;           // 0 … 1, of the force, that the lesson's mode allows
+    double mode_share = 1.0;           // 0 … 1, share of the force that the lesson's mode allows
     double fade_rate = 4.0;            // 1/s, at which the force fades in and out
 };
 
@@ -51,7 +51,7 @@ double aligning_potential(double max_torque, const Hexagon& hexagon, const Vec3&
 // Plans a path for the guiding force around obstacles. The caller supplies the line-of-sight query (Embree,
 // in the servo), so the force never pulls through a housing.
 
-// Returns true if the straight segment is free. It may include a margin as wide as the tool.
+// Returns true if the straight segment is free. The query may include a margin as wide as the tool.
 using IsSegmentFree = FunctionRef<bool(const Vec3& from, const Vec3& to)>;
 
 struct GuideTarget {
@@ -99,12 +99,12 @@ struct GuidedTool {
 };
 
 struct GuideState {
-    GuideTarget target;  // of the present force; replaced once that has faded out
+    GuideTarget target;  // of the present force; replaced once this force has faded out
     GuidePath path;
     double along = 0.0;           // m along the path to the pull point, towards which the force points
     double max_along = 0.0;       // m, largest value of `along` on this path
-    double force_share = 0.0;     // 0 … 1, of the force, now
-    double torque_share = 0.0;    // 0 … 1, of the aligning torque, now
+    double force_share = 0.0;     // 0 … 1, share of the force that is requested now
+    double torque_share = 0.0;    // 0 … 1, share of the aligning torque that is requested now
     double time_to_replan = 0.0;  // s until the next attempt to plan a path
     double blocked_time = 0.0;  // s that the tool has been at the pull point without sight of the path beyond
 
@@ -113,7 +113,7 @@ struct GuideState {
     bool at_end = false;  // the pull point is the target
 };
 
-// One tick of dt. With a negative `target.id` the force fades out; pass that while a nut is engaged. Returns
+// One tick of dt. With a negative `target.id` the force fades out; pass one while a nut is engaged. Returns
 // the request to the output stage: along the path all work counts as injected energy, so the passivity
 // observer ignores it; at the target the force derives from a potential, which the observer watches like any
 // spring.

@@ -33,7 +33,7 @@ struct OutputLimits {
     double angular_speed = 50.0;  // rad/s
     double jump = 0.03;           // m in one tick; more is a faulty sample
     double angular_jump = 0.5;    // rad in one tick
-    // s without a sample before the output is released; `release` counts from the last sample.
+    // s without a sample until the output is released. The output is zero `release` after the last sample.
     double max_silence = 0.008;
     double recovery_time = 0.1;  // s of valid samples after a fault before the output ramps up
 };

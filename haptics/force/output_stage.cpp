@@ -7,9 +7,9 @@ namespace bolt::force {
 
 namespace {
 
-constexpr double speed_smoothing = 0.005;  // s, of the velocity that the speed limits check
+constexpr double watchdog_smoothing_time = 0.005;  // s, of the velocity that the speed limits check
 // s, of the velocity that damping uses; unfiltered encoder steps would be felt as noise.
-constexpr double smoothing = 0.0015;
+constexpr double damping_smoothing_time = 0.0015;
 
 bool is_pose(const DeviceInput& input) {
     const Pose& p = input.pose;
@@ -32,10 +32,10 @@ bool update_motion(const OutputLimits& limits, WatchdogState& s, const Pose& pos
     }
     const double elapsed = ticks * dt;
     const Vec3 velocity = m.shift / elapsed, angular_velocity = m.rotation / elapsed;
-    const double smooth = 1.0 - std::exp(-elapsed / smoothing);
+    const double smooth = 1.0 - std::exp(-elapsed / damping_smoothing_time);
     m.velocity += smooth * (velocity - m.velocity);
     m.angular_velocity += smooth * (angular_velocity - m.angular_velocity);
-    const double share = 1.0 - std::exp(-elapsed / speed_smoothing);
+    const double share = 1.0 - std::exp(-elapsed / watchdog_smoothing_time);
     s.mean_velocity += share * (velocity - s.mean_velocity);
     s.mean_angular_velocity += share * (angular_velocity - s.mean_angular_velocity);
     m.fresh = true;
@@ -148,8 +148,8 @@ void add_applied_work(const OutputLimits& limits, PassivityState& s, const Motio
 
 OutputCommand control_passivity(const OutputLimits& limits, PassivityState& s, const Motion& motion,
                                 const ForceRequest& request, double ramp, double ramp_before, double dt) {
-    // A spring clamped to a share r of its force takes the same work at first but returns only that force: 2
-    // r − r² of its energy can be recovered.
+    // The device renders the share r of a spring's force. While the spring relaxes, the rendered force is
+    // constant until the spring's own force falls below the clamp: 2r − r² of the energy is returned.
     const double r = renderable_share(limits, request.command);
     const double full = request.stored_energy * r * (2.0 - r);
     const double stored = ramp * full;

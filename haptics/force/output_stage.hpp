@@ -76,8 +76,8 @@ bool update_watchdog(const OutputLimits& limits, WatchdogState& state, const Dev
 // the hand put in shortly before.
 struct ForceRequest {
     OutputCommand command;
-    double stored_energy = 0.0;    // J stored in the springs behind it; must not be overestimated
-    double injected_energy = 0.0;  // J gained in this tick without work of the hand: intended help
+    double stored_energy = 0.0;    // J in the springs that make the command; must not be overestimated
+    double injected_energy = 0.0;  // J that enters in this tick without work of the hand, as by guiding
 };
 
 struct PassivityState {

@@ -26,7 +26,7 @@ struct FingertipGrasp {
 };
 
 inline constexpr double contact_query_range = 50e-3;  // m, range of the query
-// m; covers the compliance of the pads and the error of the glove.
+// m; a nearer fingertip touches. Covers the compliance of the pads and the error of the glove.
 inline constexpr double touch_distance = 2e-3;
 
 // Two soft contacts hold an object if the line between them lies in both friction cones (Nguyen, Int. J.
@@ -45,11 +45,11 @@ FingertipGrasp fingertip_grasp(const collision::ToolShape& tool, const Fingertip
 // of rigid body systems, 1996) steps by the distance to the tool divided by the speed bound, so thin parts
 // are not skipped. Allocates nothing.
 
-// Distances are measured from spheres along the bones; this (m) is their greatest spacing. Between two
-// spheres the penetration can be 0.6 mm deeper in the narrowest finger.
+// m, greatest spacing of the spheres along the bones from which distances are measured. Between two spheres
+// the penetration can be 0.6 mm deeper in the narrowest finger.
 inline constexpr double sphere_spacing = 6e-3;
 inline constexpr double stop_tolerance = 50e-6;  // m, penetration tolerated where a digit stops
-inline constexpr int max_steps = 200;            // per digit; it then stays where it is
+inline constexpr int max_steps = 200;            // per digit, which then stops
 
 struct DigitStop {
     // Fraction 0 … 1 of the measured flexion reached by MCP, PIP, DIP; for the thumb by abduction, MCP, IP.

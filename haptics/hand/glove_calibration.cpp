@@ -61,8 +61,8 @@ double median(std::vector<double> values) {
     return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-// The reading of a sensor in a posture; nullopt if the posture does not define its angle or has no samples of
-// it.
+// The reading of a sensor in a posture; nullopt if the posture does not define the sensor's angle or has no
+// samples of the sensor.
 std::optional<PostureReading> posture_reading(const PostureSamples& held, Sensor sensor) {
     const std::optional<double> at = posture_angle(held.posture, sensor);
     if (!at) return std::nullopt;

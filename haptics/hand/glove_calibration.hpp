@@ -30,7 +30,7 @@ struct Calibration {
     PerSensor<std::optional<LinearFit>> fits;  // nullopt: not calibrated, or the glove has no such sensor
 };
 
-// Requested in this order.
+// The calibration postures, in the order in which a session requests them.
 enum class Posture : std::uint8_t { flat, fist, spread, thumb_across };
 inline constexpr std::size_t posture_count = 4;
 
@@ -69,8 +69,8 @@ Result<CalibrationResult> calibrate(std::span<const PostureSamples> postures);
 // Parses the calibration file of the vendor's software: a title line, then a heading and four lines for each
 // finger and the palm. The sixth word of a line is a sensor's offset (counts), the ninth its gain (rad per
 // count). The fourth line exists even for fingers without a fourth sensor; the gain of the middle finger's
-// abduction is in the index finger's fourth line, where that software writes it. Errors name `file`, line and
-// column.
+// abduction is in the index finger's fourth line, where the vendor's software writes it. Errors name `file`,
+// line and column.
 Result<Calibration> parse_cal(std::string_view text, const std::string& file);
 
 enum class CalibrationPhase : std::uint8_t {

@@ -70,7 +70,7 @@ class GloveDriver {
     GloveDriver& operator=(GloveDriver&&) noexcept;
     ~GloveDriver();  // stops the thread
 
-    // One calling thread each.
+    // Each is for one calling thread.
     const GloveSample& sample();
     const GloveReport& report();
 

@@ -70,7 +70,7 @@ FrameMatch match_frame(const GloveFrameReader& reader, GloveFrame& frame) {
     return FrameMatch::incomplete;
 }
 
-// The letter did not start a frame; continue with the next one.
+// The letter did not start a frame; continue with the next such letter.
 void resynchronise(GloveFrameReader& reader) {
     const auto end = reader.bytes.begin() + static_cast<std::ptrdiff_t>(reader.count);
     const auto next = std::find(reader.bytes.begin() + 1, end, static_cast<std::uint8_t>(reader.letter));
@@ -242,10 +242,11 @@ std::vector<std::uint8_t> GloveHandshake::update(std::span<const std::uint8_t> r
     }
     if (!received.empty()) last_byte_ = now;
     if (step_ == HandshakeStep::silencing) {
-        if (now - last_byte_ >= options_.quiet) return start_step(HandshakeStep::sensors, now);
-        if (now - since_ < options_.max_quiet) return {};
+        if (now - last_byte_ >= options_.quiet_time) return start_step(HandshakeStep::sensors, now);
+        if (now - since_ < options_.quiet_timeout) return {};
         if (attempts_ < options_.tries) return start_step(HandshakeStep::silencing, now);
-        fail_with("the port is never quiet", "a CyberGlove at 115200 baud, which stops streaming on command");
+        fail_with("the port is never quiet_time",
+                  "a CyberGlove at 115200 baud, which stops streaming on command");
         return {};
     }
     reply_.insert(reply_.end(), received.begin(), received.end());

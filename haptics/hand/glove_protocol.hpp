@@ -107,10 +107,10 @@ struct GloveIdentity {
 
 struct GloveHandshakeOptions {
     double rate = 80.0;          // requested samples per second
-    double quiet = 0.06;         // s without a byte: streaming has stopped
+    double quiet_time = 0.06;    // s without a byte until streaming counts as stopped
     double reply_timeout = 0.3;  // s until a reply times out
     int tries = 3;               // attempts per query
-    double max_quiet = 1.0;      // s until a line that keeps sending is rejected
+    double quiet_timeout = 1.0;  // s until a line that keeps sending is rejected
 };
 
 // The handshake with a glove: reads its identity and configures the stream.

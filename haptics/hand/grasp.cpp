@@ -80,7 +80,7 @@ GraspEvent update_glove_loss(GraspState& grasp, const GraspOptions& options, con
     return GraspEvent::glove_lost;
 }
 
-// Updates by a frame that arrived `gap` seconds after the one before.
+// Updates by a frame that arrived `gap` seconds after the previous frame.
 GraspEvent decide(GraspState& grasp, const GraspOptions& options, double gap) {
     grasp.release_blocked_for = std::max(0.0, grasp.release_blocked_for - gap);
     const bool contradicts =

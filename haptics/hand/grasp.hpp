@@ -1,7 +1,7 @@
 // Decides whether the gloved hand holds the tool: grasped when thumb and fingers close on it, released when
-// they have been off it for a while. A held tool stays held while the glove is lost. Pure, with a fixed dt.
-// Each update after motion costs one close_fingers(), so run it at the rate of the glove or of the frames,
-// not in the servo tick.
+// the thumb or all fingers have been away from it for a while. A held tool stays held while the glove is
+// lost. Pure, with a fixed dt. Each update after motion costs one close_fingers(), so run it at the rate of
+// the glove or of the frames, not in the servo tick.
 #pragma once
 
 #include "haptics/hand/finger_closure.hpp"
@@ -38,7 +38,7 @@ struct GraspState {
 
     bool has_frame = false;            // at least one frame was received
     double frame_age = 0.0;            // s since the latest frame
-    bool change_pending = false;       // the condition contradicts `held`
+    bool change_pending = false;       // the condition for a grasp or release contradicts `held`
     double change_pending_for = 0.0;   // s of that contradiction
     double release_blocked_for = 0.0;  // s left of release_block_time
 };

@@ -94,15 +94,15 @@ struct Thumb {
     Vec3 up;
 };
 
-// The metacarpal leaves the plane of the palm, and the nail faces sideways.
+// At rest the metacarpal points out of the palm's plane, and the nail faces sideways.
 Thumb thumb_at_rest() {
     return {{glm::normalize(Vec3(-0.60, -0.36, -0.72)), glm::normalize(Vec3(-0.47, -0.29, -0.84)),
              glm::normalize(Vec3(-0.36, -0.23, -0.90))},
             Vec3(-0.72, 0.69, 0.0)};
 }
 
-// Beside the index finger, in contact with its flesh. The nail's roll at rest is reduced by the angle of the
-// metacarpal to the palm's plane (31°).
+// The thumb lies beside the index finger, in contact with its flesh. The nail's roll at rest is reduced by
+// the angle of the metacarpal to the palm's plane (31°).
 Thumb flat_thumb() {
     return {{direction(-15.0, 0.0), direction(-15.0, 0.0), direction(-15.0, 0.0)}, Vec3(-0.26, 0.965, 0.0)};
 }
@@ -195,7 +195,7 @@ void pose_finger(DigitPose& hand, const FingerAngles& angles, double arch, doubl
     hand.attach(4, no_rotation, no_rotation);
 }
 
-// Maps a joint of the unit right hand to this hand and wrist pose.
+// Maps a joint of a right hand of scale 1 to this hand and wrist pose.
 void write_joint(const Hand& hand, const Pose& wrist_pose, std::size_t joint, const Pose& at, Skeleton& out) {
     const bool right = hand.side == Side::right;
     const Pose on_side = right ? at : mirrored(at);
@@ -240,7 +240,7 @@ Capsule bone_capsule(const Hand& hand, const Skeleton& joints, std::size_t digit
     const auto& breadth = half_breadths_mm[digit];
     Capsule capsule{joints.position[joint], joints.position[joint + 1], hand.scale * breadth[bone] * mm,
                     hand.scale * breadth[bone + 1] * mm};
-    if (bone + 2 == digits[digit].count)  // the last ends at the tip of the glove
+    if (bone + 2 == digits[digit].count)  // the last bone ends at the tip of the glove
         capsule.to += joints.rotation[joint] * Vec3(0.0, 0.0, capsule.radius_to - hand.scale * glove_mm * mm);
     return capsule;
 }

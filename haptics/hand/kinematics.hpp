@@ -15,7 +15,7 @@ namespace bolt::hand {
 // Anatomical names: MCP is the knuckle, then PIP and DIP.
 struct FingerAngles {
     double mcp = 0.0, pip = 0.0, dip = 0.0;
-    // Positive away from the middle finger; of the middle finger, positive towards the little finger.
+    // Positive away from the middle finger; for the middle finger itself, positive towards the little finger.
     double abduction = 0.0;
 };
 
@@ -38,7 +38,7 @@ struct Angles {
 // Sources: American Academy of Orthopaedic Surgeons, Joint Motion: Method of Measuring and Recording, 1965.
 // PIP of 110°: J. Lin, Y. Wu, T. S. Huang, Modeling the constraints of human hand motion, IEEE Workshop on
 // Human Motion, 2000. Carpometacarpal joints: M. El-shennawy et al., J. Hand Surg. 26A(6), 2001, 1030-1035.
-// They are population means, so `range_margin` is added on both sides.
+// These ranges are population means, so `range_margin` is added on both sides.
 
 struct AngleRange {
     double low = 0.0, high = 0.0;  // rad
@@ -146,7 +146,7 @@ inline constexpr std::array<std::string_view, joint_count> joint_names{"palm",
                                                                        "little_distal",
                                                                        "little_tip"};
 
-// joint_count for the wrist, the root. Palm and metacarpals are its children.
+// Returns joint_count for the wrist, the root. Palm and metacarpals are the wrist's children.
 constexpr std::size_t parent_of(std::size_t joint) {
     if (joint == wrist) return joint_count;
     const bool first = joint == palm || joint == thumb_metacarpal ||

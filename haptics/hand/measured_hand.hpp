@@ -11,13 +11,13 @@ namespace bolt::hand {
 
 // The 1€ filter: a low-pass whose corner frequency rises with speed, which reduces noise at rest and lag in
 // motion. Source: G. Casiez, N. Roussel, D. Vogel, 1€ filter: a simple speed-based low-pass filter for noisy
-// input in interactive systems, CHI 2012. At constant speed v the lag is below 1/(2π (at_rest + per_speed
-// |v|)) s: with these values 6.5 ms at 1 rad/s, the speed of a slow deliberate motion, and less at higher
-// speed.
+// input in interactive systems, CHI 2012. At constant speed v the lag is below 1/(2π (rest_cutoff +
+// cutoff_per_speed |v|)) s: with these values 6.5 ms at 1 rad/s, the speed of a slow deliberate motion, and
+// less at higher speed.
 struct OneEuroOptions {
-    double at_rest = 1.5;     // Hz, corner frequency at rest
-    double per_speed = 15.0;  // Hz per rad/s
-    double of_speed = 3.0;    // Hz, corner frequency of the speed filter
+    double rest_cutoff = 1.5;        // Hz, corner frequency at rest
+    double cutoff_per_speed = 15.0;  // Hz per rad/s
+    double speed_cutoff = 3.0;       // Hz, corner frequency of the speed filter
 };
 
 struct OneEuro {
@@ -37,8 +37,8 @@ inline double filtered(OneEuro& filter, const OneEuroOptions& options, double va
         return value;
     }
     const double speed = (value - filter.value) / dt;
-    filter.speed += smoothing_factor(options.of_speed, dt) * (speed - filter.speed);
-    const double corner = options.at_rest + options.per_speed * std::abs(filter.speed);
+    filter.speed += smoothing_factor(options.speed_cutoff, dt) * (speed - filter.speed);
+    const double corner = options.rest_cutoff + options.cutoff_per_speed * std::abs(filter.speed);
     filter.value += smoothing_factor(corner, dt) * (value - filter.value);
     return filter.value;
 }
@@ -69,7 +69,7 @@ struct MeasuredHand {
     bool any = false;     // a frame has been received
 };
 
-inline constexpr double min_gap = 1e-3;  // s; frames that are closer count as this far apart
+inline constexpr double min_gap = 1e-3;  // s; a smaller gap between frames counts as this gap
 
 // `time`: when the frame was read, s on a monotonic clock.
 void update(MeasuredHand& state, const GloveWearer& wearer, const GloveFrame& frame, double time);

@@ -63,7 +63,8 @@ constexpr ClassRow classes[] = {
     {"8.8",    640,  800,  660,  830, 0.91, 0.12, false},
     {"10.9",   940, 1040,  940, 1040, 0.88, 0.09, false},
     {"12.9",  1100, 1220, 1100, 1220, 0.88, 0.08, false},
-    // ISO 3506-1. It has no proof stress; austenitic steel deviates from the elastic line early, 0.8 is our estimate.
+    // ISO 3506-1. It gives no proof stress. Austenitic steel deviates from the elastic line early, so the ratio
+    // of 0.8 is our estimate.
     {"A2-50",  210,  500,  210,  500, 0.80, 0.30, true},
     {"A2-70",  450,  700,  450,  700, 0.80, 0.20, true},
     {"A2-80",  600,  800,  600,  800, 0.80, 0.15, true},

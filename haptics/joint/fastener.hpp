@@ -66,7 +66,7 @@ struct ThreadSize {
 // "M16" (coarse) or "M16x1.5" (a pitch of ISO 261 for that size). The error names the nearest valid name.
 Result<ThreadSize> parse_thread(std::string_view text);
 
-// Every name that parse_thread accepts, coarse first.
+// One name for each thread that parse_thread accepts, coarse threads first.
 std::vector<std::string> thread_names();
 
 // Strength of the bolt material (ISO 898-1; stainless ISO 3506-1). Pascals.
@@ -80,7 +80,8 @@ struct PropertyClass {
     double kappa = 0.0;  // torsion: 3/2 fully plastic (VDI 2230), 2 elastic (published stainless tables)
 };
 
-// Class at a nominal diameter (8.8 changes above M16). The error names the nearest valid name.
+// The class at nominal diameter `d`, m; the strengths of 8.8 change above M16. The error names the nearest
+// valid name.
 Result<PropertyClass> property_class(std::string_view name, double d);
 
 std::vector<std::string> property_class_names();

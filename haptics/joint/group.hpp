@@ -80,8 +80,8 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
 
 // One step of dt: moves the nut `driven` (−1: none) with the drive, then updates every joint's clamp force.
 // The group's forces minimise a strictly convex energy. Each step performs one sweep of exact minimisation,
-// joint by joint, from the last solution, so it never diverges, and the remaining error is reduced by the
-// next steps. Returns the step of the drive's click mechanism.
+// joint by joint, from the last solution, so the sweeps never diverge, and the next steps reduce the
+// remaining error. Returns the step of the drive's click mechanism.
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
                      const NutDrive& drive, double dt);
 
@@ -102,8 +102,8 @@ struct CurveOptions {
     double speed = to_radians(30.0);  // rad/s
     double dt = 0.001;                // s, one sample per step
     // Tightening ends `past_yield` after the yield stage has begun, or when the joint breaks or strips.
-    // Loosening starts from a joint tightened to `torque`, rested for 10 s, and ends when the nut has been
-    // free for a quarter turn.
+    // Loosening starts from a joint that was tightened to `torque` (N·m) and rested for 10 s, and ends when
+    // the nut has been free for a quarter turn.
     double past_yield = to_radians(90.0);
     double torque = 0.0;
 };

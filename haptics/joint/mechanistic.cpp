@@ -170,7 +170,8 @@ void flow(const MechanisticParameters& p, MechanisticState& s, double closure, c
     const BalanceIterate start{s.clamp, closure, 1.0 / s.stiffness};
 
     if (capacity.strip < capacity.bolt.load / capacity.ratio) {
-        // F = S0 (1 − t/L) and closure − (t − stripped) = seat(F).
+        // Balance of the force F and the travel d of the sheared threads: F = strip_load (1 − d/strip_length)
+        // and closure − (d − stripped) = seat.closure(F).
         const double slope = p.strip_load / p.strip_length;
         const auto evaluate = [&](BalanceIterate& t) {
             t.excess = t.force - (p.strip_load - slope * (s.stripped + closure - t.closure));

@@ -17,11 +17,13 @@ struct SpringTorque {
 };
 
 double next_speed(const Resistance& r, double inertia, NutMotion nut, const SpringTorque& spring, double dt) {
-    const double push = inertia * nut.speed / dt + spring.at_rest;
-    const double mass = inertia / dt + dt * spring.stiffness;
-    const double floor = 0.1 * inertia / dt;  // bounds the effect of a resistance that falls faster
-    if (push > r.tighten) return (push - r.tighten) / std::max(mass + dt * r.tighten_slope, floor);
-    if (push < r.loosen) return (push - r.loosen) / std::max(mass + dt * r.loosen_slope, floor);
+    const double driving_torque = inertia * nut.speed / dt + spring.at_rest;
+    const double impedance = inertia / dt + dt * spring.stiffness;
+    const double min_impedance = 0.1 * inertia / dt;  // least divisor, for a slope below step_nut()'s bound
+    if (driving_torque > r.tighten)
+        return (driving_torque - r.tighten) / std::max(impedance + dt * r.tighten_slope, min_impedance);
+    if (driving_torque < r.loosen)
+        return (driving_torque - r.loosen) / std::max(impedance + dt * r.loosen_slope, min_impedance);
     return 0.0;
 }
 
@@ -75,24 +77,24 @@ NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const
     return step;
 }
 
-// A mechanism that swings against the torque `holds` is equivalent, over one implicit step, to a softer
-// spring that is wound further. This follows from c (swung' − swung)/dt = T' − holds inserted into T' = K
-// (hand − nut' − swung' ∓ play).
-NutDrive swinging_drive(const NutDrive& drive, double holds, double dt) {
+// A mechanism that swings against `resisting_torque` (N·m) is equivalent, over one implicit step, to a softer
+// spring that is wound further. This follows from c (swung' − swung)/dt = T' − resisting_torque, inserted
+// into T' = K (hand − nut' − swung' ∓ play); primed values are those after the step.
+NutDrive swinging_drive(const NutDrive& drive, double resisting_torque, double dt) {
     const double share = dt / drive.click.settling_time;
     NutDrive soft = drive;
-    soft.angle += share * holds / drive.stiffness - drive.swung;
+    soft.angle += share * resisting_torque / drive.stiffness - drive.swung;
     soft.stiffness = drive.stiffness / (1.0 + share);
     return soft;
 }
 
-// Selects the consistent one of three cases: standing, swinging on, swinging back. It is unique, because a
-// mechanism that has swung resists in proportion to its speed, and one that has not swung holds up to its
-// set torque.
+// Selects the consistent one of three cases: standing, swinging on, swinging back. Only one is consistent,
+// because a mechanism that has swung resists in proportion to its speed, and one that has not swung holds up
+// to its set torque.
 NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const NutDrive& drive, double dt) {
     const Click& click = drive.click;
-    const double on = click.swing_torque_share * click.set_torque,
-                 back = click.rearm_torque_share * click.set_torque;
+    const double swing_torque = click.swing_torque_share * click.set_torque,
+                 rearm_torque = click.rearm_torque_share * click.set_torque;
     const auto standing_at = [&](double swung) {
         NutDrive stiff = drive;
         stiff.angle -= swung;
@@ -102,10 +104,11 @@ NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const 
     };
     const NutStep standing = standing_at(drive.swung);
     const bool armed = drive.swung <= 0.0;
-    const bool swings_on = drive.swung < click.swing && standing.torque > (armed ? click.set_torque : on);
-    const bool swings_back = !armed && standing.torque < back;
+    const bool swings_on =
+        drive.swung < click.swing && standing.torque > (armed ? click.set_torque : swing_torque);
+    const bool swings_back = !armed && standing.torque < rearm_torque;
     if (!swings_on && !swings_back) return standing;
-    const double resisting_torque = swings_on ? on : back;
+    const double resisting_torque = swings_on ? swing_torque : rearm_torque;
     NutStep step = step_rigid(r, inertia, nut, swinging_drive(drive, resisting_torque, dt), dt);
     const double swung =
         drive.swung + (step.torque - resisting_torque) * dt / (drive.stiffness * click.settling_time);

@@ -19,10 +19,10 @@ namespace bolt::joint {
 //   swinging back  T = rearm_torque_share · set torque + c · speed
 //   bottomed       T ≥ rearm_torque_share · set torque
 //
-// c = stiffness · settling_time: at rest the torque falls with that time constant instead of jumping. At
-// torques between those of swinging on and swinging back the mechanism does not move, so swinging back and
-// forth dissipates energy and never generates any. The shares and times are ours, because the standard
-// specifies the set torque only.
+// c = stiffness · settling_time: with hand and nut at rest the torque falls with that time constant instead
+// of jumping. At torques between those of swinging on and swinging back the mechanism does not move, so
+// swinging back and forth dissipates energy and never generates any. The shares and times are ours, because
+// the standard specifies the set torque only.
 struct Click {
     double set_torque = 0.0;          // N·m at which it trips; 0: never
     double swing = 0.0;               // rad that the handle swings before it bottoms; 0: no mechanism
@@ -44,9 +44,9 @@ struct NutMotion {
     double speed = 0.0;  // rad/s
 };
 
-// The drive of the nut: a spring with play between the angles of hand and nut, or nothing.
+// The drive of the nut: a spring with play between the angles of hand and nut.
 struct NutDrive {
-    bool engaged = false;
+    bool engaged = false;       // false: no drive
     double angle = 0.0;         // rad, the nut's angle at the grip plus the hand's rotation since
     double half_play = 0.0;     // rad, backlash to either side
     double stiffness = 0.0;     // N·m/rad
@@ -63,10 +63,10 @@ struct NutStep {
     ClickStep click;
 };
 
-// One step of a nut on its thread: it stands until the torque overcomes the resistance and then follows,
-// without chatter at rest and without generating energy. Coulomb friction is set-valued at rest; one implicit
-// velocity step (Moreau's time stepping) resolves it in closed form: stand, turn on or turn off, whichever is
-// consistent.
+// One step of a nut on its thread: the nut stands until the torque overcomes the resistance, then follows the
+// drive, without chatter at rest and without generating energy. Coulomb friction is set-valued at rest; one
+// implicit velocity step (Moreau's time stepping) resolves it in closed form: stand, turn on or turn off,
+// whichever is consistent.
 //
 // `inertia` (kg·m² about the bolt) acts while the spring of the drive is wound; see drive_inertia().
 // Inside the play the nut's own inertia acts, which is much smaller.
@@ -85,8 +85,8 @@ inline double drive_inertia(double stiffness, double dt) { return stiffness * dt
 // The torque that the corners of a nut bear before an open jaw slips over them.
 //
 // A jaw that turns beyond its play bears on a strip of each flat, from the corner inward, at opposite
-// corners. Limit analysis: the strips flow at one pressure p; strips of width b at x1 and x2 from the axis
-// and of height e carry T = p e b (x1 + x2 - b), most where b = (x1 + x2)/2:
+// corners. Limit analysis: the strips flow at one pressure p. Strips of width b and height e that end at x1
+// and x2 from the axis carry T = p e b (x1 + x2 - b), which is greatest at b = (x1 + x2)/2:
 //
 //   T = p e ((x1 + x2)/2)²
 //

@@ -31,8 +31,8 @@ struct PublishedParameters {
     double theta_max_deg = 7218.0;  // 40.1 π rad
     double yield_width_deg = 90.0;
 
-    // Ours: the paper gives no A(θ). A·h' grows with the square of the angle over this width to this value,
-    // which makes a contact force of 0.3 kN at its end.
+    // Ours, because the paper gives no A(θ): A·h' grows with the square of the angle, over
+    // transition_width_deg, to contact_end_mm2, where the contact force is 0.3 kN.
     double transition_width_deg = 30.0;
     double contact_end_mm2 = 0.01;  // A·h' at the end of the transition
 };
@@ -48,7 +48,7 @@ double published_thread_torque(const PublishedParameters& p, double area_slope_m
 double published_bearing_torque(const PublishedParameters& p, double area_slope_mm2, Direction direction);
 
 // Stage 3: lever arm of eq. 3, m (12.464 mm tightening; −ρ/2π instead of +ρ/2π loosening, ours), angle per
-// newton (8.684·10⁻⁴ °/N) and the slope they make, N·m per degree (14.354).
+// newton (8.684·10⁻⁴ °/N) and their quotient, the slope, N·m per degree (14.354).
 double published_lever(const PublishedParameters& p, Direction direction);
 double published_degrees_per_newton(const PublishedParameters& p);
 double published_linear_slope(const PublishedParameters& p);

@@ -37,7 +37,7 @@ inline double wright_omega(double x) {
     return x > 30.0 ? w : wright_omega_step(w, x - w - std::log(w));
 }
 
-// The same with the same error, from the estimate `near` of the result: a single step if that suffices.
+// The same function with the same error. `near` estimates the result; if it is close, one step suffices.
 inline double wright_omega(double x, double near) {
     if (!(near > 0.0)) return wright_omega(x);
     const double r = x - near - std::log(near);

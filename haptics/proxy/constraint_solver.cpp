@@ -169,10 +169,10 @@ Vec6 negative_gradient(const Problem& p) {
     return rhs;
 }
 
-// Derivative of the cost at the fraction t of a direction. `start` and `bend` are value and slope of the part
-// without contacts.
-double slope(Problem& p, double start, double bend, double t) {
-    double sum = start + bend * t;
+// Derivative of the cost at the fraction t of a direction. `slope_at_start` and `curvature` are value and
+// slope of the part without contacts.
+double slope(Problem& p, double slope_at_start, double curvature, double t) {
+    double sum = slope_at_start + curvature * t;
     for (std::size_t k = 0; k < p.count; ++k) {
         Row& row = p.rows[k];
         row.projected_force_ahead = project_to_cone(row, row.trial_force + t * row.trial_force_rate);
@@ -212,14 +212,15 @@ double line_search(Problem& p, const Vec6& direction, double at_start) {
     return t;
 }
 
-// Minimises the augmented cost until its gradient is less than `to`. Returns the number of Newton steps.
-int minimise(Problem& p, double to) {
+// Minimises the augmented cost until its gradient is less than `tolerance`. Returns the number of Newton
+// steps.
+int minimise(Problem& p, double tolerance) {
     update_trial_forces(p);
     for (int step = 0; step < max_newton_steps; ++step) {
         const Vec6 down = negative_gradient(p);
         double largest = 0.0;
         for (const double x : down) largest = std::max(largest, std::abs(x));
-        if (largest <= to) return step;
+        if (largest <= tolerance) return step;
         double hessian[6][6] = {};
         for (int i = 0; i < 6; ++i) hessian[i][i] = 1.0;
         for (std::size_t k = 0; k < p.count; ++k) add_stiffness(p.penalty, p.rows[k], hessian);
@@ -269,17 +270,18 @@ double update_multipliers(Problem& p) {
 // the deficits of the bearing contacts, extrapolated linearly from the last two rounds, vanish. Returns the
 // greatest change, m.
 double update_slip_slacks(Problem& p, bool first, double& relaxation) {
-    double along = 0.0, across = 0.0;
+    double correlation = 0.0, change_squared = 0.0;
     for (std::size_t k = 0; k < p.count; ++k) {
         Row& row = p.rows[k];
         const double before = row.slack_deficit;
         const bool bears = row.projected_force != Vec3(0.0);
         row.slack_deficit = slack_for_slip(row, p.motion) - row.slip_slack;
         const double counted = bears ? row.slack_deficit - before : 0.0;
-        along += before * counted;
-        across += square(counted);
+        correlation += before * counted;
+        change_squared += square(counted);
     }
-    if (!first && across > 0.0) relaxation = std::clamp(-relaxation * along / across, min_relaxation, 1.0);
+    if (!first && change_squared > 0.0)
+        relaxation = std::clamp(-relaxation * correlation / change_squared, min_relaxation, 1.0);
     double largest_change = 0.0;
     for (std::size_t k = 0; k < p.count; ++k) {
         const double change_of_slack = relaxation * p.rows[k].slack_deficit;

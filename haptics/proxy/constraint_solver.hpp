@@ -1,5 +1,5 @@
-// Constrained least-squares motion of a rigid body: twists, and the motion nearest to a wanted one that the
-// contacts permit, with Coulomb friction. It is the small dense problem inside the god-object.
+// Constrained least-squares motion of a rigid body: twists, and among the motions that contacts with Coulomb
+// friction permit the one nearest to a wanted motion. It is the small dense problem inside the god-object.
 #pragma once
 
 #include <algorithm>
@@ -87,7 +87,7 @@ struct ConstrainedMotion {
 // sliding contact; a contact inside its cone does not slip. Redundant, degenerate and contradicting
 // constraints are allowed. Without friction the result is unique and continuous in all inputs. Bounded work,
 // no allocation; the same inputs give the same bits. `forces`, if not empty, receives the force of each
-// contact, N. `initial_guess` is an initial guess of the result; a good one saves work.
+// contact, N. A good `initial_guess` of the result saves work.
 ConstrainedMotion constrain(const Metric& metric, const Twist& wanted,
                             std::span<const Constraint> constraints, std::span<Vec3> forces = {},
                             const std::optional<Twist>& initial_guess = {});

@@ -7,10 +7,10 @@ namespace bolt::proxy {
 
 namespace {
 
-constexpr double margin = 0.8;         // of what passivity allows
-constexpr double hardest_speed = 0.5;  // m/s
-constexpr double millisecond = 1e-3;   // s
-constexpr double step_share = 0.1;     // of the greatest force, in a millisecond
+constexpr double margin = 0.8;           // of what passivity allows
+constexpr double collision_speed = 0.5;  // m/s
+constexpr double millisecond = 1e-3;     // s
+constexpr double step_share = 0.1;       // of the greatest force, in a millisecond
 
 // Smooth saturation: linear for small x, tends to the length `most` for large x; 1.5 % below linear at half
 // of it.
@@ -41,14 +41,14 @@ Coupling make_coupling(const CouplingRange& range) {
     Coupling coupling;
     // N·s/m: permitted increase of the force per millisecond, divided by the speed; unlimited if no force is
     // rendered.
-    const double hardest = range.max_force > 0.0 ? step_share * range.max_force / hardest_speed
-                                                 : std::numeric_limits<double>::infinity();
+    const double max_force_per_speed = range.max_force > 0.0 ? step_share * range.max_force / collision_speed
+                                                             : std::numeric_limits<double>::infinity();
     const Spring straight =
-        passive(std::min(range.stiffness, 0.75 * hardest / millisecond), range.damping, range.dt);
+        passive(std::min(range.stiffness, 0.75 * max_force_per_speed / millisecond), range.damping, range.dt);
     coupling.stiffness = straight.stiffness;
     // The damper responds to a collision at once, so spring and damper together must stay within the limit
     // per millisecond.
-    coupling.damping = std::min(straight.damping, hardest - straight.stiffness * millisecond);
+    coupling.damping = std::min(straight.damping, max_force_per_speed - straight.stiffness * millisecond);
     const Spring turning = passive(range.torsion, range.torsion_damping, range.dt);
     coupling.torsion = turning.stiffness;
     coupling.torsion_damping = turning.damping;

@@ -43,7 +43,7 @@ struct Offset {
 
 Offset offset_between(const Pose& commanded_tool, const Pose& constrained_tool);
 
-// The force and torque on the device at its origin. `before`: the offset of the last tick.
+// The force and torque on the hand, at the tool's origin. `before`: the offset of the last tick.
 force::OutputCommand coupling_force(const Coupling& coupling, const Offset& offset, const Offset& before,
                                     double dt);
 

@@ -16,7 +16,7 @@ constexpr double small_motion = 50e-6;      // m; after a shorter motion the res
 // m; after the first motion of a tick a shorter one waits for the next tick. It changes the force by less
 // than 0.5 % of the greatest.
 constexpr double tiny_motion = 25e-6;
-// Share of the coupling's energy; a share of energy is twice the share of force.
+// Share of the coupling's energy. A small relative change of the energy is twice that of the force.
 constexpr double imperceptible_energy = 1e-3;
 constexpr double query_margin = 50e-6;       // m, margin of the query's band beyond the skin
 constexpr double min_clearance_share = 0.2;  // of the skin; a motion that ends nearer is rejected
@@ -116,8 +116,8 @@ class Stepper {
         const double band = std::clamp(free, p_.stride, p_.max_band);
         const ContactQuery found = query_contacts(finder_, pose, band + p_.skin + query_margin);
         // The first query, at the pose where the last tick ended, is not charged if its band is one stride: a
-        // finder with a cache returns its contacts without cost, and without a cache it must not cost motion.
-        // A wider band is charged, because it replaces later queries.
+        // finder with a cache answers it without cost, and a finder without a cache must permit the same
+        // motion. A wider band is charged, because it replaces later queries.
         if (++step_.queries > 1 || band > p_.stride) charged_cost_ += found.cost;
         step_.query_cost += found.cost;
         return found;
@@ -153,20 +153,20 @@ class Stepper {
         return rows;
     }
 
-    // m by which the tool's point of a contact, found at another pose, moves along the contact's normal from
-    // the current pose to that one. `arm`: its arm at the current pose.
+    // For a contact that was found at another pose: m by which its point on the tool moves along its normal
+    // from the current pose to that pose. `arm`: as arm_at_pose() returns.
     [[nodiscard]] double displacement_along_normal(const collision::Contact& c, const Vec3& arm) const {
         return glm::dot(c.normal, c.on_tool - (pose_.position + arm));
     }
-    // The tool's point of a contact, found at the pose `at`, at the current pose and relative to the tool's
-    // origin.
+    // For a contact that was found at the pose `at`: the arm of its point on the tool, m from the tool's
+    // origin, with the tool at the current pose.
     [[nodiscard]] Vec3 arm_at_pose(const collision::Contact& c, const Pose& at) const {
         return pose_.orientation * (glm::conjugate(at.orientation) * (c.on_tool - at.position));
     }
 
     // Returns true if the motion to `at` brings the tool too near to an obstacle. Contacts that the motion
-    // did not approach are exempt: the finder detects features with a tolerance, so they were as near at the
-    // current pose, and rejecting the motion would only trap the god-object.
+    // did not approach are exempt: they were at least as near at the current pose, and the finder, which
+    // has a tolerance, missed them there. Rejecting the motion would only trap the god-object.
     [[nodiscard]] bool too_near(const ContactQuery& query, const Pose& at) const {
         const double least = std::min(min_clearance_share * p_.skin, current_query_.nearest);
         if (query.nearest >= least) return false;
@@ -178,8 +178,9 @@ class Stepper {
         });
     }
 
-    // Converts the contacts of `query` into constraints on the motion from the current pose. The slack is
-    // limited so that standing still always satisfies them.
+    // Converts the contacts of `query` into constraints on the motion from the current pose. Standing still
+    // satisfies them unless the tool is within the skin already; then the tool must retreat by at most the
+    // missing part of the skin.
     void add_blocking_constraints(const ContactQuery& query, const Pose& at, ConstraintSet& rows) const {
         for (std::size_t i = 0; i < query.count; ++i) {
             const collision::Contact& c = query.contacts[i];
@@ -253,8 +254,8 @@ class Stepper {
         return {rendered.force - before_.rendered.force, rendered.torque - before_.rendered.torque};
     }
 
-    // The largest share ≤ `share` with `utilisation` ≤ 1; if there is none, the share with the smallest.
-    // `utilisation` must have a single minimum (ternary search, then bisection).
+    // The largest share ≤ `share` with `utilisation` ≤ 1; if there is none, the share with the smallest
+    // `utilisation`, which must have a single minimum (ternary search, then bisection).
     template <class Utilisation>
     static double largest_allowed_share(double share, const Utilisation& utilisation) {
         if (utilisation(share) <= 1.0) return share;

@@ -58,7 +58,7 @@ struct GodObjectParameters {
     double max_band = 5e-3;        // m, widest band of a query
     double recovery_speed = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
     // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The first
-    // query of a tick, at the pose of the last one, is not charged if its band is one stride.
+    // query of a tick, at the pose where the last tick ended, is not charged if its band is one stride.
     // `max_query_cost` applies after the first motion of the tick. Once the budget is spent, the tool moves
     // only as far as earlier queries proved free, and continues in the next tick.
     int max_queries = 5;
@@ -71,7 +71,7 @@ struct GodObjectState {
     Pose commanded_tool;
     proxy::Offset offset;
     force::OutputCommand rendered;     // N and N·m, by the coupling
-    force::OutputCommand tool_change;  // the tool's part of its change (ForceRateLimits)
+    force::OutputCommand tool_change;  // the tool's part (ForceRateLimits) of the change of `rendered`
     // m, nearest contact; infinite without contacts.
     double nearest_contact = std::numeric_limits<double>::infinity();
     Twist first_motion;  // first constrained motion of the tick; warm-starts the next solve

@@ -12,7 +12,7 @@ namespace {
 constexpr double max_radial_offset = 1.5e-3;  // m, up to which a jaw slides onto the nut
 constexpr double min_engage_cosine = 0.9976;  // cos 4°, of the angle between the jaw's normal and the axis
 constexpr double finger_reach = 0.012;        // m from fingertips to nut centre
-constexpr double min_held_cosine = 0.866;  // cos 30°, likewise; a jaw that is tilted more releases the nut
+constexpr double min_held_cosine = 0.866;  // cos 30°, of the same angle; a jaw tilted more releases the nut
 constexpr double max_handle_axis_cosine = 0.8;  // above it the azimuth of the handle is ill-conditioned
 constexpr double max_turn_per_tick = 0.35;      // rad in a tick, faster than any hand
 constexpr double offset_decay_time = 0.05;      // s, of Engagement::offset_at_engagement
@@ -136,9 +136,9 @@ constexpr double min_height = 0.2e-3;        // m, lower bound of the rounded he
 
 double corner_torque(const Setup& setup, const NutGeometry& nut, double rounded, const Engagement& e) {
     const double clearance = 0.5 * (setup.wrench.jaw.opening - nut.across_flats);
-    const collision::JawFit& s = e.fit;
-    return joint::corner_torque(nut.corner_pressure,
-                                {s.overlap, s.toward_throat, s.toward_mouth, s.tilt, clearance, rounded});
+    const collision::JawFit& fit = e.fit;
+    return joint::corner_torque(nut.corner_pressure, {fit.overlap, fit.toward_throat, fit.toward_mouth,
+                                                      fit.tilt, clearance, rounded});
 }
 
 double play_of(const Setup& setup, const NutGeometry& nut, double rounded) {
@@ -216,11 +216,12 @@ joint::NutDrive jaw_drive(const Setup& setup, const NutGeometry& nut, double rou
 
 bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::JointState& joint,
                    double& rounded, Engagement& e) {
-    const double whole = corner_torque(setup, nut, rounded, e), play = play_of(setup, nut, rounded);
-    const double limit = std::max(min_torque_limit, e.corner_torque_share * whole);
+    const double full_corner_torque = corner_torque(setup, nut, rounded, e),
+                 play = play_of(setup, nut, rounded);
+    const double limit = std::max(min_torque_limit, e.corner_torque_share * full_corner_torque);
     if (std::abs(joint.torque) < 0.999 * limit) return false;
     const double wound = e.hand_angle - e.swung - joint.nut.angle;
-    const double beyond = std::abs(wound) - play - whole / setup.wrench.stiffness;
+    const double beyond = std::abs(wound) - play - full_corner_torque / setup.wrench.stiffness;
     const double turned = std::max(0.0, beyond - e.turned_beyond_corner_torque);
     e.turned_beyond_corner_torque = std::max(e.turned_beyond_corner_torque, beyond);
     // The work removes corner material: at two corners, a triangle with two sides of `rounded` that enclose

@@ -82,7 +82,7 @@ inline double mean(const Histogram& h) {
     return h.count == 0 ? 0.0 : 1e-9 * h.sum / static_cast<double>(h.count);
 }
 
-// The share (0 … 1) of the values above `seconds`. Values in the same bin count as above.
+// The share (0 … 1) of the values above `seconds`. Values in the bin of `seconds` count as above it.
 inline double share_above(const Histogram& h, double seconds) {
     if (h.count == 0) return 0.0;
     const double ns = std::clamp(seconds * 1e9, 0.0, static_cast<double>(h.max_duration));
@@ -120,7 +120,7 @@ struct HostRequirements {
 
 struct HostAssessment {
     bool adequate = false;
-    std::vector<std::string> reasons;  // a measured value with its limit each, violated limits first
+    std::vector<std::string> reasons;  // one text a limit, with the measured value; violated limits first
     std::size_t violations = 0;        // number of violated limits
 };
 
@@ -177,7 +177,7 @@ struct ThreadOptions {
 };
 
 // A thread that runs a tick at a fixed rate with the real-time privileges that the operating system grants.
-// It reports them, so that a host that cannot keep time is not used unnoticed.
+// It reports them, so that a caller notices a host that cannot keep time.
 class ServoThread {
   public:
     // Runs on the servo thread with denormals flushed. Must neither throw nor wait. Returns false to end the

@@ -139,7 +139,8 @@ force::OutputCommand as_force_at_lever_end(const Setup& setup, const force::Outp
 constexpr double undo_clearance = 0.12;  // m between tool and nuts; an undo moves the nuts in one tick
 
 // Saves or restores a checkpoint (TickInput::checkpoint_action). Returns the number of the restored
-// checkpoint, 0 if none. The change of energy is not work of the hand.
+// checkpoint, 0 if none. A restore changes the energy of the joints, which the hand does not feel, because it
+// holds no nut.
 std::uint8_t update_checkpoints(const Setup& setup, State& state, const ToolPose& tool, std::uint8_t action) {
     if (action == save_checkpoint) {
         Checkpoint& checkpoint = state.checkpoints.at(state.checkpoint_count++ % max_checkpoints);
@@ -334,7 +335,7 @@ force::GuideTarget guide_target(const Setup& setup, std::span<const joint::Joint
     target.id = joint;
     target.point = nut_centre(nut, angle);
     target.axis = nut.axis;
-    // The ball that the target's own nut and bolt end fill; its corners are 0.58 across_flats away.
+    // The ball that the target's own nut and bolt end fill; the nut's corners are 0.58 across_flats away.
     target.bounding_radius = 1.2 * std::max(nut.height, nut.across_flats);
     // Tightening a right-hand thread turns about −axis.
     target.hexagon = {nut.axis, std::cos(angle) * nut.e1 - std::sin(angle) * nut.e2,

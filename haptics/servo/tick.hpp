@@ -36,7 +36,7 @@ struct Checkpoint {
 struct State {
     std::uint64_t tick = 0;
     std::vector<joint::JointState> joints;
-    std::vector<double> rounded;  // by joint: m, by slipping jaws (joint::CornerGrip::rounded)
+    std::vector<double> rounded;  // by joint: m that slipping jaws removed (joint::CornerGrip::rounded)
     Engagement engagement;
     Vec3 hold_target{0.0};  // m, point to which the hold spring pulls an engaged tool
     ReleaseFade release_fade;

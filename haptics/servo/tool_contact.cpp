@@ -17,8 +17,8 @@ static_assert(proxy::GodObjectParameters{}.stride <= collision::merge_stride);
 
 constexpr double contact_distance = 1.5;  // skins; nearer contacts count as touching
 
-// m between jaw and hexagon. The clearance of a jaw is a tenth of a millimetre; the usual skin would fill
-// half of it.
+// m between jaw and hexagon. The clearance of a jaw is a tenth of a millimetre to each side; the usual skin
+// would fill it.
 constexpr double jaw_skin = 2e-6;
 constexpr double both_skins = 2.5;  // of jaw_skin: one on each flank, and a margin
 
@@ -32,9 +32,10 @@ Vec3 to_jaw_frame(const collision::Jaw& jaw, const Pose& wrench, const Vec3& poi
 }
 
 // Returns true if only the jaw can touch the nut in this tick and the next ones.
-bool only_jaw_in_reach(const Setup& setup, const NutGeometry& nut, const Pose& place, const Pose& wrench) {
+bool only_jaw_in_reach(const Setup& setup, const NutGeometry& nut, const Pose& nut_frame,
+                       const Pose& wrench) {
     const collision::Jaw& jaw = setup.wrench.jaw;
-    const Vec3 p = to_jaw_frame(jaw, wrench, place.position + 0.5 * nut.height * nut.axis);
+    const Vec3 p = to_jaw_frame(jaw, wrench, nut_frame.position + 0.5 * nut.height * nut.axis);
     const Vec3 normal = wrench.orientation * Vec3(0, 0, 1);
     return std::abs(p.y) < beside * jaw.opening && p.x < ahead * jaw.opening &&
            std::abs(glm::dot(normal, nut.axis)) > nearly_level;
@@ -47,15 +48,15 @@ bool equal(const Pose& a, const Pose& b) {
 void update_nut_poses(const Setup& setup, ToolContact& contact, std::span<const joint::JointState> joints,
                       bool held) {
     for (std::size_t i = 0; i < contact.nut_poses.size(); ++i) {
-        const Pose place = nut_pose(setup.nuts[i], joints[i].nut.angle);
-        const bool unchanged = equal(place, contact.nut_poses[i]);
+        const Pose nut_frame = nut_pose(setup.nuts[i], joints[i].nut.angle);
+        const bool unchanged = equal(nut_frame, contact.nut_poses[i]);
         contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && unchanged;
-        contact.nut_poses[i] = place;
+        contact.nut_poses[i] = nut_frame;
         if (!contact.nut_bodies[i]) continue;
         collision::Body& body = contact.world.bodies[*contact.nut_bodies[i]];
-        body.pose = place;
+        body.pose = nut_frame;
         const bool enabled =
-            !held || !only_jaw_in_reach(setup, setup.nuts[i], place, contact.god_object.constrained_tool);
+            !held || !only_jaw_in_reach(setup, setup.nuts[i], nut_frame, contact.god_object.constrained_tool);
         contact.cache.meshes_unchanged =
             contact.cache.meshes_unchanged && enabled == body.enabled && (unchanged || !enabled);
         body.enabled = enabled;
@@ -65,14 +66,15 @@ void update_nut_poses(const Setup& setup, ToolContact& contact, std::span<const 
 // The pose of the nut in the jaw that contact queries use: beyond the play it turns with the jaw, less a
 // margin that leaves a skin on each flank. Two flanks pressed at once would be contradictory constraints with
 // unlimited friction.
-Pose hexagon_pose_in_jaw(const Setup& setup, const NutGeometry& nut, const Pose& place, const Pose& wrench) {
+Pose hexagon_pose_in_jaw(const Setup& setup, const NutGeometry& nut, const Pose& nut_frame,
+                         const Pose& wrench) {
     const double off =
-        collision::jaw_fit(setup.wrench.jaw, prism_of(nut), inverse(place) * wrench).misalignment;
+        collision::jaw_fit(setup.wrench.jaw, prism_of(nut), inverse(nut_frame) * wrench).misalignment;
     const double play = joint::rounded_half_play(setup.wrench.jaw.opening, nut.across_flats, 0.0);
     const double lever = 0.5 * nut.across_flats * (std::cos(play) / std::sqrt(3.0) - std::sin(play));
     const double room = std::max(0.0, play - both_skins * jaw_skin / lever);
     const double beyond = off - std::clamp(off, -room, room);
-    return {place.position, place.orientation * glm::angleAxis(-beyond, Vec3(0, 0, 1))};
+    return {nut_frame.position, nut_frame.orientation * glm::angleAxis(-beyond, Vec3(0, 0, 1))};
 }
 
 // Contacts of the jaw with all nuts, up to the size of `out`. If more exist, the result is marked as
@@ -86,12 +88,12 @@ collision::ContactQueryResult find_jaw_contacts(const Setup& setup, const ToolCo
     for (std::size_t i = 0; i < contact.hexagons.size(); ++i) {
         const NutGeometry& nut = setup.nuts[i];
         const bool in_jaw = static_cast<int>(i) == contact.joint_in_jaw;
-        const Pose place =
+        const Pose nut_frame =
             in_jaw ? hexagon_pose_in_jaw(setup, nut, contact.nut_poses[i], pose) : contact.nut_poses[i];
-        const std::size_t count = collision::jaw_contacts(contact.jaw, contact.hexagons[i], pose, place, band,
-                                                          collision::ObstacleId::nut(i), contacts);
+        const std::size_t count = collision::jaw_contacts(contact.jaw, contact.hexagons[i], pose, nut_frame,
+                                                          band, collision::ObstacleId::nut(i), contacts);
         if (in_jaw)
-            collision::remove_axial_moment(place.position, nut.axis, std::span(contacts).first(count));
+            collision::remove_axial_moment(nut_frame.position, nut.axis, std::span(contacts).first(count));
         for (std::size_t k = 0; k < count; ++k) {
             collision::Contact& c = contacts[k];
             c.distance += skin_reduction;

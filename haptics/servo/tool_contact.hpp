@@ -29,9 +29,11 @@ struct ToolContactDescription {
 
 // The contacts of the last query with its pose and band: the jaw's with nuts first, then those of meshes.
 struct ContactCache {
-    bool nuts_unchanged = false;  // since then no nut has moved, so the jaw's contacts are valid
-    bool meshes_unchanged =
-        false;  // since then no body has moved or was enabled or disabled: the same for meshes
+    // Since the query no nut has moved, so the contacts of the jaw are still valid.
+    bool nuts_unchanged = false;
+    // Since the query no body has moved or was enabled or disabled, so the contacts of meshes are still
+    // valid.
+    bool meshes_unchanged = false;
     Pose pose;
     double band = 0.0;  // m
     collision::ContactQueryResult nuts, meshes;

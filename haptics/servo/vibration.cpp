@@ -11,7 +11,7 @@ constexpr double max_nut_speed = 100.0;               // rad/s; faster is a jump
 constexpr double rest_motion = to_radians(0.02);      // rad; less is rest
 constexpr double rest_time = 0.1;                     // s of rest until a nut counts as stuck
 constexpr double breakaway_motion = to_radians(0.1);  // rad by which a stuck nut breaks away
-constexpr double yield_pause = 0.3;                   // s without yield until it may be shown again
+constexpr double yield_pause = 0.3;                   // s without yield until its cue may be given again
 constexpr double detent_wait = 0.02;                  // s; a late detent would feel like another one
 
 std::size_t index_of(VibrationCue cue) { return static_cast<std::size_t>(cue); }
@@ -43,14 +43,14 @@ const VibrationPulse& pulse_of(const VibrationOptions& options, VibrationCue cue
     return options.load_pulse;
 }
 
-// `scale`: 0 … 1, of the amplitude. Of two equal events that wait, the stronger one is shown.
+// `scale`: 0 … 1, of the amplitude. If the same event is pending already, the greater amplitude stays.
 void add_event(VibrationState& state, const VibrationOptions& options, VibrationCue cue, double scale = 1.0) {
     VibrationState::PendingCue& pending = state.pending[index_of(cue)];
     const double amplitude = pulse_of(options, cue).amplitude * std::clamp(scale, 0.0, 1.0);
     pending = {std::max(pending.amplitude, amplitude), state.time};
 }
 
-// Amplitude, as a share of that at the target, at this share of the target torque.
+// Amplitude at `share` of the target torque, relative to the amplitude at the target torque.
 double load_scale(const VibrationOptions& options, double share) {
     return std::pow(std::clamp(share, 0.0, options.max_share), 1.0 / options.sensation_exponent);
 }
@@ -118,8 +118,8 @@ void add_breakaway(VibrationState& state, const VibrationOptions& options, const
 }
 
 // Sets the load pulse.
-void follow_load(VibrationState& state, const VibrationOptions& options, const VibrationInput& input,
-                 double dt) {
+void update_load_pulse(VibrationState& state, const VibrationOptions& options, const VibrationInput& input,
+                       double dt) {
     const double share = share_of(input);
     const double weight = dt / (options.smoothing_time + dt);
     state.growth += weight * ((share - state.share) / dt - state.growth);
@@ -149,8 +149,8 @@ VibrationCue strongest(VibrationState& state, const VibrationOptions& options) {
 }
 
 // None if the command is too weak to feel.
-std::optional<VibrationCommand> sent(VibrationState& state, const VibrationOptions& options,
-                                     const VibrationPulse& pulse, VibrationCue cue) {
+std::optional<VibrationCommand> make_command(VibrationState& state, const VibrationOptions& options,
+                                             const VibrationPulse& pulse, VibrationCue cue) {
     const double amplitude = std::clamp(options.gain * pulse.amplitude, 0.0, 1.0);
     if (!(amplitude >= options.min_amplitude)) return std::nullopt;
     state.sent_at = state.time;
@@ -188,7 +188,7 @@ void advance_vibration(VibrationState& state, const VibrationOptions& options, c
     add_detents(state, options, input);
     add_stage_changes(state, options, input);
     add_breakaway(state, options, input);
-    follow_load(state, options, input, dt);
+    update_load_pulse(state, options, input, dt);
     state.angle = input.angle;
     state.stage = input.stage;
 }
@@ -204,13 +204,13 @@ std::optional<VibrationCommand> next_vibration(VibrationState& state, const Vibr
         return std::nullopt;
     if (cue == VibrationCue::load_pulse) {
         if (busy || state.load_pulse.amplitude == 0.0) return std::nullopt;
-        return sent(state, options, state.load_pulse, cue);
+        return make_command(state, options, state.load_pulse, cue);
     }
     VibrationPulse pulse = pulse_of(options, cue);
     VibrationState::PendingCue& pending = state.pending[index_of(cue)];
     pulse.amplitude = pending.amplitude;
     pending = {};
-    return sent(state, options, pulse, cue);
+    return make_command(state, options, pulse, cue);
 }
 
 }  // namespace bolt::servo

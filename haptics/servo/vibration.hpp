@@ -57,8 +57,8 @@ struct VibrationOptions {
     double sensation_exponent = 0.89;
     double max_share = 1.2;  // torque / target from which the amplitude grows no more
 
-    // The load grows if torque / target grows faster than this (1/s), and the nut turns if it is faster than
-    // this (rad/s); both are smoothed over smoothing_time (s).
+    // The load grows if torque / target grows by at least min_growth (1/s); the nut turns if its speed is at
+    // least min_speed (rad/s). Both rates are smoothed over smoothing_time (s).
     double min_growth = 0.05, min_speed = 0.02, smoothing_time = 0.05;
     // 1/s. If torque / target falls faster than this, the hand is letting go: no load pulse.
     double release_rate = 1.0;
@@ -110,7 +110,7 @@ struct VibrationState {
     double rest_angle = 0.0, rest_since = 0.0;
     bool stuck = false;  // stands still under load
 
-    std::int16_t seated_joint = -1;  // whose seat cue was rendered; −1: it may be rendered again
+    std::int16_t seated_joint = -1;  // joint whose seat cue is not repeated; −1: none
     double seat_angle = 0.0;
     double last_yield = -1e9;  // s, last tick in the yield stage
 
@@ -122,14 +122,14 @@ struct VibrationState {
     VibrationCue rendered = VibrationCue::load_pulse;
 };
 
-// Adds a tick. Ticks with values that are not finite advance the time and end what they would continue; a nut
-// that jumps, by undoing a step, gives no cue. `dt`: s.
+// Adds a tick. A tick with a value that is not finite only advances the time and ends the load pulse. A nut
+// that jumps, because a step was undone, gives no cue. `dt`: s.
 void advance_vibration(VibrationState& state, const VibrationOptions& options, const VibrationInput& input,
                        double dt);
 
 // The command to send in this frame; it replaces the one that the controller renders. The pending event with
-// the highest rank comes first. Others wait, at most max_wait, and no weaker one interrupts an event. None:
-// send nothing.
+// the highest rank comes first. Others wait, at most max_wait; none interrupts an event of higher rank. No
+// command: send nothing.
 std::optional<VibrationCommand> next_vibration(VibrationState& state, const VibrationOptions& options);
 
 }  // namespace bolt::servo

@@ -25,7 +25,7 @@ struct HandSetup {
 // In the assembly's frame.
 struct ToolPoses {
     Pose commanded_tool;    // from the device that moves the tool
-    Pose constrained_tool;  // that contacts permit
+    Pose constrained_tool;  // the pose that contacts permit
 };
 
 struct HandState {
@@ -34,7 +34,7 @@ struct HandState {
     std::uint64_t number = 0;  // of the last glove sample
 };
 
-// One step of dt with the latest sample of the glove, which may be the one of the last step. Pure, no
+// One step of dt with the latest sample of the glove, which may be that of the last step again. Pure, no
 // allocation.
 hand::GraspEvent update_hand(const HandSetup& setup, HandState& state, const hand::GloveSample& sample,
                              const ToolPoses& tool, double dt);
@@ -60,8 +60,8 @@ struct HandStatus {
 std::vector<std::string> messages(const HandStatus& hand, hand::Side calibrated_side,
                                   const hand::GloveReport& report);
 
-// Runs the gloved hand on its own thread between those of the glove and the servo. set_tool() and grip()
-// never wait.
+// Runs the gloved hand on its own thread, between the threads of the glove and the servo. set_tool() and
+// grip() never wait.
 class HandThread {
   public:
     // Owns the driver and reads its samples.
@@ -69,7 +69,7 @@ class HandThread {
 
     HandThread(HandThread&&) noexcept;
     HandThread& operator=(HandThread&&) noexcept;
-    ~HandThread();  // stops
+    ~HandThread();  // stops the thread
 
     // For the servo thread.
     void set_tool(const ToolPoses& tool);

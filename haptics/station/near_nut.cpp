@@ -13,15 +13,15 @@ namespace {
 using force::Pivot;
 
 // m. The wrench pivots about a bolt while its jaw is within pivot_radius of the axis and between pivot_below
-// under and pivot_above over the nut's range of travel; it stops at 1.5 times these distances. Further down
-// the jaw is beside the workpiece, and a rotation would push it under the workpiece's edge. The guiding
+// under and pivot_above over the nut's range of travel; pivoting ends at 1.5 times these distances. Further
+// down the jaw is beside the workpiece, and a rotation would push it under the workpiece's edge. The guiding
 // force aligns the jaw from the same distance (GuidingParameters::alignment_distance).
 constexpr double pivot_radius = 0.08, pivot_above = 0.06, pivot_below = 0.002;
 constexpr double pivot_alignment = 0.7;  // cosine of the largest angle between the tool's normal and the bolt
-constexpr double pivot_rate = 1.0;  // rad/s, at most, at which the wrench turns to a bolt that it comes near
-// m and rad. If contacts hold the wrench back from its commanded pose by more than this, it stops turning to
-// the bolt; it would otherwise push the hand with energy that the hand did not supply.
-constexpr double held_back = 0.3e-3, held_back_angle = 5e-3;
+constexpr double pivot_rate = 1.0;  // rad/s, largest rate at which the wrench turns square to a near bolt
+// m and rad. If contacts hold the wrench back from its commanded pose by more than this, the wrench stops
+// turning to the bolt; otherwise it would push the hand with energy that the hand did not supply.
+constexpr double max_lag = 0.3e-3, max_lag_angle = 5e-3;
 
 // The distance of a jaw at `tool` from the axis of this nut's bolt, m, if it is near the nut at any position
 // of the nut on its thread; otherwise infinity. `slack`: factor on the distances.
@@ -36,8 +36,8 @@ double distance_if_near(const servo::NutGeometry& nut, const Pose& tool, double 
     return near ? aside : std::numeric_limits<double>::infinity();
 }
 
-// The nut that the wrench pivots about: the engaged one, else the nearest that is near; −1: none. The one
-// that it pivoted about before counts as nearer than it is.
+// The joint whose nut the wrench pivots about: the engaged one, else the nearest in range; −1: none. The
+// previous joint has 1.5 times the range and counts as nearer, so that the choice does not alternate.
 int nut_to_pivot_about(const servo::Setup& setup, const StationState& s) {
     if (s.output.joint >= 0) return s.output.joint;
     int found = -1;
@@ -53,15 +53,15 @@ int nut_to_pivot_about(const servo::Setup& setup, const StationState& s) {
     return found;
 }
 
-// On a nut the wrench must continue to turn until its jaw fits.
+// Contact with a nut does not count: there the wrench must continue to turn until its jaw fits.
 bool is_held_back(const Pose& commanded, const servo::Output& output) {
     return !output.touched.is_nut() &&
-           (glm::length(output.constrained_tool.position - commanded.position) > held_back ||
+           (glm::length(output.constrained_tool.position - commanded.position) > max_lag ||
             glm::length(turn_between(output.constrained_tool.orientation, commanded.orientation)) >
-                held_back_angle);
+                max_lag_angle);
 }
 
-// The pose `last`, square to the bolt, except that it turns by `max_turn` rad at most.
+// Turns the pose `last` square to the bolt, by `max_turn` rad at most.
 Pose turned_square_to_bolt(const Pose& last, const Pivot& pivot, double lever_arm, const Vec3& lever_end,
                            double max_turn) {
     const Vec3 normal = last.orientation * Vec3(0.0, 0.0, 1.0);
@@ -99,8 +99,8 @@ void pivot_about_bolt(const DeviceLayout& layout, const servo::Setup& setup, Sta
 
 namespace {
 
-// Chosen for a tool that approaches a nut by itself: 12 cm/s from 8 cm on, slower than a user who pushes it
-// away.
+// Chosen for a tool that approaches a nut by itself: 12 cm/s within 8 cm of the nut, slower than a user who
+// pushes the tool away.
 constexpr force::GuidingParameters approach_guiding{.gain = 0.25, .max_force = 3.0, .max_torque = 0.2};
 constexpr double approach_speed = 0.04;         // m/s per N of the guiding law
 constexpr double approach_angular_speed = 3.0;  // rad/s per N·m; slower than a user who turns the tool

@@ -82,7 +82,7 @@ Status open(const device::DeviceFactory& factory, const StationOptions& options,
     return {};
 }
 
-// A wrench that is grasped comes into the palm in this time. Chosen: as fast as a hand regrasps.
+// Time constant with which a grasped wrench moves into the palm. Chosen: as fast as a hand regrasps.
 constexpr double absolute_return_time = 0.1;  // s
 
 force::WorkspaceMap make_workspace(const DeviceLayout& layout, const StationOptions& options) {
@@ -92,7 +92,7 @@ force::WorkspaceMap make_workspace(const DeviceLayout& layout, const StationOpti
     const Vec3 reach = force::rotated_half_workspace(map.rotation, layout.mover->half_workspace);
     map.scale = options.workspace.scale.value_or(force::fitted_scale(reach, options.handle_length));
     if (options.workspace.absolute) map.return_time = absolute_return_time;
-    // With the power 1/scale a force on the tool is as large on the hand.
+    // With a power ratio of 1/scale, a force has the same magnitude on the tool and on the hand.
     map.power_ratio = options.workspace.power_ratio.value_or(1.0 / map.scale);
     return map;
 }

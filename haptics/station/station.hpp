@@ -17,7 +17,7 @@ struct LinkStats {
     // Samples after the first, including those replaced before a tick read them.
     std::uint64_t samples = 0;
     double silence = 0.0, longest_silence = 0.0;       // s since the last valid sample
-    double largest_force = 0.0, largest_torque = 0.0;  // N, N·m, that were sent
+    double largest_force = 0.0, largest_torque = 0.0;  // N, N·m, sent to the device
     std::uint64_t first = 0;  // number of the first sample that a tick received; 0: none yet
 };
 
@@ -37,12 +37,12 @@ struct StationLinkStats {
 
 // How the mover's workspace maps to the assembly's, as far as the installer determines it.
 struct WorkspaceOptions {
-    // Unit, from the device's frame to the user's: not the identity if the device is mounted at another angle
+    // Unit, from the device's frame to the user's: the identity unless the device is mounted at another angle
     // than its maker intends.
     Quat rotation{1.0, 0.0, 0.0, 0.0};
     std::optional<double> scale;        // none: fitted to the mover's reach
     std::optional<double> power_ratio;  // none: 1/scale, so that forces keep their magnitude
-    // The device's frame is the assembly's, and the tool returns to the pose of the hand
+    // The device's frame is the assembly's frame. An offset between tool and hand decays to 0
     // (WorkspaceMap::return_time).
     bool absolute = false;
 };
@@ -68,7 +68,7 @@ struct StationOptions {
 };
 
 // The layout of these devices: workspace and lever arm from the options, or fitted to the devices. The
-// mover's limits are lowered here, before anything uses them. Fails as check().
+// mover's limits are lowered to `mover_limits` first. Fails as check().
 Result<DeviceLayout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
                                  std::optional<device::Description> wheel);
 
@@ -88,7 +88,7 @@ class Station {
     // not run; the command is then not queued.
     [[nodiscard]] Status send(const StationCommand& command);
     const StationTick& latest_tick();
-    bool next_tick(StationTick& tick);  // all ticks in order, without those of a pause; false: no more yet
+    bool next_tick(StationTick& tick);  // all ticks in order, except those of a pause; false: none yet
     [[nodiscard]] std::uint64_t lost_ticks() const;  // not read in time and dropped
 
     // The gloved hand for display; null: none. For one calling thread.

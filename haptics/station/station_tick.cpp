@@ -34,8 +34,9 @@ Status check(const DeviceLayout& layout) {
 
 namespace {
 
-// A larger change of force in a millisecond is felt as a blow. Contacts are designed for it up to 0.5 m/s
-// (haptics/proxy/coupling), but a hand that reaches without looking hits the casing at 0.8 m/s.
+// A larger change of force in a millisecond is felt as a blow. The stiffness and damping of contacts keep the
+// change below this share up to 0.5 m/s (haptics/proxy/coupling), but a hand that reaches without looking
+// hits the casing at 0.8 m/s.
 constexpr double max_slew_share = 0.1;  // of the greatest force and torque, per millisecond
 constexpr double millisecond = 1e-3;    // s
 
@@ -94,7 +95,7 @@ void update_link(const Description& d, DeviceLink& link, const DeviceSnapshot& s
     if (link.fresh) link.number = snapshot.number;
     const force::OutputLimits& limits = d.limits;
     if (!link.usable || link.silence > limits.max_silence) {
-        // As in the watchdog, the force is zero `release` after the last sample.
+        // As in the watchdog, the force is zero `release` s after the last sample.
         const double release = limits.release - transport_delay;
         const double max_share =
             std::max(0.0, (release - link.silence - elapsed) / (release - limits.max_silence));
@@ -145,7 +146,7 @@ Quat heading_of(const Quat& view) {
     return glm::angleAxis(std::atan2(-right.z, right.x), Vec3(0.0, 1.0, 0.0));
 }
 
-// Changes what the tool's motion follows, without moving the tool.
+// Changes heading and lever arm of the mapping without moving the tool.
 void set_heading_and_lever_arm(const DeviceLayout& layout, StationState& s, const Quat& heading,
                                double lever_arm) {
     if (heading == s.workspace.heading && lever_arm == s.workspace.lever_arm) return;
@@ -154,8 +155,8 @@ void set_heading_and_lever_arm(const DeviceLayout& layout, StationState& s, cons
     force::realign(layout.workspace, s.workspace, s.mover_pose, s.workspace.commanded_tool);
 }
 
-// Returns true if a hand cannot have moved from one sample to the next: the position is measured anew, or one
-// of the samples is wrong.
+// Returns true if no hand moves this far between two samples: the device has redetermined its position, or
+// one of the samples is wrong.
 bool has_jumped(const Description& mover, const Pose& before, const Pose& now) {
     const force::OutputLimits& limits = mover.limits;
     const double between = mover.rate > 0.0 ? 1.0 / mover.rate : 0.0;  // s
@@ -174,10 +175,10 @@ void move_by_mover(const DeviceLayout& layout, const servo::Setup& setup, Statio
     if (s.mover.fresh) {
         const bool jumped = has_jumped(*layout.mover, s.mover_pose, snapshot.sample.pose);
         s.mover_pose = snapshot.sample.pose;
-        // The tool stays where it is and follows from there.
+        // The tool stays in place and follows the device from there.
         if (snapshot.connection_number != s.mover.connection_number || jumped) {
             force::realign(layout.workspace, s.workspace, s.mover_pose, s.workspace.commanded_tool);
-            s.workspace.share = s.mover.force_share = 0.0;
+            s.workspace.force_share = s.mover.force_share = 0.0;
         }
         s.mover.connection_number = snapshot.connection_number;
     }
@@ -226,7 +227,7 @@ void update_resting_wrench(const DeviceLayout& layout, StationState& s, servo::G
     const bool had = s.input.grip == servo::Grip::wrench, has = grip == servo::Grip::wrench;
     if (has && !had && s.resting_wrench) {
         place_tool(layout, s, *s.resting_wrench);
-        s.workspace.share = 0.0;
+        s.workspace.force_share = 0.0;
     }
     if (has) s.resting_wrench.reset();
     // The hand stays in place; from now on the device moves its fingertips.
@@ -322,7 +323,7 @@ servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& set
     if (s.tool_to_place) {
         place_tool(layout, s, *s.tool_to_place);
         s.tool_to_place.reset();
-        s.workspace.share = 0.0;
+        s.workspace.force_share = 0.0;
     }
     const servo::Grip grip = grip_of(inputs);
     set_heading_and_lever_arm(layout, s, s.workspace.heading,
@@ -385,14 +386,14 @@ DeviceCommands tick(const DeviceLayout& layout, const servo::Setup& setup, Stati
 
 Pose tool_of_gloved_hand(const DeviceLayout& layout, const servo::Setup& setup, const StationState& s,
                          const StationControls& controls) {
-    const bool bare = s.resting_wrench && layout.wrist && controls.empty_hand_wrist;
-    if (bare) {
+    const bool hand_is_empty = s.resting_wrench && layout.wrist && controls.empty_hand_wrist;
+    if (hand_is_empty) {
         const Vec3 tip = inverse(*s.resting_wrench) * s.workspace.commanded_tool.position;
         const Vec3 nearest(std::clamp(tip.x, 0.0, setup.wrench.handle_length), 0.0, 0.0);
         if (glm::distance(tip, nearest) < handle_capture_distance) return *s.resting_wrench;
     }
-    return bare ? s.workspace.commanded_tool * *controls.empty_hand_wrist * inverse(*layout.wrist)
-                : s.workspace.commanded_tool;
+    return hand_is_empty ? s.workspace.commanded_tool * *controls.empty_hand_wrist * inverse(*layout.wrist)
+                         : s.workspace.commanded_tool;
 }
 
 DeviceCommands pause_tick(const DeviceLayout& layout, const servo::Setup& setup, StationState& s,

@@ -49,8 +49,8 @@ Status check(const DeviceLayout& layout);
 inline constexpr double transport_delay = 2e-3;
 
 // The length of the wrench, `handle_length` m, if the mover senses the pose of the hand and no device renders
-// torque: its force then acts at the end of the wrench. Otherwise 0: the jaw follows the
-// mover, which turns the wrench about the bolt.
+// torque: the mover's force then acts at the end of the wrench. Otherwise 0: the jaw follows the mover, which
+// turns the wrench about the bolt.
 double lever_arm_of(const DeviceLayout& layout, double handle_length);
 
 // The combined limits of the devices in the assembly's units, for servo::SetupDescription::limits.
@@ -80,7 +80,7 @@ struct StationControls {
     // hand.
     std::optional<Pose> wrench_rest_pose{};
     // The wrist in the frame of the fingertips while a gloved hand is empty: the mover then moves the
-    // fingertips. None: it moves the hand as if it held the wrench.
+    // fingertips. None: the mover moves the hand as if the hand held the wrench.
     std::optional<Pose> empty_hand_wrist{};
     // Joint whose nut attracts the tool; −1: none. Applies only to a device that senses velocity and renders
     // no force: the station then moves the tool to the nut.
@@ -181,9 +181,8 @@ DeviceCommands tick(const DeviceLayout& layout, const servo::Setup& setup, Stati
 servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                              const StationInputs& inputs);
 // On a bolt and near it the wrench follows the end of its handle, and its jaw points to the bolt. The wrist
-// may turn freely: a device without torque cannot hold it, and a hand cannot align a jaw
-// with it to 1°.
-// `last`: the tool's pose before this tick.
+// may turn freely, because a device without torque cannot hold the wrist, and a hand cannot align a jaw with
+// the bolt to 1°. `last`: the tool's pose before this tick.
 void pivot_about_bolt(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                       const Pose& last, double dt);
 // Moves a tool whose device senses velocity and renders no force: along with a held nut, and towards
@@ -213,7 +212,7 @@ struct MoverSample {
 
 // One tick, for recording.
 struct StationTick {
-    std::uint64_t number = 0;  // of the servo's deadline; missed ones are counted
+    std::uint64_t number = 0;  // of the servo's deadline; missed deadlines count too
     servo::TickInput input;
     servo::Output output;
     Pose commanded_tool;  // in the assembly's frame
@@ -221,7 +220,7 @@ struct StationTick {
     // that it holds. Valid at a scale of 1. The clutch changes it.
     Pose mover_in_assembly;
     // The mover's last pose in its own frame and its buttons, also in a pause; none without a mover that
-    // senses its pose, and while that sends no samples.
+    // senses its pose, and while the mover sends no samples.
     std::optional<MoverSample> mover;
     // Pose of the wrench while no hand holds it (StationControls::wrench_rest_pose).
     std::optional<Pose> resting_wrench;

@@ -14,12 +14,12 @@ constexpr double max_step = 3e-3;                       // m, of the spring's ce
 constexpr double early_begin = 0.05, early_end = 0.30;  // s of a level
 constexpr double late_begin = 0.60;                     // s; the late part lasts until the end of the level
 
-// A swing counts if it is larger than both: what a hand at rest does on a spring, and the criterion of
-// tests/stability.
+// A swing counts if it is larger than min_swing, the criterion of tests/stability, and than the swing that a
+// hand at rest causes on the spring by its tremor.
 constexpr double min_swing = 100e-6, tremor_force = 0.15;  // m, N
-constexpr double lasting_share = 0.3;                      // of the swing right after the step
-constexpr double large_swing = 0.5e-3;  // m; a larger one counts whatever the early one was
-constexpr int min_crossings = 4;        // of the middle; a hand that moves on makes fewer
+constexpr double lasting_share = 0.3;                      // late swing as a share of the early swing
+constexpr double large_swing = 0.5e-3;  // m; a larger late swing counts whatever the early swing was
+constexpr int min_crossings = 4;        // of the swing's middle; a moving hand makes fewer
 // J in the late part. A hand that moves at 1 cm/s receives 0.2 mJ from 5 N/mm with 1.5 ms of delay.
 constexpr double max_energy = 0.5e-3;
 constexpr double visible_motion = 30e-6;  // m, more than the steps of encoders
@@ -86,7 +86,7 @@ void end_level(StiffnessTrial& t) {
     t.time = 0.0;
 }
 
-// Moves the spring, so that the handle is pulled there and swings.
+// Moves the spring's centre by a step, so that the handle swings.
 void begin_level(StiffnessTrial& t, const Vec3& position) {
     const double step = std::min(max_step, t.limits.force / stiffness_of(t, t.level));
     t.centre = position;
@@ -127,7 +127,7 @@ StiffnessTrial begin_stiffness_trial(const device::Description& arm) {
     t.limits.release -= transport_delay;
     for (int i = 0; i < 3; ++i) t.direction[i] = arm.renders[static_cast<std::size_t>(i)] ? 1.0 : 0.0;
     t.direction = glm::normalize(t.direction);
-    constexpr std::size_t room = 1000;  // samples, so that a tick does not allocate
+    constexpr std::size_t room = 1000;  // samples, reserved so that a tick does not allocate
     t.early.reserve(room);
     t.late.reserve(room);
     t.responses.reserve(stiffness_levels);
@@ -143,8 +143,8 @@ force::OutputCommand step(StiffnessTrial& t, const force::DeviceInput& given, do
     const double stiffness = stiffness_of(t, t.level);
 
     force::ForceRequest request;
-    const bool strong = input.dead_man && t.output_stage.limiter.ramp >= 1.0;
-    if (!strong) {
+    const bool at_full_force = input.dead_man && t.output_stage.limiter.ramp >= 1.0;
+    if (!at_full_force) {
         t.time = 0.0;
         t.offset = Vec3(0.0);
         if (!input.dead_man) t.centre = position;
@@ -156,13 +156,13 @@ force::OutputCommand step(StiffnessTrial& t, const force::DeviceInput& given, do
     const Vec3 stretch = t.centre + t.offset - position;
     request.command.force = stiffness * stretch;
     request.stored_energy = stored_energy(stiffness, stretch);
-    if (strong && given.fresh) record_sample(t, position, request.stored_energy, dt);
+    if (at_full_force && given.fresh) record_sample(t, position, request.stored_energy, dt);
     const force::OutputCommand command = force::render(t.limits, t.output_stage, input, request, dt);
     if (t.end != TrialEnd::none) return command;
-    if (strong && t.output_stage.watchdog.fault != force::Fault::none) {
+    if (at_full_force && t.output_stage.watchdog.fault != force::Fault::none) {
         t.end = TrialEnd::fault;
         t.fault = t.output_stage.watchdog.fault;
-    } else if (strong && t.time >= stiffness_level_time) {
+    } else if (at_full_force && t.time >= stiffness_level_time) {
         end_level(t);
     }
     return command;

@@ -28,12 +28,12 @@ enum class TrialEnd : std::uint8_t {
 
 struct StiffnessTrial {
     force::OutputLimits limits;  // of the arm, with the force of the trial
-    Vec3 direction{0.0};         // unit, of the steps
+    Vec3 direction{0.0};         // unit, along which the spring steps
     force::OutputStage output_stage;
 
     TrialEnd end = TrialEnd::none;
     force::Fault fault = force::Fault::none;  // for TrialEnd::fault
-    int level = 0;                            // that runs now, 0 … stiffness_levels − 1
+    int level = 0;                            // the present level, 0 … stiffness_levels − 1
     double stable = 0.0;                      // N/m, largest stiffness that has passed; 0: none
 
     // s from the first command of a step until the handle has moved visibly, one for each level. Includes the
@@ -42,25 +42,25 @@ struct StiffnessTrial {
 
     // The present level:
     double time = 0.0;               // s since its step; 0: the force still ramps up
-    Vec3 centre{0.0}, offset{0.0};   // m, of the spring: where the level began, and the step from there
-    std::optional<double> moved_at;  // s, of the response
+    Vec3 centre{0.0}, offset{0.0};   // m, spring centre before the step, and the step
+    std::optional<double> moved_at;  // s from the step until the handle moved visibly
     std::vector<Vec3> early, late;   // m, positions right after the step and at the end of the level
     double generated = 0.0;          // J that the spring has given to the hand in the late part
     double energy_before = 0.0;      // J, stored at the last tick
     bool has_centre = false;
 };
 
-// The arm renders a force along at least one axis.
+// `arm` must render a force along at least one axis.
 StiffnessTrial begin_stiffness_trial(const device::Description& arm);
 
 // One tick of dt. Returns the command for the arm. The trial advances only while `input.dead_man` is set;
 // after an interruption the level begins again. After the end the command falls to zero.
 force::OutputCommand step(StiffnessTrial& trial, const force::DeviceInput& input, double dt);
 
-// N/m, of a level.
+// The stiffness of a level, N/m.
 double stiffness_of(const StiffnessTrial& trial, int level);
 
-// s, of the responses; none: no step has moved the handle.
+// The median of the responses, s; none: no step has moved the handle.
 std::optional<double> median_response(const StiffnessTrial& trial);
 
 }  // namespace bolt::station

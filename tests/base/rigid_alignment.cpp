@@ -256,7 +256,7 @@ TEST_CASE("Rigid alignment: fewer than three points, and sets near a line, are r
     CHECK(!residuals[3].has_value());
     CHECK(!largest(residuals));
     CHECK(!largest({}));
-    CHECK(align_points(flat)->thickness < 1e-6);
+    CHECK(align_points(flat)->thickness_ratio < 1e-6);
 }
 
 TEST_CASE("Rigid alignment: mirrored and swapped sets are refused, noisy and flat ones are not") {
@@ -376,7 +376,7 @@ TEST_CASE("Pivot: the sum of squares is least, and noise has the stated effect")
                 CHECK(squares_of(poses, fit->tip, fit->pivot + other) > least);
             }
         squares += glm::dot(fit->tip - tip, fit->tip - tip) / repeats;
-        bound += 3.0 * square(sigma / fit->turning) / 400.0 / repeats;
+        bound += 3.0 * square(sigma / fit->orientation_spread) / 400.0 / repeats;
         rms += fit->rms / repeats;
     }
     CHECK(squares < bound);

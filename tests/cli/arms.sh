@@ -29,7 +29,7 @@ expect 0 'senses the pose of the hand in six degrees of freedom' "$bin/boltwrigh
 expect 0 'model omega.6, serial number 1234' "$bin/boltwright" devices --device $arm --seconds 0.2
 expect 0 '  calibrated' "$bin/boltwright" devices --device $arm --seconds 0.2
 
-# What doctor measures; the exit code is that of the station's trial, which a busy computer may fail.
+# Measurements of doctor. The exit code is that of the station's trial, which a busy computer may fail.
 doctor() { "$bin/boltwright" doctor cover-m8 --device $arm --seconds 0.5 "$@" 2>&1; }
 says() {  # says 'pattern' OUTPUT
     grep -qE -- "$1" <<<"$2"
@@ -37,7 +37,7 @@ says() {  # says 'pattern' OUTPUT
 output=$(doctor)
 check 'doctor measures rate and age of samples' says 'sent [0-9]+ samples a second' "$output"
 check 'doctor measures the age of samples' says 'a sample is [0-9.]+ ms old when a tick of the servo takes it' "$output"
-check 'nobody is pushed without consent' says 'stiffness not measured: it would push the hand, and nobody was asked; --yes' "$output"
+check 'nobody is pushed without consent' says 'stiffness not measured: it pushes the hand, which needs permission: use a terminal or --yes' "$output"
 check 'nobody is pushed without the button' says 'not measured: its button was not held' "$(doctor --yes)"
 output=$(answers n "$bin/boltwright" doctor cover-m8 --device $arm --seconds 0.5)
 check 'a terminal asks before the arm pushes' says 'pushes the hand with 2.4 N at most.*May it push\? \[y/N\]' "$output"
@@ -58,7 +58,7 @@ FDSDK=$work/nowhere expect 4 'there is no device force-dimension:0' "$bin/boltwr
 FDSDK=$work/broken expect 0 'cannot be used: libdrd.so.3 cannot be loaded: .*invalid ELF header; expected the vendor' "$bin/boltwright" devices
 FDSDK=$work/broken expect 4 'invalid ELF header' "$bin/boltwright" devices --device $arm
 
-# An arm whose library has to reserve it to find it: it is listed where the library is present.
+# OpenHaptics finds an arm only by reserving it, so the arm is listed wherever the library is present.
 hd=openhaptics:0
 mkdir -p oh/lib oh_old/lib oh_broken/lib
 cp "${bin%/bin}/emulated/open_haptics/libHD.so.3.4" oh/lib
@@ -151,7 +151,7 @@ rm log
 "$bin/boltwright" train cover-m8 --device plugin:sample_arm:0 --start --silent --size 320x200 --out crash 2>log >/dev/null &
 player=$!
 check 'a lesson with the arm of a plug-in begins' eventually begun
-arm_process() {  # of the programs that boltwright has started
+arm_process() {  # process ids of bolt-arm-host below boltwright
     local child
     for child in $(cat /proc/$player/task/*/children 2>/dev/null); do
         [[ $(cat "/proc/$child/comm" 2>/dev/null) != bolt-arm-host ]] || echo "$child"

@@ -279,7 +279,7 @@ check "the quality of the calibration is printed" grep -qE '^Quality 0\.[5-9]' c
 echo fist >&4
 expect 0 'middle  90 100  67' "$bin/boltwright" glove show gloves/_41da.right.glove.json --port worn --seconds 3
 expect 2 'for another glove' "$bin/boltwright" glove show gloves/_41da_20_4c_2e.right.glove.json --port worn
-# The same hand at a station, without a display and a GPU: it grasps the wrench; the glove is unplugged and plugged in again.
+# The same gloved hand at a station, without a display and a GPU: it grasps the wrench; the glove is unplugged and plugged in again.
 tried=(env -u DISPLAY VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json
     "$bin/boltwright" doctor cover-m8 --glove worn)
 expect 3 'no calibration of Bob.s right hand.*boltwright glove calibrate --trainee "Bob"' "${tried[@]}" --trainee Bob --folder gloves

@@ -15,13 +15,13 @@ expect 0 'Lab 2' "${run[@]}" check cave.json --without-monitors
 for kind in wall cave desk; do
     for stereo in mono side_by_side top_bottom two_outputs; do
         expect 0 "$stereo" "${run[@]}" new cave.json --force --kind $kind --stereo $stereo
-        expect 0 '^The file is right' "${run[@]}" check cave.json --without-monitors
+        expect 0 '^The file has no mistakes' "${run[@]}" check cave.json --without-monitors
     done
 done
 expect 2 'hall not in' "${run[@]}" new hall.json --kind hall
 expect 1 'nowhere/cave.json' "${run[@]}" new nowhere/cave.json
 
-# check: mistakes of the file have its lines; what does not fit the monitors is another exit code.
+# check: mistakes in the file are reported with its lines; walls that do not fit the monitors have another exit code.
 "${run[@]}" new cave.json --force > /dev/null
 expect 1 '^cave.json:[0-9]+:[0-9]+: wall "front": the window 1500x1200\+1500\+0 is not on the monitors; expected it within .* 1280x800\+0\+0' "${run[@]}" check cave.json
 expect 1 'compared with the monitor of this computer' "${run[@]}" check cave.json
@@ -36,7 +36,7 @@ change 's/"lower_left_m": \[-1.5, 0.0, -1.5\]/"lower_left_m": [-1.5, 0.3, -1.5]/
 expect 3 '^shape.json:[0-9]+:5: wall "front": its angle at the lower right corner is 84.29 degrees; expected 90' "${run[@]}" check shape.json --without-monitors
 change '/"name": "left"/,/stereo/{s/\[-1.5,/[-1.3,/; s/-1.5\]/-1.7]/}' crossed.json
 expect 3 '^crossed.json:[0-9]+:5: walls "left" and "front" cross; expected walls that meet at their edges' "${run[@]}" check crossed.json --without-monitors
-expect 3 'These walls cannot be used as the file says' "${run[@]}" check crossed.json --without-monitors
+expect 3 'The file has mistakes that prevent its use' "${run[@]}" check crossed.json --without-monitors
 expect 3 'nowhere.json: ' "${run[@]}" check nowhere.json
 change 's/"tracker": "dtrack"/"tracker": "file", "recording": "walk.csv"/' recorded.json
 expect 3 'walk.csv' "${run[@]}" check recorded.json --without-monitors

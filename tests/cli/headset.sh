@@ -72,7 +72,7 @@ def black(name):
 assert black(sys.argv[1]) > 0.4 and black(sys.argv[2]) < 0.05, [black(name) for name in sys.argv[1:]]
 END
 
-# The session ends in the middle of a lesson: it goes on in the window, and the headset is found again.
+# The headset's session ends in the middle of a lesson: the lesson goes on in the window, and the headset is found again.
 cat >script <<END
 0 config width 64
 0 config height 60
@@ -92,7 +92,7 @@ check 'the loss is told' grep -q 'the headset is lost: ' log
 check 'nothing was done wrong meanwhile' test "$(violations report)" = 0
 check 'the lesson was recorded until the end' test -s lost/session.boltwright
 
-# Without a headset the window is used until there is one.
+# Until there is a headset, the window is used.
 export XR_RUNTIME_JSON=$work/later.json
 cat >script <<END
 0 config width 64

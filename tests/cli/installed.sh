@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What an installed Boltwright does, from `cmake --install` on: it finds its content, keeps sessions below the user's data folder,
+# Tests a Boltwright that `cmake --install` has installed: it finds its content, keeps sessions below the user's data folder,
 # changes nothing where it was installed, and shows errors in a window. installed.sh BIN SOURCES, on a screen (with_screen.sh).
 . "$(dirname "$0")/checks.sh"
 unset BOLTWRIGHT_CONTENT

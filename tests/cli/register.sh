@@ -107,7 +107,7 @@ check 'its points fit' grep -q 'arm -> room, 6 points' out.txt
 check 'the rms is below the resolution of the encoders' grep -qE 'rms 0\.0 mm' out.txt
 check 'the check point is stored' grep -q '"check_point"' s.json
 
-# One touch checks it: with Enter on the standard input, at the right place and 10 mm beside it.
+# One touch checks the registration: with Enter on the standard input, at the check point and 10 mm beside it.
 checked() {  # checked X Y Z: exit code of a check that touches this point
     place "$1" "$2" "$3" 0
     : > log
@@ -119,7 +119,7 @@ checked 0.02 0.02 0.03
 check 'exit code 1 for a touch beside it' test $? = 1
 check 'with the distance' grep -q 'off by 10.0 mm; expected at most 5 mm; register it again' log
 
-# A hand that moves is asked again, and an interruption ends it.
+# If the hand moves, the touch is requested again; an interruption ends the registration.
 : > log
 place 0 0 0 0
 "${run[@]}" s.json --targets targets.csv < /dev/null > out.txt 2> log &
@@ -198,7 +198,7 @@ assert all(abs(a - b) < 1e-4 for a, b in zip(one["position_m"], (1, 2, 3))), one
 assert abs(one["orientation_wxyz"][0] - 0.5 ** 0.5) < 1e-3 and abs(one["orientation_wxyz"][3] - 0.5 ** 0.5) < 1e-3, one
 END
 
-# One point checks it, of the user's choice.
+# One point of the user's choice checks the registration.
 start --check
 touch_with_both 1 0.98 2.01 3.02 0.01 0.02 0.02
 check 'a point that both touch is right' wait $player
@@ -236,7 +236,7 @@ check 'and points that it touches are right' wait $player
 check 'to a tenth of a millimetre' grep -q 'off by 0.0 mm' out.txt
 tip=(--controller-tip 0,0,-0.1)
 
-# An interruption and a runtime that ends stop it, also while a controller is not tracked.
+# An interruption, or the end of the runtime, ends the registration, also while a controller is not tracked.
 control 'hand right active 0'
 start
 check 'a hidden controller is reported' eventually grep -q 'The controller is not tracked' log
@@ -245,6 +245,12 @@ wait $player
 check 'an interrupted registration has exit code 1' test $? = 1
 check 'and says so' grep -q 'the registration was interrupted' log
 hold 0 0 0 0
+start
+check 'a first point is requested' eventually asked_for 1 controller
+control 'event recentre stage'
+wait $player
+check 'a recentred headset has exit code 1' test $? = 1
+check 'with the reason: the points would be in two frames' grep -q 'the headset was recentred while points were measured' log
 start
 check 'a first point is asked for' eventually asked_for 1 controller
 control 'event instance_loss'

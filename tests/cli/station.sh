@@ -21,7 +21,7 @@ check 'its schema exists' test -f "$(sed -n 's/.*"$schema": "\(.*\)",/\1/p' lab.
 expect 2 'FILE is required' "${run[@]}" station check
 expect 2 'subcommand is required' "${run[@]}" station
 
-# check: it suits; limits above, buttons that are missing, an unknown tool; another arm; bad content.
+# check: a file that fits; limits above the device's, missing buttons, an unknown tool; another arm; bad content.
 expect 0 'The file suits the devices' "${run[@]}" station check lab.json
 change() { sed "$1" lab.json > "$2"; }
 change 's/"force_N": 12.0/"force_N": 30/' high.json
@@ -38,7 +38,7 @@ change 's/"force_N": 12.0/"force": 12/' wrong.json
 expect 3 '^wrong.json:[0-9]+:[0-9]+: /arm/limits/force: ' "${run[@]}" station check wrong.json
 expect 3 'nowhere.json: ' "${run[@]}" station check nowhere.json
 
-# try, and doctor with the same file. Whether this machine is fast enough is not tested.
+# try, and doctor with the same file. The speed of this machine is not tested.
 tried() { "${run[@]}" "$@" --seconds 0.3 > tried.txt 2>&1; local code=$?; [[ $code -le 1 ]] && grep -q 'largest force .* of at most' tried.txt; }
 change 's/"force_N": 12.0/"force_N": 5/; s/"yaw_deg": 0.0/"yaw_deg": 180/; s/"dead_man": 1/"dead_man": 3/' low.json
 check 'a trial runs' tried station try low.json --assembly cover-m8

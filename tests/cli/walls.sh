@@ -49,7 +49,7 @@ check 'Escape ends it' bash -c "$(declare -f ends window); for i in \$(seq 100);
 check 'without an error or a message of the validation layers' wait $player
 player=
 
-# A lesson by mouse: the walls show it; the recording of the head ends, and is told.
+# A lesson by mouse: the walls show it; the recording of the head ends, which is reported.
 "$bin/boltwright" train first-nut --start --silent --validate --size 280x180 --displays walls.json --out out 2>log >/dev/null &
 player=$!
 check 'the lesson begins' eventually logged 'lesson begun'

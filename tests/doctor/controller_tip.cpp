@@ -197,6 +197,19 @@ TEST_CASE("Controller tip: while it is not tracked the user is told so once, and
     CHECK(pressed.shown.find(message) != pressed.shown.rfind(message));
 }
 
+TEST_CASE("Controller tip: points on both sides of a recentring are not mixed") {
+    ScriptedController hand;
+    std::uint32_t moves = 2;  // earlier ones do no harm
+    hand.at = [&](double now) { return ControllerSample{somewhere, std::fmod(now, 2.0) > 1.0, moves}; };
+    ControllerTip tip(hand.io(), {});
+    REQUIRE(tip.touch(0, "Touch."));
+    REQUIRE(tip.touch(1, "Touch."));
+    moves = 3;
+    const auto third = tip.touch(2, "Touch.");
+    REQUIRE(!third);
+    CHECK(has(third.error().message(), "recentred"));
+}
+
 TEST_CASE("Controller tip: a hand that moves, and a controller that is hidden meanwhile, touch once more") {
     ScriptedController hand;
     hand.at = [](double now) {

@@ -109,7 +109,7 @@ TEST_CASE("Arm feel: a wrench that the casing holds back does not push the hand 
     REQUIRE(near != presses.end());
     for (const char* key : {"omega7", "touch"})
         for (const HandGrip& grip : hand_grips()) {
-            if (grip.pushes_only) continue;
+            if (grip.unheld) continue;
             CAPTURE(std::string(grip.name));
             RigOptions options = with(arm(key));
             options.grip = grip;

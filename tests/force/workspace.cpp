@@ -189,7 +189,7 @@ TEST_CASE(
         // Force at the end of the lever arm: the power at the device is `power_ratio` times the power there.
         const Vec3 force = any(random);
         CHECK(glm::dot(to_device(w, s, {force, Vec3(0.0)}).force, shift) ==
-              doctest::Approx(w.power_ratio * s.share * w.scale * glm::dot(force, moved)));
+              doctest::Approx(w.power_ratio * s.force_share * w.scale * glm::dot(force, moved)));
     }
 }
 

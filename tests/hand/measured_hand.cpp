@@ -48,7 +48,8 @@ TEST_CASE("OneEuro: the lag at constant speed matches the closed form, below 10 
         const OneEuroOptions options;
         // A low-pass lags by its time constant T. The filter estimates the speed from its own last value,
         // which lags by T, so the estimate is v (1 + T/dt). This gives a quadratic equation for T.
-        const double a = options.per_speed * speed / dt, b = options.at_rest + options.per_speed * speed;
+        const double a = options.cutoff_per_speed * speed / dt,
+                     b = options.rest_cutoff + options.cutoff_per_speed * speed;
         const double expected = (std::sqrt(b * b + 4.0 * a / (2.0 * pi)) - b) / (2.0 * a);
         CHECK(expected < 7e-3);
         CHECK(expected < 1.0 / (2.0 * pi * b));

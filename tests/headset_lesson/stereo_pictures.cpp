@@ -1,5 +1,6 @@
 // The pictures that arrive in a headset, through OpenXR's loader and the loop of the window, are those that
-// are drawn of the same scene without a headset and without a window, to the bit.
+// are drawn of the same scene without a headset and without a window, to the bit, also if the head moves
+// while a frame is recorded.
 #include <optional>
 
 #include "game/view/shown_model.hpp"
@@ -34,9 +35,13 @@ std::vector<render::Eye> eyes_at_model(const view::EyeGroup& group) {
     return eyes;
 }
 
-// Shows the cover for some frames.
+// Shows the cover for some frames. In each the head is at `before` until the pictures are recorded, then at
+// `after`.
 class CoverInHeadset : public view::WindowContent {
   public:
+    CoverInHeadset(const test::MockRuntime& mock, const Pose& before, const Pose& after)
+        : mock_(mock), before_(before), after_(after) {}
+
     Status start(view::GpuContext& gpu) override {
         gpu_ = &gpu;
         cover_.emplace(*gpu.device);
@@ -52,36 +57,49 @@ class CoverInHeadset : public view::WindowContent {
     }
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override {
         if (window.immersive != nullptr && !window.immersive->groups.empty()) {
-            group_ = window.immersive->groups.front();
-            return gpu_->renderer->render(frame, cover_->shown->scene, eyes_at_model(group_), group_.size,
-                                          view::immersive_group);
+            recorded_ = window.immersive->groups.front();
+            BOLT_TRY(gpu_->renderer->render(frame, cover_->shown->scene, eyes_at_model(recorded_),
+                                            recorded_.size, view::immersive_group));
+            mock_->set_head({after_});
+            return {};
         }
         const render::Eye eye;
         return gpu_->renderer->render(frame, cover_->shown->scene, std::span(&eye, 1), window.size);
     }
+    void move_eyes(const view::WindowFrame& window) override {
+        submitted_ = window.immersive->groups.front();
+        gpu_->renderer->move_eyes(eyes_at_model(submitted_), view::immersive_group);
+        mock_->set_head({before_});
+    }
     [[nodiscard]] bool closed() const override { return closed_; }
-    [[nodiscard]] const view::EyeGroup& group() const { return group_; }
+    // Of the last frame.
+    [[nodiscard]] const view::EyeGroup& recorded() const { return recorded_; }
+    [[nodiscard]] const view::EyeGroup& submitted() const { return submitted_; }
 
   private:
+    const test::MockRuntime& mock_;
+    Pose before_, after_;
     view::GpuContext* gpu_ = nullptr;
     std::optional<ShownCover> cover_;
-    view::EyeGroup group_;  // of the last frame
+    view::EyeGroup recorded_, submitted_;
     int frames_ = 0;
     bool closed_ = false;
 };
 
-// The pictures of the last frame that the headset got, and the eyes that they were drawn for.
+// The pictures of the last frame that the headset got, and the eyes that they were recorded and submitted
+// for.
 struct InHeadset {
     std::vector<mock::Picture> pictures;
-    view::EyeGroup group;
+    Vec3 eye;  // m, position of the first one, as submitted
+    view::EyeGroup recorded, submitted;
 };
 
-InHeadset show_in_headset(const Pose& head) {
+InHeadset show_in_headset(const Pose& before, const Pose& after) {
     mock::Config config;
     config.width = config.max_width = 320;
     config.height = config.max_height = 300;
     const test::MockRuntime mock(config);
-    mock->set_head({head});
+    mock->set_head({before});
     mock->set_capture(true);
     platform::Desktop desktop = test::need(platform::Desktop::open());
     platform::Window window =
@@ -96,14 +114,16 @@ InHeadset show_in_headset(const Pose& head) {
     run.headset = &headset;
     run.adapts_resolution = false;
     run.instance = options;
-    CoverInHeadset content;
+    CoverInHeadset content(mock, before, after);
     const Status done = view::run_in_window(content, window, instance, run);
     REQUIRE_MESSAGE(done, (done ? "" : done.error().message()));
     for (const std::string& message : instance.log().messages) FAIL_CHECK(message);
-    InHeadset shown{{}, content.group()};
+    InHeadset shown{{}, {}, content.recorded(), content.submitted()};
     for (const mock::Frame& frame : mock->take_frames()) {
         if (frame.views.empty()) continue;
         shown.pictures.clear();
+        const XrVector3f& at = frame.views.front().pose.position;
+        shown.eye = {at.x, at.y, at.z};
         for (const mock::SubmittedView& view : frame.views) shown.pictures.push_back(view.picture);
     }
     return shown;
@@ -130,9 +150,9 @@ TEST_CASE("Stereo pictures: those in the headset are those that are drawn withou
     std::vector<std::uint8_t> before;
     for (const Pose& head : {Pose{{0.0, 1.6, 0.0}, rotation({-0.4, 0.0, 0.0})},
                              Pose{{0.2, 1.5, -0.1}, rotation({-0.2, 0.4, 0.1})}}) {
-        const InHeadset shown = show_in_headset(head);
+        const InHeadset shown = show_in_headset(head, head);
         REQUIRE(shown.pictures.size() == 2);
-        const std::vector<render::Picture> drawn = draw_without_headset(shown.group);
+        const std::vector<render::Picture> drawn = draw_without_headset(shown.submitted);
         REQUIRE(drawn.size() == 2);
         for (std::size_t eye = 0; eye < 2; ++eye) {
             CHECK(shown.pictures[eye].width == drawn[eye].width);
@@ -152,4 +172,20 @@ TEST_CASE("Stereo pictures: those in the headset are those that are drawn withou
         CHECK(drawn[0].rgba != before);
         before = drawn[0].rgba;
     }
+}
+
+TEST_CASE("Stereo pictures: a head that moves while they are recorded sees them from where it is then") {
+    const Pose before{{0.0, 1.6, 0.0}, rotation({-0.4, 0.0, 0.0})};
+    const Pose after{{0.004, 1.601, -0.002}, rotation({-0.395, 0.008, 0.001})};
+    const InHeadset shown = show_in_headset(before, after);
+    REQUIRE(shown.pictures.size() == 2);
+    const std::vector<render::Picture> drawn = draw_without_headset(shown.submitted),
+                                       as_recorded = draw_without_headset(shown.recorded);
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+        CHECK(shown.pictures[eye].rgba == drawn[eye].rgba);
+        CHECK(drawn[eye].rgba != as_recorded[eye].rgba);  // control
+    }
+    // The runtime is told the pose that they were drawn for, half the distance of the eyes beside the head.
+    const Vec3 expected = after.position - 0.032 * (after.orientation * Vec3(1.0, 0.0, 0.0));
+    CHECK(glm::length(shown.eye - expected) < 1e-6);
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What tests/monado.sh runs inside its Debian 13 root, on a screen: inside.sh BIN SOURCES OUT [PARTS...]. The parts: tracker (the head
+# Run by tests/monado.sh inside its Debian 13 root, on a screen: inside.sh BIN SOURCES OUT [PARTS...]. The parts: tracker (the head
 # of a viewer of projection walls, tracked without pictures, lost and found again), program (the
 # headset is lost and found again), first-nut and cover-m8 (a driven hand plays the lesson), window (Monado composes the pictures in
 # a window, for a look at them), speed (prints how many frames a second are drawn).
@@ -33,7 +33,7 @@ play_program() {
         >"$out/program.log" 2>&1 &
     player=$!
     check 'the lesson begins in the headset' eventually told '^lesson begun' 1
-    # Only while the user sees the lesson its time passes and is recorded.
+    # The lesson's time passes and is recorded only while the user sees the lesson.
     before=$(size_of)
     check 'the lesson passes in the headset' eventually grows
     import -window root "$out/in_headset.png"

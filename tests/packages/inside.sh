@@ -1,4 +1,4 @@
-# What fresh_root.sh does in the root. Prints one line a check; exits with 1 if one fails.
+# Run by fresh_root.sh inside its root. Prints one line a check; exits with 1 if one fails.
 failed=0
 check() {
     local name=$1
@@ -68,7 +68,7 @@ check 'the kept session replays' as_ada 'boltwright replay ~/.local/share/boltwr
 find /usr -newer /tmp/before -type f | sort >/tmp/used
 sort /tmp/installed | comm -13 - /tmp/used | grep -i bolt >/tmp/written || true
 check 'nothing is written to where it was installed' test ! -s /tmp/written
-# A later version, made of the same files, replaces the packages; what is the user's stays as it was.
+# A later version, made of the same files, replaces the packages; the user's files stay as they were.
 as_ada 'mkdir -p ~/.local/share/boltwright/assemblies && cp -r /usr/share/boltwright/content/assemblies/cover-m8 ~/.local/share/boltwright/assemblies/mine'
 users_files() { as_ada 'find ~/.local/share/boltwright lesson -type f -exec sha256sum {} + | sort'; }
 users_files >/tmp/users_before

@@ -2,7 +2,9 @@
 // shaders.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "engine/render/passes/pass.hpp"
 #include "tests/render/support.hpp"
@@ -36,7 +38,8 @@ struct Still {
     Scene scene;
 
     explicit Still(Multiview multiview, ScreenStage stage = ScreenStage::fragment)
-        : studio(with(multiview, stage)) {
+        : Still(with(multiview, stage)) {}
+    explicit Still(const RendererOptions& options) : studio(options) {
         assets::Material metal;
         metal.base_color = {0.9F, 0.6F, 0.3F, 1.0F};
         metal.roughness = 0.3F;
@@ -146,6 +149,47 @@ TEST_CASE("Multiview: two and four views equal single pictures in every pass") {
     CHECK(largest_difference(together, alone, 2) > 20);
     together.scene.background = {0.6F, 0.32F, 0.35F, 1.0F};
     CHECK(differing_share(together, alone, 2) > 0.2);
+}
+
+TEST_CASE("Move eyes: pictures are those of eyes that were there from the beginning, also at the edges") {
+    for (const Multiview multiview : {Multiview::always, Multiview::never}) {
+        CAPTURE(multiview == Multiview::always);
+        const auto still = [&](float margin) {
+            RendererOptions options = with(multiview);
+            options.margin = margin;
+            auto made = std::make_unique<Still>(options);
+            made->scene.occlusion_radius = 0.8F;
+            made->scene.objects[2].outline = {1.0F, 0.6F, 0.0F, 0.8F};
+            made->scene.objects[0].cut = true;
+            made->scene.cut_away = {{-2.2F, -0.6F, -1.0F}, 0.5F, 1.0F};
+            // Just outside the picture of the eyes before.
+            glm::mat4 world(0.2F);
+            world[3] = {6.66F, 0.0F, 0.0F, 1.0F};
+            add_model(made->scene, made->ball, made->gpu_ball, world);
+            return made;
+        };
+        const auto eyes_at = [](float x) {
+            Perspective p{0.7F, 4.0F / 3.0F};
+            return std::vector<Eye>{make_eye({x, 0, 13}, {x, 0, 0}, p),
+                                    make_eye({x + 0.1F, 0, 13}, {x + 0.1F, 0, 0}, p)};
+        };
+        const auto moved = [&](Still& drawn) {
+            gpu::FrameContext& frame = *drawn.studio.gpu().need(drawn.studio.frames().begin());
+            drawn.studio.gpu().need(
+                drawn.studio.renderer().render(frame, drawn.scene, eyes_at(0.0F), extent));
+            drawn.studio.renderer().move_eyes(eyes_at(0.5F));
+            drawn.studio.gpu().need(drawn.studio.frames().submit(frame));
+            return std::vector<Picture>{drawn.studio.download(drawn.studio.renderer().picture(0)),
+                                        drawn.studio.download(drawn.studio.renderer().picture(1))};
+        };
+        const std::unique_ptr<Still> wide = still(0.1F), narrow = still(0.0F);
+        const std::vector<Picture> expected = wide->studio.shoot(wide->scene, eyes_at(0.5F), extent),
+                                   with_margin = moved(*wide), without = moved(*narrow);
+        for (std::size_t view = 0; view < 2; ++view) {
+            CHECK(with_margin[view].rgba == expected[view].rgba);
+            CHECK(without[view].rgba != expected[view].rgba);  // control: the ball at the edge is missing
+        }
+    }
 }
 
 TEST_CASE("Screen stage: compute shaders light and occlude as fragment shaders do") {
@@ -266,6 +310,70 @@ TEST_CASE("Transparent background: alpha is the covered share of a pixel, and co
         CHECK(clear > 1000);
         CHECK(covered > 1000);
         CHECK(partly > 20);
+    }
+}
+
+TEST_CASE("Transparent background: ghosts, outlines, labels and panels cover it as they cover a plain one") {
+    const auto linear = [](double encoded) {
+        const double c = encoded / 255.0;
+        return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    };
+    Still still(Multiview::never);
+    still.scene.objects[1].opacity = 1.0F;
+    PanelPicture panel = still.studio.gpu().need(PanelPicture::create(still.studio.device(), {16, 16}));
+    gpu::FrameContext& frame = *still.studio.gpu().need(still.studio.frames().begin());
+    panel.clear(frame);
+    Overlay overlay;
+    add_rectangle(overlay, {{0.0F, 0.0F}, {16.0F, 16.0F}}, {0.2F, 0.4F, 0.6F, 0.5F});
+    still.studio.gpu().need(still.studio.renderer().draw_over(frame, overlay, panel.layer()));
+    still.studio.gpu().need(still.studio.frames().submit(frame));
+    const std::vector<std::pair<const char*, std::function<void(Scene&)>>> additions{
+        {"ghost", [](Scene& scene) { scene.objects[1].opacity = 0.4F; }},
+        {"outline",
+         [](Scene& scene) {
+             scene.objects[2].outline = {1.0F, 0.6F, 0.0F, 0.8F};
+         }},
+        {"label",
+         [](Scene& scene) {
+             Label label;
+             label.text = "M16";
+             label.position = {0.0F, 3.5F, 0.0F};
+             label.height = 12.0F;
+             label.plate = {0.1F, 0.1F, 0.1F, 0.5F};
+             scene.labels = {label};
+         }},
+        {"panel",
+         [&](Scene& scene) {
+             scene.panels.push_back({&panel.image(), {0, 3.5F, 0}, {1.0F, 0, 0}, {0, 0.5F, 0}, 1.0F});
+         }},
+    };
+    for (const auto& [name, add] : additions) {
+        const std::string addition = name;
+        CAPTURE(addition);
+        Scene scene = still.scene;
+        scene.background = {0.0F, 0.0F, 0.0F, 1.0F};
+        scene.transparent = true;
+        const Picture without = still.studio.shoot(scene, eyes(1)[0], extent);
+        add(scene);
+        const Picture transparent = still.studio.shoot(scene, eyes(1)[0], extent);
+        scene.transparent = false;
+        scene.background = {0.3F, 0.32F, 0.35F, 1.0F};
+        const Picture plain = still.studio.shoot(scene, eyes(1)[0], extent);
+        const glm::ivec4 background = test::pixel(plain, 0, 0);
+        REQUIRE(test::pixel(transparent, 0, 0) == glm::ivec4(0));
+        double most = 0.0;
+        std::size_t changed = 0;
+        for (std::size_t at = 0; at < transparent.rgba.size(); at += 4) {
+            const double alpha = transparent.rgba[at + 3] / 255.0;
+            changed += transparent.rgba[at + 3] != without.rgba[at + 3] ? 1U : 0U;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double over = linear(transparent.rgba[at + c]) +
+                                    (1.0 - alpha) * linear(background[static_cast<int>(c)]);
+                most = std::max(most, std::abs(over - linear(plain.rgba[at + c])));
+            }
+        }
+        CHECK(changed > 20);  // the addition covers a part of the background
+        CHECK(most < 0.01);   // of the radiance of white; alpha has steps of 0.004
     }
 }
 

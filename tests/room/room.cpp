@@ -7,6 +7,7 @@
 
 #include "content/trainee/settings.hpp"
 #include "engine/base/file.hpp"
+#include "game/scene/workplace.hpp"
 #include "game/view/pictures.hpp"
 #include "tests/room/immersive_driver.hpp"
 #include "tests/support/folder.hpp"
@@ -133,6 +134,49 @@ TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wren
     MESSAGE("score " << driver.outcome()->result.score << ", approaches " << trainee.approaches);
 }
 
+TEST_CASE("Room: a seated trainee finishes the first nut with the left hand") {
+    AppOptions options = tracked_hand("first-nut");
+    const test::Folder folder;
+    options.settings_file = folder.path() / "seated.json";
+    content::TraineeSettings settings;
+    settings.language = "en";
+    settings.trainee = "Ada";
+    settings.left_handed = true;
+    settings.seated_eye_height = 1.15;
+    test::need(write_file(options.settings_file, content::settings_text(settings)));
+    HeadlessTrainer driver(std::move(options), {eye_size, 0.3F, 0.02});
+    REQUIRE_MESSAGE(driver.app().preferences().settings.left_handed,
+                    driver.app().preferences().file_error_message);
+    // A headset without a floor: its origin is where the head was.
+    Pose head = test::standing_head();
+    head.position = Vec3(0.0);
+    driver.immersive = test::standing_user(eye_size);
+    driver.immersive->head = head;
+    driver.immersive->floor_known = false;
+    driver.immersive->groups = {test::two_eyes(head, eye_size)};
+    bool left_vibrates = false;
+    driver.immersive->vibrate = [&](xr::Side side, const xr::Vibration&) {
+        CHECK(side == xr::Side::left);
+        left_vibrates = true;
+    };
+    driver.frame();
+    const Pose workpiece = driver.app().room()->workpiece.value_or(Pose{});
+    const double plate = workpiece.position.y + double{driver.lesson().workplace.workpiece.low.y};
+    CHECK(plate - scene::floor_below_plate == doctest::Approx(-1.15));
+    driver.draw_interval = 1;
+    driver.frame();
+    test::save_eyes(driver, "seated-left");
+    driver.draws = false;
+    test::ImmersiveDriver hands(driver);
+    test::TraineeInRoom trainee(hands, xr::Side::left);
+    trainee.head = head;
+    trainee.play(120.0);
+    CHECK(driver.app().screen() == ShownScreen::result);
+    REQUIRE(driver.outcome());
+    CHECK(driver.outcome()->result.joints.front().overall == lesson::Verdict::ok);
+    CHECK(left_vibrates);
+}
+
 TEST_CASE("Room: a lesson pauses while its user does not see it, and when the headset is lost") {
     HeadlessTrainer driver(tracked_hand("first-nut"), {eye_size, 0.3F, 0.02});
     driver.draws = false;
@@ -205,6 +249,67 @@ TEST_CASE("Room: the stick turns the workpiece by a step, once, and raises it as
     const Pose turned = adjusted({}, box, 3, 0.05);
     CHECK(glm::distance(turned * middle, middle + Vec3(0.0, 0.05, 0.0)) < 1e-6);
     CHECK(glm::distance(turned * (middle + Vec3(1.0, 0.0, 0.0)), middle + Vec3(0.0, 0.05, -1.0)) < 1e-6);
+}
+
+TEST_CASE("Room: the vignette closes while the scene moves, and opens when it stands") {
+    Vignette vignette;
+    Pose scene;
+    const auto frames = [&](int count, double seconds, double speed) {
+        for (int i = 0; i < count; ++i) {
+            scene.position.y += speed * seconds;
+            update(vignette, scene, seconds);
+        }
+        return vignette.strength;
+    };
+    CHECK(frames(20, 0.01, 0.0) == 0.0);
+    CHECK(frames(5, 0.01, 0.2) == doctest::Approx(0.5));
+    CHECK(frames(10, 0.01, 0.2) == 1.0);
+    CHECK(frames(20, 0.01, 0.001) == doctest::Approx(0.5));  // slower than anyone sees
+    CHECK(frames(25, 0.01, 0.0) == 0.0);
+    CHECK(frames(1, 0.01, 20.0) == 0.0);  // a jump
+    scene.orientation = rotation({0.0, turn_step, 0.0});
+    CHECK(frames(1, 0.01, 0.0) == 0.0);
+}
+
+TEST_CASE("Room: raising the workpiece darkens the edge of the view, unless the setting is off") {
+    for (const bool darkens : {true, false}) {
+        CAPTURE(darkens);
+        AppOptions options = tracked_hand("first-nut");
+        const test::Folder folder;
+        options.settings_file = folder.path() / "vignette.json";
+        content::TraineeSettings settings;
+        settings.language = "en";
+        settings.trainee = "Ada";
+        settings.vignette = darkens;
+        test::need(write_file(options.settings_file, content::settings_text(settings)));
+        HeadlessTrainer driver(std::move(options), {eye_size, 0.3F, 0.02});
+        driver.immersive = test::standing_user(eye_size);
+        driver.draw_interval = 1;
+        const auto brightness = [&](double x, double y) {  // 0 … 1 of width and height
+            const render::Picture picture = driver.room_picture(0);
+            double sum = 0.0;
+            const auto left = static_cast<std::uint32_t>(x * (picture.width - 8)),
+                       top = static_cast<std::uint32_t>(y * (picture.height - 8));
+            for (std::uint32_t row = top; row < top + 8; ++row)
+                for (std::uint32_t column = left; column < left + 8; ++column)
+                    sum += picture.rgba[4 * (std::size_t{row} * picture.width + column)];
+            return sum / 64.0;
+        };
+        driver.frame();
+        driver.frame();
+        const double edge = brightness(0.0, 0.9), middle = brightness(0.5, 0.5);
+        REQUIRE(edge > 10.0);
+        xr::HandInput& left = driver.immersive->hands[xr::Side::left];
+        left.active = true;
+        left.stick = {0.0F, 1.0F};
+        for (int i = 0; i < 8; ++i) driver.frame();
+        test::save_eyes(driver, darkens ? "vignette" : "no-vignette");
+        CHECK((brightness(0.0, 0.9) < 0.1 * edge) == darkens);
+        CHECK(brightness(0.5, 0.5) > 0.3 * middle);
+        left.stick = {0.0F, 0.0F};
+        for (int i = 0; i < 30; ++i) driver.frame();
+        CHECK(brightness(0.0, 0.9) > 0.5 * edge);
+    }
 }
 
 TEST_CASE("Room: the hints name the hands, and the menu offers them") {

@@ -90,6 +90,20 @@ TEST_CASE("PoseTracker: tells whether its poses are those in the stage") {
     CHECK(!opened(xr::TrackedDevice::right_controller)->in_stage());
 }
 
+TEST_CASE("PoseTracker: counts how often the origin of its poses has moved") {
+    const test::MockRuntime mock;
+    mock->set_head({somewhere});
+    const auto tracker = opened(xr::TrackedDevice::headset);
+    (void)pose_of(*tracker);
+    CHECK(tracker->origin_moves() == 0);
+    mock->recentre(XR_REFERENCE_SPACE_TYPE_LOCAL, 0, std::nullopt);
+    (void)pose_of(*tracker);
+    CHECK(tracker->origin_moves() == 0);
+    mock->recentre(XR_REFERENCE_SPACE_TYPE_STAGE, 0, Pose{{0.1, 0.0, 0.0}});
+    (void)pose_of(*tracker);
+    CHECK(tracker->origin_moves() == 1);
+}
+
 TEST_CASE("PoseTracker: a controller that is switched off, and a pose that is estimated, are not tracked") {
     const test::MockRuntime mock;
     mock::Hand hand;

@@ -1,7 +1,7 @@
 // Benchmark of the cost of a device to the servo tick: publishing a command and reading the newest sample at
 // 1 kHz while each write of the device takes 15 ms. The counters are microseconds: wall_* is elapsed time
 // with interruptions, cpu_* the thread's CPU time. The baseline writes to the device directly.
-// `plugin_exchange` is the way to the process of the first plug-in for arms and back.
+// `plugin_exchange` is the round trip to the process of the first plug-in for arms.
 #include <benchmark/benchmark.h>
 
 #include <thread>

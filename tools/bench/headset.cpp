@@ -103,7 +103,7 @@ void headset_zq350(benchmark::State& state) {
         FrameCost cost;
         double whole = 0.0, baseline = 0.0;
         for (auto _ : state) {
-            (void)run(lesson, window, 2);  // the lesson changes between window and room
+            (void)run(lesson, window, 2);  // untimed: the lesson changes from room to window
             baseline += run(lesson, window, frames).whole;
             (void)run(lesson, room, 2);
             cost = run(lesson, room, frames);

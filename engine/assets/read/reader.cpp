@@ -162,7 +162,7 @@ Status parse_typed(Document& document) {
         kept("samplers", document.gltf.samplers.size()) && kept("textures", document.gltf.textures.size());
     for (std::size_t i = 0; all && i < document.gltf.meshes.size(); ++i)
         all = json["meshes"][i]["primitives"].size() == document.gltf.meshes[i].primitives.size();
-    if (!all) return error_at(document, "", "tinygltf omits a part of the file");
+    if (!all) return error_at(document, "", "has an entry that the glTF parser cannot read");
     return {};
 }
 

@@ -188,7 +188,7 @@ Status SurfacePass::clear_hidden_depth(PassContext& context, const RenderTargets
     const VkRenderingInfo rendering = rendering_info(context.extent, context.views, {}, &depth);
     vkCmdBeginRendering(commands, &rendering);
     set_area(commands, context.extent);
-    // Its depth range makes every depth 0.
+    // The viewport's depth range makes every depth 0.
     const VkViewport far{
         0.0F, 0.0F, static_cast<float>(context.extent.width), static_cast<float>(context.extent.height),
         0.0F, 0.0F};

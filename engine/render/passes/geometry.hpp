@@ -51,8 +51,8 @@ class SurfacePass {
     // Draws Eye::hidden at the nearest depth, without colour.
     Status draw_hidden_area(PassContext& context, VkSampleCountFlagBits samples_per_pixel,
                             const std::vector<VkFormat>& colors);
-    // Sets the kept depth there to 0, the farthest, because a runtime that moves the picture by its depth
-    // would move near black pixels into the visible area.
+    // Sets the kept depth in the hidden area to 0, the farthest. With the nearest depth, a runtime that
+    // reprojects pictures by their depth would move these black pixels into the visible area.
     Status clear_hidden_depth(PassContext& context, const RenderTargets& targets);
 
     struct PipelineKey {

@@ -158,8 +158,9 @@ VkRect2D area_of(const PassContext& context, std::span<const BoundingBox> boxes,
                 low = glm::min(low, pixel);
                 high = glm::max(high, pixel);
             }
-    low = glm::clamp(glm::floor(low - margin_px), glm::vec2(0.0F), size);
-    high = glm::clamp(glm::ceil(high + margin_px), low, size);
+    const glm::vec2 around = margin_px + 0.5F * context.margin * size;
+    low = glm::clamp(glm::floor(low - around), glm::vec2(0.0F), size);
+    high = glm::clamp(glm::ceil(high + around), low, size);
     return {{static_cast<std::int32_t>(low.x), static_cast<std::int32_t>(low.y)},
             {static_cast<std::uint32_t>(high.x - low.x), static_cast<std::uint32_t>(high.y - low.y)}};
 }
@@ -232,7 +233,7 @@ Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing&
     const gpu::Pipeline* pipeline = nullptr;
     const Draw* bound = nullptr;
     const MaterialMaps* maps = nullptr;
-    std::map<const gpu::Pipeline*, VkDescriptorSet> frame_sets;  // parts of one pipeline may be apart
+    std::map<const gpu::Pipeline*, VkDescriptorSet> frame_sets;  // a pipeline may be bound repeatedly
     for (const Draw& d : list.draws) {
         if (!drawing.wanted(d.kind)) continue;
         BOLT_TRY_ASSIGN(auto wanted, drawing.pipeline(d.kind));
@@ -283,7 +284,7 @@ Result<gpu::Pipeline> make_check_pipeline(gpu::Device& device, const gpu::Pipeli
     return gpu::make_graphics_pipeline(device, cache, info);
 }
 
-// Returns true if every texel of the layer is within one level of `expected`, of 255.
+// Returns true if every texel of the layer differs from `expected` (0 … 255) by at most 1.
 Result<bool> has_value(gpu::Device& device, const gpu::Image& image, std::uint32_t layer, int expected) {
     BOLT_TRY_ASSIGN(const auto texels,
                     gpu::download_image(device, image, gpu::ResourceUse::color_target, 1, 0, layer));

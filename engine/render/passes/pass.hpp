@@ -46,7 +46,8 @@ struct ImageLayer {
 
 // The render targets of views of one size, kept from frame to frame.
 struct ViewGroup {
-    std::vector<RenderTargets> targets;  // one per batch
+    std::vector<RenderTargets> targets;             // one per batch
+    std::vector<gpu::TransientRange> frame_blocks;  // shared::FrameData of the last frame, one per batch
     VkExtent2D extent{};
     std::uint32_t views = 0, views_per_batch = 1;
 
@@ -72,7 +73,7 @@ void each_image(RenderTargets& targets, const Visit& visit) {
 inline constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;
 // For layers that are blended over a picture; with 8 bits, premultiplied colours would show banding.
 inline constexpr VkFormat layer_format = VK_FORMAT_R16G16B16A16_SFLOAT;
-// That of the picture in compute shaders, which encode sRGB themselves (light.comp).
+// The format in which compute shaders write pictures; they encode sRGB themselves (light.comp).
 inline constexpr VkFormat storage_color_format = VK_FORMAT_R8G8B8A8_UNORM;
 inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat computed_depth_format = VK_FORMAT_R32_SFLOAT;  // depth written by compute shaders
@@ -80,7 +81,7 @@ inline constexpr VkFormat surface_format = VK_FORMAT_R16G16B16A16_UNORM;
 inline constexpr VkFormat material_color_format = VK_FORMAT_R8G8B8A8_SRGB;
 inline constexpr VkFormat material_roughness_format = VK_FORMAT_R8G8_UNORM;
 inline constexpr VkFormat occlusion_format = VK_FORMAT_R8_UNORM;
-// The same written by compute shaders, in a format that every GPU allows for this.
+// The format in which compute shaders write occlusion: every GPU supports it for storage images.
 inline constexpr VkFormat computed_occlusion_format = VK_FORMAT_R8G8B8A8_UNORM;
 inline constexpr VkFormat mark_format = VK_FORMAT_R8G8B8A8_UNORM;
 // shade_pixel.glsl depends on this number.
@@ -113,6 +114,7 @@ struct PassContext {
     VkImageView white_array;                   // the same texture, viewed as an array
     const DeformedParts& deformed;
     std::span<const Eye> eyes;  // of the views
+    float margin;               // RendererOptions::margin
 };
 
 // Uploads values for this frame's shaders. The range is at least as large as one value, because empty ranges

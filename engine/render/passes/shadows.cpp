@@ -32,7 +32,7 @@ std::uint64_t make_static_map_key(const Scene& scene, const glm::mat4& shadow_fr
     return hash.value() != 0 ? hash.value() : 1;
 }
 
-// Returns a scene with those objects that cast a shadow and move, or do not move.
+// Returns a scene with only the shadow casters: `moving` selects those that move or those that do not.
 Scene shadow_casters(const Scene& scene, bool moving) {
     Scene casters;
     for (const Object& object : scene.objects)

@@ -29,7 +29,7 @@ void copy_text(char (&to)[size], const char* from) {
     to[length] = '\0';
 }
 
-// Only as many bytes as the plug-in has are read, because members may be appended.
+// Accepts a larger table, because later versions of the header append members.
 Result<bw_arm_v1> read_table(const bw_arm_v1* table) {
     if (table == nullptr)
         return fail(ErrorCode::failed, fmt::format("bw_arm_entry({}) returns no functions", BW_ARM_ABI),

@@ -11,7 +11,7 @@ namespace bolt::device {
 
 enum class PluginCall : std::uint32_t { count, open, info, calibrate, enable, exchange };
 
-// Packets between the program and the process. Both are of one build, so their layout needs no version.
+// Packets between the program and the process. Both sides are of one build, so the layout needs no version.
 struct PluginRequest {
     PluginCall call = PluginCall::count;
     std::int32_t argument = 0;  // index of open(), may_move of calibrate(), on of enable()
@@ -24,7 +24,7 @@ struct PluginReply {
     bw_arm_info_v1 info{};
     bw_arm_state_v1 state{};
     char text[256] = {};      // last_error, or why the plug-in cannot be used
-    char expected[256] = {};  // instead; set if the plug-in cannot be used
+    char expected[256] = {};  // Error::expected; set only if the plug-in cannot be used
 };
 
 // Loads the plug-in and answers requests on the socket until its other end is closed; then releases the arm

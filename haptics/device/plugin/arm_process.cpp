@@ -30,8 +30,8 @@ Result<std::filesystem::path> find_arm_host() {
                 fmt::format("it in {}", folder.string()));
 }
 
-// Length of the UTF-8 character at the start of `text`; 0 if it is none. Overlong forms and surrogates are
-// none.
+// Length of the UTF-8 character at the start of `text`; 0 if it is invalid, as overlong forms and surrogates
+// are.
 std::size_t character_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned first = byte(0);
@@ -68,7 +68,7 @@ std::string clean_text(std::string_view text) {
 
 Result<ArmProcess> ArmProcess::start(const std::filesystem::path& plugin) {
     BOLT_TRY_ASSIGN(const std::filesystem::path host, find_arm_host());
-    // dlopen() would search for a name without a slash.
+    // Absolute, because dlopen() searches its own folders for a name without a slash.
     const std::string path = std::filesystem::absolute(plugin).string();
     BOLT_TRY_ASSIGN(ChildSocket child, ChildSocket::start({host.string(), path}));
     return ArmProcess(std::move(child), plugin_name(plugin));

@@ -1,5 +1,5 @@
-// A plug-in in a process of its own, from the program's side. Each call is a request and a reply; one that is
-// late, a crash and an exit are errors that name the plug-in and the function.
+// The program's side of a plug-in that runs in a process of its own. Each call is a request and a reply. A
+// late reply, a crash and an exit are errors that name the plug-in and the function.
 #pragma once
 
 #include <filesystem>
@@ -36,23 +36,23 @@ class ArmProcess {
   private:
     ArmProcess(ChildSocket child, std::string name) : child_(std::move(child)), name_(std::move(name)) {}
     Status request(PluginCall function, int argument, const bw_arm_command_v1& command);
-    // nullopt if there is none yet
+    // nullopt if there is no reply within `timeout` s
     Result<std::optional<PluginReply>> reply(double timeout);
     [[nodiscard]] Error ended();
     [[nodiscard]] Error late(double time);
 
     std::optional<ChildSocket> child_;
     std::string name_;
-    PluginCall function_ = PluginCall::count;  // the latest that was called
-    bool waiting_ = false;                     // for its reply
-    bool hangs_ = false;                       // it has not returned in time
-    double began_ = 0.0;                       // s, when it was called
+    PluginCall function_ = PluginCall::count;  // the latest called function
+    bool waiting_ = false;                     // its reply is outstanding
+    bool hangs_ = false;                       // its reply was late
+    double began_ = 0.0;                       // s, time of its call
 };
 
 // The file's name without .so; it is part of the arms' ids.
 std::string plugin_name(const std::filesystem::path& plugin);
 
-// Text of a plug-in on one line: what is no UTF-8 and control characters are replaced by "?".
+// Text of a plug-in on one line: invalid UTF-8 and control characters are replaced by "?".
 std::string clean_text(std::string_view text);
 
 }  // namespace bolt::device

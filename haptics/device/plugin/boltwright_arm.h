@@ -3,7 +3,7 @@
 
    A plug-in is a shared library NAME.so that exports bw_arm_entry(). Boltwright finds it in the folders of
    $BOLTWRIGHT_ARM_PLUGINS (separated by colons), in ~/.local/share/boltwright/arms ($XDG_DATA_HOME replaces
-   ~/.local/share) and in /usr/lib/boltwright/arms. If two have one name, the first one is used. `boltwright
+   ~/.local/share) and in /usr/lib/boltwright/arms. If two have the same NAME, the first is used. `boltwright
    devices` lists its arms as plugin:NAME:0, plugin:NAME:1, ...
 
      cc -std=c99 -shared -fPIC -I FOLDER_OF_THIS_HEADER my_arm.c -o ~/.local/share/boltwright/arms/my_arm.so
@@ -32,18 +32,18 @@
    process that needs longer is killed.
 
    SAFETY
-   Boltwright clamps each command to what info() reports, and what info() reports to 70 N, 3.1 N.m and
-   8000 N/m. It ramps forces up, and stops them if the hand is too fast, jumps, or sends no sample for 8 ms.
-   If the program makes no call for 50 ms, its process calls exchange() with a zero command. If the process
-   ends or is killed, no function is called any more. THE ARM MUST THEN RELEASE ITS FORCE BY ITSELF: switch on
-   its watchdog.
+   Boltwright clamps each command to the limits that info() reports, and these limits to 70 N, 3.1 N.m and
+   8000 N/m. It ramps forces up, and stops them if the hand is too fast or jumps, or if the arm sends no
+   sample for 8 ms. If Boltwright makes no call for 50 ms, the plug-in's process calls exchange() with a zero
+   command. If this process ends or is killed, no function is called any more. THE ARM MUST THEN RELEASE ITS
+   FORCE BY ITSELF: switch on its watchdog.
 
    A PLUG-IN MUST NOT
    - render any force other than the command of the latest exchange() and the compensation of the arm's own
      weight, nor any force at all before enable(1) or after enable(0);
    - let the arm move by itself, except in calibrate() with may_move;
    - end the process, throw a C++ exception, replace signal handlers, or close files that it has not opened;
-   - read the standard input, which is empty. What it prints goes to the standard error output.
+   - read the standard input, which is empty. Its standard output goes to the standard error output.
 
    STRINGS
    UTF-8, terminated by NUL, one line. Boltwright copies them before it calls the next function, 255 bytes at
@@ -95,9 +95,9 @@ struct bw_arm_info_v1 {
     uint32_t axes;   /* BW_ARM_FORCE_X | ... */
     uint32_t flags;  /* BW_ARM_SENSES_ROTATION | ... */
     int32_t buttons; /* 0 to 32 */
-    /* Time from exchange() until its command acts on the hand and the state shows it, in ms, rounded up: 0 or
-       1, at a rate of 1000 also 2. Boltwright adds the delay of its own threads. If it is too small, forces
-       may oscillate. */
+    /* Time from exchange() until its command acts on the hand and the state shows the effect, in ms, rounded
+       up: 0 or 1; at a rate of 1000 also 2. Boltwright adds the delay of its own threads. If the value is too
+       small, forces may oscillate. */
     int32_t delay;
     uint32_t reserved;    /* 0 */
     char name[64];        /* of the arm, for the user; empty: the name of the plug-in */
@@ -111,7 +111,7 @@ struct bw_arm_info_v1 {
     double half_workspace[3];   /* m, half the workspace along each axis [1] */
 };
 
-/* A force and a torque on the hand at the origin of the handle, along our axes. */
+/* A force and a torque on the hand at the origin of the handle, along the axes of the frame above. */
 struct bw_arm_command_v1 {
     uint32_t size; /* bytes, set by Boltwright */
     uint32_t reserved;
@@ -125,8 +125,8 @@ struct bw_arm_state_v1 {
     uint32_t size;         /* bytes, set by Boltwright */
     uint32_t buttons;      /* bit i: button i is pressed */
     double position[3];    /* m */
-    double orientation[4]; /* unit quaternion w, x, y, z; 1, 0, 0, 0: the handle's axes are ours. Boltwright
-                              sets it to this before each call */
+    double orientation[4]; /* unit quaternion w, x, y, z; 1, 0, 0, 0: the handle's axes are those of the
+                              frame above. Boltwright sets it to 1, 0, 0, 0 before each call */
     double gripper; /* 0 closed to 1 fully open; other values are clamped. With BW_ARM_SENSES_GRIPPER */
 };
 
@@ -149,8 +149,8 @@ struct bw_arm_v1 {
     /* Lets the arm find its position. Called every 10 ms (with pauses of a second at most while the user
        must act, or while may_move is 0) until it returns BW_ARM_DONE, which an arm that knows its position
        returns at once. It should not block. With `may_move` other than 0 the user has kept the room around
-       the arm free, and it may move by itself for 90 s. While it returns BW_ARM_NEEDS_USER, the user reads
-       the text of last_error. */
+       the arm free, and the arm may move by itself for 90 s. While calibrate() returns BW_ARM_NEEDS_USER, the
+       user reads the text of last_error. */
     int (*calibrate)(struct bw_arm* arm, int may_move);
 
     /* Switches the motors on (1), with zero force, or off (0). Returns BW_ARM_DONE or BW_ARM_ERROR. */
@@ -162,8 +162,8 @@ struct bw_arm_v1 {
     int (*exchange)(struct bw_arm* arm, const struct bw_arm_command_v1* command,
                     struct bw_arm_state_v1* state);
 
-    /* What the last call of a function with this arm had to report: what is wrong and what to do about it.
-       NULL as `arm`: count or open. Never fails; NULL is an empty text. */
+    /* Returns the message of the last call of a function with this arm: the fault and its remedy. With NULL
+       as `arm`: of the last count or open. Never fails; a result of NULL is an empty text. */
     const char* (*last_error)(struct bw_arm* arm);
 
     /* Releases the force and the arm. */

@@ -34,9 +34,9 @@ int main(int argc, char** argv) {
         error.expected = "`boltwright devices`, which lists the arms of plug-ins";
         return bolt::print_error(error);
     }
-    ::dup2(STDERR_FILENO, STDOUT_FILENO);  // what a plug-in prints must not mix with results
-    // An interrupt ends the program, which then closes the arm. Sanitizers catch SIGSEGV, but the program
-    // names it.
+    ::dup2(STDERR_FILENO, STDOUT_FILENO);  // a plug-in's output must not mix with results
+    // An interrupt also ends the program, which then closes the arm. A crash ends this process by its signal,
+    // also under sanitizers, because the program's error message names the signal.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) (void)std::signal(signal, SIG_IGN);
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) (void)std::signal(signal, SIG_DFL);
     bolt::device::run_arm_host(argv[1], socket);

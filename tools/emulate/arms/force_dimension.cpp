@@ -41,13 +41,13 @@ struct EmulatedArm {
     int cause = 0, searches = 0;
     unsigned buttons = 0;
     double gripper = 1.0;                                  // 0 closed … 1 fully open
-    int type = 0, serial = 1234, speed_limit_changes = 0;  // type 0: that of its joints
+    int type = 0, serial = 1234, speed_limit_changes = 0;  // type 0: by active_wrist
     const char* name = "omega.6";
     double weight = 0.0, mounted = 0.0, known_mounted = 0.0;  // kg
     bool compensates = false;
-    double compensation = 0.0;                          // N along z
-    double delay = 0.0;                                 // s from a call until its force acts
-    std::deque<std::pair<double, Vector>> under_way{};  // when it acts, and the force
+    double compensation = 0.0;                               // N along z
+    double delay = 0.0;                                      // s from a call until its force acts
+    std::deque<std::pair<double, Vector>> delayed_forces{};  // time from which it acts, and the force
 };
 
 unsigned held_buttons() {
@@ -82,7 +82,7 @@ bool is_among(std::span<const int> types) {
 
 void follow_clock();
 
-// Switches the arm off while the file of EMULATED_ARM_SWITCH is absent; then it forgets its position.
+// Switches the arm off while the file of EMULATED_ARM_SWITCH is absent; the arm then loses its position.
 void follow_switch() {
     const char* file = std::getenv("EMULATED_ARM_SWITCH");
     if (!has_own_clock || file == nullptr) return;
@@ -105,7 +105,7 @@ void follow_hand() {
 }
 
 // Returns true if the arm is open and connected; otherwise sets the error of the call.
-bool reaches(char id) {
+bool check_handle(char id) {
     follow_clock();
     follow_switch();
     if (arm.open && !arm.unplugged && id == arm_id) return true;
@@ -113,10 +113,11 @@ bool reaches(char id) {
     return false;
 }
 
-// The force that has arrived.
-void take_over_forces() {
-    for (; !arm.under_way.empty() && arm.under_way.front().first <= arm.time; arm.under_way.pop_front())
-        arm.force = arm.under_way.front().second;
+// Applies the forces whose delay has passed.
+void apply_delayed_forces() {
+    for (; !arm.delayed_forces.empty() && arm.delayed_forces.front().first <= arm.time;
+         arm.delayed_forces.pop_front())
+        arm.force = arm.delayed_forces.front().second;
 }
 
 bool renders() { return arm.open && arm.enabled && !arm.braked && !arm.unplugged; }
@@ -137,11 +138,11 @@ void brake(int cause) {
     arm.cause = cause;
 }
 
-// N along z, of this mass at the present position.
+// N along z: the weight of this mass at the present position.
 double weight_of(double mass) { return 9.81 * mass * (1.0 + arm.position[2] / 0.1); }
 
 void step() {
-    take_over_forces();
+    apply_delayed_forces();
     const double braking = arm.braked && !arm.unplugged ? 60.0 : 0.0;  // N·s/m, of short-circuited motors
     for (std::size_t i = 0; i < 3; ++i) {
         const double spring = arm.hand.stiffness * (arm.intention[i] - arm.position[i]);
@@ -242,13 +243,13 @@ int drdOpenID(char index) {
     return arm_id;
 }
 int drdClose(char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     arm.open = arm.enabled = false;
     return 0;
 }
-bool drdIsInitialized(char id) { return reaches(id) && arm.initialized; }
+bool drdIsInitialized(char id) { return check_handle(id) && arm.initialized; }
 int drdAutoInit(char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     ++arm.searches;
     if (const char* seconds = std::getenv("EMULATED_ARM_HOMING"); has_own_clock && seconds != nullptr)
         std::this_thread::sleep_for(std::chrono::duration<double>(std::atof(seconds)));
@@ -257,45 +258,45 @@ int drdAutoInit(char id) {
     return 0;
 }
 int drdStop(bool, char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     return arm.initialized ? 0 : refuse(error_not_ready);
 }
-int dhdGetSystemType(char id) { return reaches(id) ? type_of_arm() : -1; }
-const char* dhdGetSystemName(char id) { return reaches(id) ? arm.name : nullptr; }
+int dhdGetSystemType(char id) { return check_handle(id) ? type_of_arm() : -1; }
+const char* dhdGetSystemName(char id) { return check_handle(id) ? arm.name : nullptr; }
 int dhdGetSerialNumber(unsigned short* serial, char id) {
-    if (!reaches(id) || arm.serial < 0) return -1;
+    if (!check_handle(id) || arm.serial < 0) return -1;
     *serial = static_cast<unsigned short>(arm.serial);
     return 0;
 }
 int dhdSetGravityCompensation(int on, char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     arm.compensates = on != 0;
     return 0;
 }
 int dhdSetEffectorMass(double kilogram, char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     arm.known_mounted = kilogram;
     return 0;
 }
 int dhdSetVelocityThreshold(unsigned, char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     ++arm.speed_limit_changes;
     return 0;
 }
-bool dhdHasWrist(char id) { return reaches(id); }
-bool dhdHasActiveWrist(char id) { return reaches(id) && arm.active_wrist; }
+bool dhdHasWrist(char id) { return check_handle(id); }
+bool dhdHasActiveWrist(char id) { return check_handle(id) && arm.active_wrist; }
 int dhdSetMaxForce(double newton, char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     arm.max_force = newton;
     return 0;
 }
 int dhdSetMaxTorque(double newton_metre, char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     arm.max_torque = newton_metre;
     return 0;
 }
 int dhdEnableForce(unsigned char on, char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     arm.enabled = on != 0;
     arm.braked = on == 0;
     arm.cause = 0;
@@ -303,12 +304,12 @@ int dhdEnableForce(unsigned char on, char id) {
     return 0;
 }
 int dhdStop(char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     brake(cause_software);
     return 0;
 }
 int dhdGetStatus(int* status, char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     std::fill(status, status + 17, 0);
     status[0] = status[1] = 1;  // powered, connected
     status[3] = arm.initialized ? 1 : 0;
@@ -318,7 +319,7 @@ int dhdGetStatus(int* status, char id) {
     return 0;
 }
 int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double rotation[3][3], char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     double* const out[] = {x, y, z};
     for (std::size_t i = 0; i < 3; ++i) {
         if (!arm.stale) arm.measured[i] = encoder_step * std::round(arm.position[i] / encoder_step);
@@ -328,23 +329,23 @@ int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double ro
     }
     return arm.stale ? time_guard : 0;
 }
-bool dhdHasGripper(char id) { return reaches(id) && is_among(types_with_gripper); }
-bool dhdIsLeftHanded(char id) { return reaches(id) && is_among(left_handed_types); }
+bool dhdHasGripper(char id) { return check_handle(id) && is_among(types_with_gripper); }
+bool dhdIsLeftHanded(char id) { return check_handle(id) && is_among(left_handed_types); }
 int dhdGetGripperAngleRad(double* radian, char id) {
     if (!dhdHasGripper(id)) return -1;
     *radian = (is_among(left_handed_types) ? -1.0 : 1.0) * open_gripper * arm.gripper;
     return 0;
 }
-unsigned dhdGetButtonMask(char id) { return reaches(id) ? arm.buttons : 0U; }
+unsigned dhdGetButtonMask(char id) { return check_handle(id) ? arm.buttons : 0U; }
 int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz,
                                         double, char id) {
-    if (!reaches(id)) return -1;
+    if (!check_handle(id)) return -1;
     if (!arm.initialized) return refuse(error_not_ready);
     Vector force{fx, fy, fz}, torque{tx, ty, tz};
     const bool saturated =
         shorten(force, arm.max_force) | shorten(torque, arm.active_wrist ? arm.max_torque : 0.0);
     if (arm.delay > 0.0)
-        arm.under_way.emplace_back(arm.time + arm.delay, force);
+        arm.delayed_forces.emplace_back(arm.time + arm.delay, force);
     else
         arm.force = force;
     arm.torque = torque;

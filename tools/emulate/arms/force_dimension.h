@@ -11,12 +11,13 @@ struct EmulatedArmHand {
     double damping;    // N·s/m
 };
 
-// An arm that is switched on and connected, has not found its position and rests at the origin, at time 0.
-// From here on its clock is emu_advance(). Without a call of emu_reset() its clock is the computer's, and it
-// knows its position from the start if EMULATED_ARM_INITIALIZED is set. It takes EMULATED_ARM_HOMING seconds
-// to find it, and is switched off while EMULATED_ARM_SWITCH names a file that does not exist. Its buttons are
-// EMULATED_ARM_BUTTONS. A file that EMULATED_ARM_HAND names, "x y z buttons", holds it rigidly instead; write a
-// new file and rename it to move the hand.
+// Resets to an arm that is switched on and connected, has not found its position and rests at the origin, at
+// time 0. From then on only emu_advance() advances its time. Before the first call its clock is the
+// computer's, and environment variables control it: it knows its position from the start if
+// EMULATED_ARM_INITIALIZED is set, and otherwise takes EMULATED_ARM_HOMING seconds to find it; it is switched
+// off while EMULATED_ARM_SWITCH names a file that does not exist; EMULATED_ARM_BUTTONS is the mask of its
+// buttons. If EMULATED_ARM_HAND names a file "x y z buttons", the hand holds the arm rigidly there; to move
+// it, write a new file and rename it.
 void emu_reset(void);
 void emu_advance(double seconds);
 void emu_hand(struct EmulatedArmHand hand);
@@ -25,24 +26,24 @@ void emu_turn(const double rotation[3][3]);     // orientation of the grip
 void emu_initialized(int on);                   // whether the arm knows its position
 void emu_active_wrist(int on);                  // whether it renders torque: a sigma.7; otherwise an omega.6
 void emu_model(int type, const char* name, int serial);  // the name may be null
-// The weight of the arm and of what is mounted on it, kg; none by default. It grows with the height, as that
-// of an arm whose links turn. The library compensates it for the position at the last call that set the
-// forces.
+// Masses, kg, of the arm and of the tool mounted on it; 0 by default. Their weight at the handle grows with
+// the height, as on an arm with rotating links. The library compensates the weight at the position of the
+// last call that set the forces.
 void emu_weight(double arm, double mounted);
 void emu_buttons(unsigned mask);
 void emu_gripper(double opening);  // 0 closed … 1 fully open; a model with a gripper: an omega.7 or a sigma.7
 void emu_unplug(int on);
 void emu_in_use(int on);         // another program has opened the arm
 void emu_speed_limit(double v);  // m/s above which it brakes; 2 by default
-void emu_stale(int on);          // the library returns the last position again, and says so
+void emu_stale(int on);          // the library returns the last position again, and reports that
 void emu_corrupt(int on);        // positions are not numbers
 void emu_millimetres(int on);    // positions are in mm
 
-// What an observer sees.
+// Values that an observer sees.
 void emu_position(double xyz[3]);  // m
 void emu_force(double force[6]);   // N and N·m that act on the hand now
-int emu_moved_by_itself(void);     // times that it searched its position
+int emu_moved_by_itself(void);     // number of searches for its position
 int emu_braked(void);
 int emu_open(void);
-int emu_speed_limit_changes(void);  // calls that changed the over-speed threshold of the factory
+int emu_speed_limit_changes(void);  // calls that changed the factory's over-speed threshold
 }

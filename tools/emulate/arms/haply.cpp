@@ -38,7 +38,7 @@ using Json = nlohmann::json;
 using Request = http::request<http::empty_body>;
 using Tcp = asio::ip::tcp;
 
-constexpr double longest_advance = 0.1;  // s; a computer that was suspended does not throw the arm
+constexpr double longest_advance = 0.1;  // s; limits the step after the computer was suspended
 constexpr int event_port_offset = 19;
 constexpr auto event_interval = std::chrono::milliseconds(2);
 
@@ -75,7 +75,7 @@ struct EmulatedHaply::Service {
     std::uint16_t port = 0;
     asio::io_context io;
     std::vector<Tcp::acceptor> acceptors;  // states, events, /version of old services
-    mutable std::mutex mutex;              // of the next three
+    mutable std::mutex mutex;              // guards the next three members
     HaplyArmModel model;
     double followed = steady_seconds();  // s, time of the model
     std::set<int> sockets;               // of open connections
@@ -190,7 +190,7 @@ EmulatedHaply::~EmulatedHaply() = default;
 Result<std::unique_ptr<EmulatedHaply>> EmulatedHaply::start(const EmulatedHaplyOptions& options) {
     auto service = std::make_unique<Service>(options);
     ErrorOfBoost error = service->listen(options.port);
-    // The ports beside any port may be in use.
+    // The neighbours of the port that the system has chosen may be in use: try others.
     for (int i = 0; i < 50 && error && options.port == 0; ++i) error = service->listen(0);
     if (error)
         return fail(

@@ -27,11 +27,11 @@ class EmulatedHaply {
 
     [[nodiscard]] Vec3 position() const;           // m
     [[nodiscard]] Vec3 force() const;              // N that acts on the hand now
-    [[nodiscard]] std::uint64_t commands() const;  // messages with a force in the form of this version
+    [[nodiscard]] std::uint64_t commands() const;  // messages with a force in the format of this version
     [[nodiscard]] std::uint64_t rejected() const;  // other messages
-    // True once the fault has shown: in an answer, in its absence, or in an event that was sent.
+    // True once the fault has taken effect: in an answer, as a missing answer, or as an event that was sent.
     [[nodiscard]] bool fault_shown() const;
-    // s from then until the last force on the hand ended; 0 if it had ended before.
+    // s from that moment until the force on the hand ended; 0 if it had ended before.
     [[nodiscard]] double force_after_fault() const;
 
   private:

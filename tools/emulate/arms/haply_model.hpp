@@ -40,7 +40,7 @@ enum class HaplyFault : std::uint8_t {
 
 struct EmulatedHaplyOptions {
     std::uint16_t port = 0;           // of the states; 0: any. Events are at port + 19.
-    std::string version = "3.5.0.0";  // before 3.5 it answers /version at port - 1; empty: at no port
+    std::string version = "3.5.0.0";  // before 3.5, /version is at port - 1; empty: at no port
     HaplyGrip grip = HaplyGrip::wireless;
     bool arm = true;
     bool calibrated = true;
@@ -55,7 +55,7 @@ struct EmulatedHaplyOptions {
     double stiffness = 300.0;        // N/m, of the spring to the intended position
 };
 
-// The arm, the hand, and what the service says of them. Not safe for threads.
+// The arm, the hand, and the service's messages about them. Not thread-safe.
 class HaplyArmModel {
   public:
     explicit HaplyArmModel(const EmulatedHaplyOptions& options) : options_(options) {}
@@ -70,7 +70,7 @@ class HaplyArmModel {
     void set_fault(HaplyFault fault);
 
     [[nodiscard]] std::string inventory() const;  // the first message of a connection
-    // nullopt: the connection is to be closed. Empty: no answer.
+    // nullopt: close the connection. Empty: no answer.
     std::optional<std::string> answer(const std::string& message);
 
     [[nodiscard]] Vec3 position() const { return position_; }
@@ -84,7 +84,7 @@ class HaplyArmModel {
     void step();
     void add_event(const char* name, const char* safety_type);
     [[nodiscard]] bool is_old() const;
-    // Takes the force of a message; false if it has none in the form of this version.
+    // Applies the force of a message; false if it has none in the format of this version.
     bool command(const std::string& message);
     [[nodiscard]] nlohmann::json position_json() const;
     [[nodiscard]] nlohmann::json arm_json(bool with_config) const;

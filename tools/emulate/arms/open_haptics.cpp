@@ -1,8 +1,8 @@
 // An emulated libHD.so.3.4 (see open_haptics.h). It refuses forces outside a frame, before they are enabled
-// and while the scheduler stands, a second frame in a tick, and a calibration while forces are enabled. The
-// order of calls in the vendor's guide excludes these; its library may be less strict. Errors lie on a stack
-// that all threads share, the newest on top. After an error the last force keeps acting: the caller must end
-// it. Signatures and values: hd.h and hdDefines.h of OpenHaptics 3.4.
+// and while the scheduler is stopped, a second frame in a tick, and a calibration while forces are enabled.
+// The order of calls in the vendor's guide excludes these; its library may be less strict. Errors lie on a
+// stack that all threads share, the newest on top. After an error the last force keeps acting: the caller
+// must end it. Signatures and values: hd.h and hdDefines.h of OpenHaptics 3.4.
 #include "tools/emulate/arms/open_haptics.h"
 
 #include <algorithm>
@@ -76,7 +76,7 @@ void push(unsigned code) {
     library.errors.push_back({code, 0, the_arm});
 }
 
-// An error of the caller.
+// Reports an error of the caller.
 void refuse(unsigned code) {
     push(code);
     ++library.refused;
@@ -118,7 +118,7 @@ void run_scheduler(const std::stop_token& stop) {
 
 std::jthread scheduler;  // last, so that it ends before what it uses
 
-bool reaches(unsigned device) {
+bool check_handle(unsigned device) {
     if (library.open && device == the_arm) return true;
     refuse(bad_handle);
     return false;
@@ -130,7 +130,7 @@ bool is_initialised() {
     return false;
 }
 
-// Returns true if a force may be set now; otherwise notes the error.
+// Returns true if a force may be set now; otherwise reports the error.
 bool may_render() {
     if (!is_initialised()) return false;
     if (!library.in_frame)
@@ -241,19 +241,19 @@ unsigned hdInitDevice(const char* name) {
 }
 void hdDisableDevice(unsigned device) {
     const std::lock_guard lock(mutex);
-    if (!reaches(device)) return;
+    if (!check_handle(device)) return;
     library.open = library.enabled = library.in_frame = false;
 }
 void hdBeginFrame(unsigned device) {
     const std::lock_guard lock(mutex);
-    if (!reaches(device)) return;
+    if (!check_handle(device)) return;
     if (library.in_frame || (library.running && library.frame_done)) return refuse(illegal_begin);
     library.in_frame = true;
     if (library.unplugged) push(no_communication);
 }
 void hdEndFrame(unsigned device) {
     const std::lock_guard lock(mutex);
-    if (!reaches(device)) return;
+    if (!check_handle(device)) return;
     if (!library.in_frame) return refuse(illegal_end);
     library.in_frame = false;
     library.frame_done = true;

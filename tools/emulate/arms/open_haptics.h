@@ -12,7 +12,7 @@ struct EmulatedHdHand {
     double friction;   // N, along each axis
 };
 
-// What the arm reports of itself, in the vendor's units.
+// The description that the arm reports, in the vendor's units.
 struct EmulatedHdReport {
     const char* model;
     int senses, renders;                     // degrees of freedom
@@ -20,10 +20,10 @@ struct EmulatedHdReport {
     double stiffness, force, lasting_force;  // N/mm, N, N
 };
 
-// A calibrated Touch that is switched on and connected and rests at the origin, at time 0. From here on its
-// clock is emu_hd_advance(). Without a call of emu_hd_reset(), and again after emu_hd_own_clock(), its
-// scheduler has a thread. If EMULATED_ARM_NEEDS_INKWELL is set, the arm needs its inkwell until
-// emu_hd_reset().
+// Resets to a calibrated Touch that is switched on and connected and rests at the origin, at time 0. From
+// then on only emu_hd_advance() advances its time. Before the first call, and again after emu_hd_own_clock(),
+// the scheduler runs in a thread, in real time. If EMULATED_ARM_NEEDS_INKWELL is set, the arm needs its
+// inkwell until emu_hd_reset().
 void emu_hd_reset(void);
 void emu_hd_own_clock(void);
 void emu_hd_advance(double seconds);
@@ -43,11 +43,11 @@ void emu_hd_licensed(int on);
 void emu_hd_heat(double heat);      // of the motors; from 1 on, each frame with a force warns of warm motors
 void emu_hd_speed_limit(double v);  // m/s above which a frame is an error; 2 by default
 void emu_hd_corrupt(int on);        // the transform is not a number
-void emu_hd_raise(unsigned error);  // at the end of the next frame
+void emu_hd_raise(unsigned error);  // the error appears at the end of the next frame
 void emu_hd_late(double seconds);   // delays the next tick
 void emu_hd_switch_off(void);       // the library switches the forces off by itself
 
-// What an observer sees.
+// Values that an observer sees.
 void emu_hd_force(double force[6]);  // N and N·m that act on the hand now
 int emu_hd_open(void);
 int emu_hd_running(void);          // whether the scheduler runs

@@ -19,10 +19,10 @@ constexpr double aim_error = 8e-3, tilt_error = 0.05;                    // m, r
 constexpr double nearest_start = 0.13, farthest_start = 0.20;            // m from the nut
 constexpr double lowest_start = to_radians(15.0), highest_start = to_radians(75.0);  // above the nut's plane
 constexpr double at_nut = 0.010;       // m from the middle of the jaw to the middle of the nut
-constexpr double beside_nut = 0.030;   // m; contacts nearer than this belong to the placing of the jaw
+constexpr double beside_nut = 0.030;   // m; contacts nearer to the nut are no bumps: the hand places the jaw
 constexpr double felt_bump = 0.2;      // N
 constexpr double between_bumps = 0.1;  // s
-constexpr double raise = 0.04;  // m above the place of a failed attempt, from where the hand tries again
+constexpr double raise = 0.04;         // m that the hand rises after a failed attempt, before it tries again
 constexpr int attempts = 4;
 constexpr int max_starts = 200;
 
@@ -130,7 +130,7 @@ Approach run_approach(TightenedAssembly& tightened, const ArmFacts& arm, std::ui
     ArmRig rig(tightened, options);
     Reach reach(rig, task);
     for (int i = 0; i < attempts && !reach.reached(); ++i) {
-        // Drawn in every attempt, so that the attempts of both variants have the same errors.
+        // Drawn in every attempt, so that with and without guiding the attempts have the same errors.
         const Vec3 error = aim_error * Vec3(random.normal(), random.normal(), random.normal());
         const Quat turned = rotation(tilt_error * Vec3(random.normal(), random.normal(), random.normal()));
         if (i > 0)

@@ -1,5 +1,5 @@
-// The complaint of the 2018 paper, replayed: a hand that does not see the nut reaches for it with the wrench,
-// hits the casing on its way, and feels a jerk. With and without the guiding force.
+// Replays the complaint of the 2018 paper, with and without the guiding force: a hand that does not see the
+// nut reaches for it with the wrench, hits the casing on its way, and feels a jerk.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 namespace bolt::arm_validation {
 
 struct Approach {
-    bool reached = false;        // the jaw came to the nut
-    double way = 0.0;            // m of the wrench until then, or in all
+    bool reached = false;        // the jaw reached the nut
+    double way = 0.0;            // m, path of the jaw until then, or of all attempts
     double straight = 0.0;       // m from the start to the nut
-    double time = 0.0;           // s until then, or in all
+    double time = 0.0;           // s until then, or of all attempts
     int bumps = 0;               // contacts with anything but the nut
     double contact_force = 0.0;  // N, the largest force of contact on the hand
     double force = 0.0;          // N, the largest force on the hand, guiding included
@@ -22,7 +22,7 @@ struct Approach {
 };
 
 // One reach: straight from a seeded place around a seeded nut, with minimum jerk at the speed of a person,
-// and an error of aim. If the jaw does not come to the nut, the hand tries again from where it is.
+// and an error of aim. If the jaw does not reach the nut, the hand tries again from where it is.
 Approach run_approach(TightenedAssembly& tightened, const ArmFacts& arm, std::uint64_t seed, bool guided);
 
 struct ApproachSummary {

@@ -109,8 +109,8 @@ constexpr std::string_view falcon_page =
     "github.com/SenseGraphics/h3dapi, wiki page Novint_Falcon: > 400 dpi";
 
 // Makers bound the friction from above ("less than 0.26 N"), but friction damps: half of the bound is used.
-// Where nothing was found, 0.05 N. Light arms are harder to keep stable than heavy ones, so the assumed
-// masses are low.
+// If no figure was found, 0.05 N is used. Light arms are harder to keep stable than heavy ones, so the
+// assumed masses are low.
 constexpr double wrist_inertia = 1e-4;  // kg·m², of a stylus or a gimbal
 
 const std::array table{
@@ -149,7 +149,7 @@ const ArmFacts* find_arm(std::string_view key) {
 
 // The usual grip is the arm of Fig. 3 in "Haptic perception of force magnitude and its relation to postural
 // arm dynamics in 3D", Sci. Rep. 5 (2015) 18004: 0.554 kg, 6.45 N·s/m, 135 N/m. The loose and the stiff one
-// are near the ends of the ranges in tests/support/random_arm.hpp, and so is all rotation. Those are chosen
+// are near the ends of the ranges in tests/support/random_arm.hpp, and so is all rotation. We chose these
 // values.
 const std::array<HandGrip, grip_count>& hand_grips() {
     static constexpr std::array<HandGrip, grip_count> grips{

@@ -1,5 +1,5 @@
-// The arms that Boltwright drives, as the validation emulates them: what their drivers announce, and what is
-// published of their mechanics.
+// The arms that Boltwright drives, as the validation emulates them: their drivers' descriptions, and
+// published figures of their mechanics.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace bolt::arm_validation {
 
-// How well a figure is known.
+// The reliability of a figure.
 enum class Origin : std::uint8_t {
     published,   // read at the source that is named
     unverified,  // attributed to the maker's data sheet, which could not be read again for this table
@@ -48,8 +48,7 @@ struct HandGrip {
     std::string_view name;
     double mass = 0.0, damping = 0.0, stiffness = 0.0;                     // kg, N·s/m, N/m
     double inertia = 0.0, angular_damping = 0.0, angular_stiffness = 0.0;  // kg·m², N·m·s/rad, N·m/rad
-    bool pushes_only =
-        false;  // nobody holds the arm: a spring so soft that it pushes with one constant force
+    bool unheld = false;  // nobody holds the arm: a spring so soft that it pushes with one constant force
 };
 
 inline constexpr std::size_t grip_count = 4;

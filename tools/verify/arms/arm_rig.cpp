@@ -13,7 +13,7 @@ namespace {
 constexpr double tick_length = 1e-3;  // s
 constexpr std::uint64_t joint_seed = 1;
 
-// The obstacles as after loading: results must not depend on what was run before.
+// Resets the contact state to that after loading: results must not depend on earlier runs.
 void reset_contact(servo::ToolContact& contact, const servo::Setup& setup) {
     contact.narrow_phase = collision::make_narrow_phase(contact.world, contact.wrench);
     contact.god_object = {};
@@ -25,8 +25,8 @@ void reset_contact(servo::ToolContact& contact, const servo::Setup& setup) {
     servo::set_coupling(setup, contact);
 }
 
-// A stiffness beyond the one that make_coupling() chooses, with the damper that it would choose if the change
-// of the force in a millisecond were not limited.
+// Multiplies the stiffness that make_coupling() has chosen. The damper is the one that make_coupling() would
+// choose for the new stiffness if the change of the force in a millisecond were not limited.
 void stiffen(proxy::Coupling& coupling, double factor) {
     constexpr double margin = 0.8, physical = 2.0;  // haptics/proxy/coupling
     if (factor == 1.0) return;
@@ -66,7 +66,7 @@ Result<TightenedAssembly> load_tightened_assembly(const std::string& name) {
 }
 
 ArmRig::ArmRig(TightenedAssembly& tightened_assembly, const RigOptions& options)
-    : tightened(tightened_assembly), facts(*options.arm), pushes_only(options.grip.pushes_only) {
+    : tightened(tightened_assembly), facts(*options.arm), unheld(options.grip.unheld) {
     layout = layout_of(facts, options.tool, tightened.assembly.wrench.handle_length);
     force::OutputLimits limits = station::limits_of(layout);
     if (!options.controller) limits.damping = limits.angular_damping = 0.0;

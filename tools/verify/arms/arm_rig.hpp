@@ -12,7 +12,8 @@
 
 namespace bolt::arm_validation {
 
-// An assembly with its contact models and tightened joints. A rig borrows it, so one for each thread.
+// An assembly with its contact models and tightened joints. A rig borrows the contact
+// models, so each thread needs an assembly of its own.
 struct TightenedAssembly {
     content::Assembly assembly;
     servo::State state;  // all joints tightened
@@ -33,8 +34,8 @@ struct RigOptions {
     HandGrip grip;
     Pose tool;                     // of the wrench at the beginning, in the assembly's frame
     bool controller = true;        // the passivity controller
-    double coupling_factor = 1.0;  // on the stiffness of the coupling: contact
-    double wrench_factor = 1.0;    // on the stiffness of the wrench: the seated nut
+    double coupling_factor = 1.0;  // on the stiffness of the coupling (contact)
+    double wrench_factor = 1.0;    // on the stiffness of the wrench (seated nut)
     int guided_joint = -1;         // −1: no guiding force
 };
 
@@ -46,7 +47,7 @@ struct ArmRig {
 
     // One millisecond.
     void tick();
-    // The pose of the device that holds the tool at `tool`, from where the tool now is.
+    // The pose of the device that commands the pose `tool`, by the present mapping of the workspace.
     [[nodiscard]] Pose device_pose(const Pose& tool) const;
     [[nodiscard]] const servo::Output& output() const { return station.output; }
     // N, that contacts exert on the tool through the coupling.
@@ -58,7 +59,7 @@ struct ArmRig {
 
     TightenedAssembly& tightened;
     const ArmFacts& facts;
-    bool pushes_only;
+    bool unheld;
     station::DeviceLayout layout;
     servo::Setup setup;
     servo::State servo;

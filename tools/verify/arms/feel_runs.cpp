@@ -15,8 +15,8 @@ namespace {
 constexpr double before_contact = 0.005;  // m
 constexpr double push = 0.5;              // N, on an arm that no hand holds
 constexpr double approach_speed = 0.15;   // m/s of the wrench
-constexpr double shake_begin = 0.9, shake_end = 1.4, shake_rate = 2.0 * pi * 6.0;    // s, s, rad/s
-constexpr double early_begin = 1.5, early_end = 1.8, late_begin = 2.4, whole = 2.7;  // s
+constexpr double shake_begin = 0.9, shake_end = 1.4, shake_rate = 2.0 * pi * 6.0;           // s, s, rad/s
+constexpr double early_begin = 1.5, early_end = 1.8, late_begin = 2.4, run_duration = 2.7;  // s
 constexpr std::size_t pulled_joint = 0;
 constexpr int max_tries = 500;
 
@@ -51,7 +51,7 @@ class SwingMeter {
 class Measurement {
   public:
     explicit Measurement(const ArmRig& rig)
-        // The end of a lever shows rotations; of an arm that renders no torque they belong to the hand alone.
+        // The end of a lever shows rotations. Without torque output only the hand causes them: no lever.
         : lever_(station::renders_torque(*rig.layout.mover) ? 0.1 : 0.0) {}
 
     void note(const ArmRig& rig, bool felt) {
@@ -63,7 +63,7 @@ class Measurement {
     }
     FeelOutcome finish(const ArmRig& rig) {
         outcome_.record = rig.record;
-        outcome_.held = !rig.pushes_only;
+        outcome_.held = !rig.unheld;
         outcome_.early_swing = early_.swing;
         outcome_.late_swing = late_.swing;
         return outcome_;
@@ -82,8 +82,8 @@ double shake_at(double time) {
     return time > shake_begin && time < shake_end ? std::sin(shake_rate * (time - shake_begin)) : 0.0;
 }
 
-// m that the wrench can move along `direction` until it touches; none if it is not free at first or touches
-// nothing.
+// m that the wrench can move along `direction` until it touches; nullopt if it starts near an obstacle or
+// touches nothing.
 std::optional<double> free_way(servo::ToolContact& contact, const Pose& start, const Vec3& direction) {
     constexpr double band = 5e-3, clear = 0.02, farthest = 0.6;
     std::array<collision::Contact, proxy::max_contacts> found;
@@ -106,7 +106,7 @@ struct Aim {
     Vec3 direction{0.0};
 };
 
-// A level wrench above the casing or, for "side", beside it; not yet near it.
+// A random start: a level wrench above the casing or, for "side", beside it; and the direction to the casing.
 Aim aim_at(const collision::BoundingBox& casing, std::string_view name, Random& random) {
     const Vec3 up(0.0, 1.0, 0.0), middle = 0.5 * (casing.low + casing.high);
     const Quat level = glm::angleAxis(-0.5 * pi, Vec3(1.0, 0.0, 0.0));  // the wrench's normal points up
@@ -126,8 +126,8 @@ Aim aim_at(const collision::BoundingBox& casing, std::string_view name, Random& 
     return aim;
 }
 
-// Near a bolt the wrench turns to it by itself (haptics/station/near_nut.cpp), away from where the hand
-// presses.
+// Returns true if the jaw is so near to a bolt that the wrench turns to the bolt by itself, away from where
+// the hand presses (haptics/station/near_nut.cpp).
 bool near_a_bolt(const servo::Setup& setup, const Vec3& jaw) {
     constexpr double aside = 0.13, above = 0.11;  // m
     return std::any_of(setup.nuts.begin(), setup.nuts.end(), [&](const servo::NutGeometry& nut) {
@@ -192,7 +192,7 @@ FeelOutcome run_press(TightenedAssembly& tightened, RigOptions options, const Pr
     ArmRig rig(tightened, options);
     const double stiffness = rig.arm.parameters.stiffness;
     const double strength =
-        rig.pushes_only ? push : press_share(options.grip) * rig.layout.mover->limits.force;  // N
+        rig.unheld ? push : press_share(options.grip) * rig.layout.mover->limits.force;  // N
     const Vec3 direction =
         rig.device_pose({press.start.position + press.direction, press.start.orientation}).position;
     const Vec3 along = glm::normalize(direction - rig.arm.pose.position);
@@ -201,11 +201,11 @@ FeelOutcome run_press(TightenedAssembly& tightened, RigOptions options, const Pr
     const Pose begin = rig.arm.pose;
     const Vec3 shaking(0.005, 0.002, 0.003);  // m
     Measurement measurement(rig);
-    while (rig.time < whole) {
-        const double way = rig.pushes_only ? end : approach_speed / rig.layout.workspace.scale * rig.time;
+    while (rig.time < run_duration) {
+        const double way = rig.unheld ? end : approach_speed / rig.layout.workspace.scale * rig.time;
         rig.arm.intention = begin;
         rig.arm.intention.position += std::min(way, end) * along;
-        if (!rig.pushes_only) rig.arm.intention.position += shake_at(rig.time) * shaking;
+        if (!rig.unheld) rig.arm.intention.position += shake_at(rig.time) * shaking;
         rig.tick();
         measurement.note(rig, rig.contact_force() > 0.05);
     }
@@ -225,14 +225,14 @@ Pose wrench_on_nut(TightenedAssembly& tightened, double above) {
             motion::tool_orientation(nut, grip.handle, grip.flipped)};
 }
 
-// rad by which the hand's intention leads the wrench so that its spring pulls with this share of what the
-// device can render.
+// rad by which the hand's intention must lead the wrench so that the hand's spring pulls with this share of
+// the device's greatest force or torque.
 double lead_for(const ArmRig& rig, double share) {
     const device::HandAndArmParameters& hand = rig.arm.parameters;
     const force::OutputLimits& limits = rig.layout.mover->limits;
     if (limits.torque > 0.0)
-        return std::min((rig.pushes_only ? 0.1 : share) * limits.torque / hand.angular_stiffness, 1.2);
-    const double strength = rig.pushes_only ? push : share * limits.force;
+        return std::min((rig.unheld ? 0.1 : share) * limits.torque / hand.angular_stiffness, 1.2);
+    const double strength = rig.unheld ? push : share * limits.force;
     return std::min(strength / hand.stiffness * rig.layout.workspace.scale / rig.layout.lever_arm, 1.2);
 }
 
@@ -241,7 +241,7 @@ double intended_angle(const ArmRig& rig, Pull pull) {
     const double t = rig.time;
     if (pull != Pull::hold) return std::min(1.2 * t, lead_for(rig, 1.0) + (pull == Pull::yield ? 0.9 : 0.4));
     const double lead = lead_for(rig, 0.4) + 2.0 * rig.setup.wrench.half_play;
-    if (rig.pushes_only) return lead;
+    if (rig.unheld) return lead;
     return lead * (std::min(t / 0.5, 1.0) + 0.5 * shake_at(t));
 }
 
@@ -252,7 +252,7 @@ FeelOutcome run_pull(TightenedAssembly& tightened, RigOptions options, Pull pull
     ArmRig rig(tightened, options);
     const servo::NutGeometry& nut = rig.setup.nuts[pulled_joint];
     Measurement measurement(rig);
-    while (rig.time < whole) {
+    while (rig.time < run_duration) {
         // Tightening turns about −axis.
         const Quat turn = glm::angleAxis(-intended_angle(rig, pull), nut.axis);
         const Vec3 centre = servo::nut_centre(nut, rig.servo.joints[pulled_joint].nut.angle);

@@ -12,24 +12,24 @@ namespace bolt::arm_validation {
 
 struct FeelOutcome {
     Record record;
-    // m, of the grip within 40 ms, straight motion left out: after the hand's last motion, and a second
-    // later.
+    // m, swing of the grip within 40 ms, less its straight motion: soon after the hand's last motion, and a
+    // second later.
     double early_swing = 0.0, late_swing = 0.0;
-    bool touched = false;  // the obstacle or the nut was felt at all
+    bool touched = false;  // the hand felt the obstacle or the nut at least once
     bool held = true;      // by a hand
 };
 
-// J. Energy that may be out of the device at any time, and at the end if no hand holds the arm: the credit
-// that the passivity controller gives. Into a held arm a hand must have put more than it gets back.
+// J, bounds of the net energy out of the device: at any time; and at the end if no hand holds the arm (the
+// credit of the passivity controller). A hand that holds the arm must put in more than it gets back.
 inline constexpr double energy_at_any_time = 1e-3, energy_of_free_arm = force::max_credit;
 inline constexpr double perceptible_swing = 100e-6;  // m
 
 bool gives_energy(const FeelOutcome& outcome);
 bool trembles(const FeelOutcome& outcome);
 bool is_stable(const FeelOutcome& outcome);
-// % of the greatest force or torque, whichever is more, in a millisecond.
+// The largest change in a millisecond, % of the greatest force or torque, whichever is more.
 double step_percent(const FeelOutcome& outcome, const device::Description& arm);
-// The worse of both in each respect.
+// The worse value of each member.
 FeelOutcome worse(const FeelOutcome& a, const FeelOutcome& b);
 
 // A motion of the wrench onto the casing.
@@ -39,10 +39,10 @@ struct Press {
     Vec3 direction{0.0};    // unit
     double distance = 0.0;  // m from the start to the contact
 };
-// A level wrench onto the flange, a corner of its jaw, its handle over an edge, and sideways against the
-// casing.
-inline constexpr std::uint64_t usual_presses = 2018;
-std::vector<Press> find_presses(TightenedAssembly& tightened, std::uint64_t seed = usual_presses);
+// One press each: a level wrench onto the casing, a corner of its jaw, its handle over an edge, sideways
+// against the casing, and near a bolt.
+inline constexpr std::uint64_t default_press_seed = 2018;
+std::vector<Press> find_presses(TightenedAssembly& tightened, std::uint64_t seed = default_press_seed);
 
 // A motion of the wrench on a nut.
 enum class Pull : std::uint8_t {

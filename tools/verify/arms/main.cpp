@@ -1,6 +1,6 @@
 // bolt-arm-validation: measures on emulated arms how stiff contact and the nut may be, what the announced
-// limits feel like, and whether the guiding force helps a hand that does not see. Minutes; tests/feel runs a
-// part of it.
+// limits feel like, and whether the guiding force helps a hand that does not see. It runs for minutes;
+// tests/feel runs a part of it.
 #include <algorithm>
 #include <filesystem>
 #include <thread>

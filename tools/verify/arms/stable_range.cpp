@@ -19,7 +19,7 @@ RigOptions rig_options(const RangeQuery& query, const HandGrip& grip, double fac
 bool stable_at(TightenedAssembly& tightened, const RangeQuery& query, std::span<const Press> presses,
                double factor) {
     for (const HandGrip& grip : hand_grips()) {
-        if (grip.pushes_only == query.held) continue;
+        if (grip.unheld == query.held) continue;
         const RigOptions options = rig_options(query, grip, factor);
         if (query.spring == TestedSpring::nut) {
             if (!is_stable(run_pull(tightened, options, Pull::hold))) return false;
@@ -45,7 +45,7 @@ StableRange stable_range(TightenedAssembly& tightened, const RangeQuery& query,
     const auto stable = [&](double factor) { return stable_at(tightened, query, presses, factor); };
     // Doubles or halves from the factor in use until the border lies between two factors.
     double good = 0.0, bad = 0.0;
-    for (double factor = 1.0; factor <= greatest_factor; factor *= 2.0) {
+    for (double factor = 1.0; factor <= max_factor; factor *= 2.0) {
         if (!stable(factor)) {
             bad = factor;
             break;

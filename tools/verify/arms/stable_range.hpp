@@ -15,12 +15,12 @@ enum class TestedSpring : std::uint8_t {
 };
 
 // Factors on the stiffness in use between which the search looks, and their ratio at which it stops.
-inline constexpr double min_factor = 1.0 / 16.0, greatest_factor = 16.0, search_ratio = 1.06;
+inline constexpr double min_factor = 1.0 / 16.0, max_factor = 16.0, search_ratio = 1.06;
 
 struct StableRange {
     double used = 0.0;    // N/m or N·m/rad as the device feels it
-    double stable = 0.0;  // the largest stable one that was found; 0: not even `min_factor` of the used one
-    bool open = false;    // stable even at `greatest_factor`
+    double stable = 0.0;  // the largest stable one that was found; 0: even `min_factor` · used is unstable
+    bool open = false;    // stable even at `max_factor`
 };
 
 struct RangeQuery {
@@ -30,8 +30,8 @@ struct RangeQuery {
     bool held = true;  // by a loose, a usual and a stiff grip; false: by no hand
 };
 
-// The motions of the hand must be find_presses() of the same place. Assumes that a stiffer spring is never
-// more stable; the ratio of two tested factors bounds what a violation could hide.
+// `presses`: of find_presses() for the same assembly. Assumes that a stiffer spring is never more stable: an
+// unstable range between two tested factors stays unnoticed.
 StableRange stable_range(TightenedAssembly& tightened, const RangeQuery& query,
                          std::span<const Press> presses);
 

@@ -16,13 +16,13 @@ std::string marked(const Fact& fact, double unit) {
 bool as_torque(const ArmFacts& arm) { return arm.announced().limits.torque > 0.0; }
 
 std::string stable_text(const StableRange& range) {
-    if (range.open) return fmt::format("> {:.2g}", range.used * greatest_factor);
+    if (range.open) return fmt::format("> {:.2g}", range.used * max_factor);
     if (range.stable == 0.0) return fmt::format("< {:.2g}", range.used * min_factor);
     return fmt::format("{:.{}f}", range.stable, range.stable < 100.0 ? 1 : 0);
 }
 
 std::string spring_row(const ArmFacts& arm, const SpringResult& s, double announced, const char* unit) {
-    const std::string margin = s.held.open ? fmt::format("> {:.1f}", greatest_factor)
+    const std::string margin = s.held.open ? fmt::format("> {:.1f}", max_factor)
                                            : fmt::format("{:.1f}", s.held.stable / s.held.used);
     return fmt::format("| {} | {:.4g} {} | {:.4g} | {} | {} | {} | {} |", arm.name, announced, unit,
                        s.held.used, stable_text(s.held), margin, stable_text(s.uncontrolled),

@@ -12,7 +12,7 @@ namespace {
 
 using Job = std::function<void(TightenedAssembly&, std::span<const Press>)>;
 
-// Runs all jobs, each with the assembly of its thread. Returns the first error of loading one.
+// Runs all jobs. Each thread loads an assembly of its own. Returns the first error of loading.
 Status run_jobs(const std::vector<Job>& jobs, const std::string& assembly, unsigned threads) {
     std::atomic<std::size_t> next = 0;
     std::mutex lock;
@@ -39,7 +39,7 @@ StableRange range_of(TightenedAssembly& tightened, std::span<const Press> presse
     return stable_range(tightened, query, presses);
 }
 
-// Measures both springs in one respect.
+// Adds the jobs that measure the stable range of both springs.
 void add_range_jobs(std::vector<Job>& jobs, ArmResult& result) {
     const auto add = [&](TestedSpring spring, StableRange& range, bool controller, bool held) {
         jobs.push_back([&range, query = RangeQuery{result.arm, spring, controller, held}](
@@ -81,7 +81,7 @@ FeelOutcome feel_of(TightenedAssembly& tightened, const RigOptions& options, boo
     };
     RigOptions with = options;
     for (const HandGrip& grip : hand_grips()) {
-        if (grip.pushes_only == held) continue;
+        if (grip.unheld == held) continue;
         with.grip = grip;
         for (const Press& press : presses) add(run_press(tightened, with, press), false);
         add(run_pull(tightened, with, Pull::hold), false);

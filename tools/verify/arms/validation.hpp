@@ -14,10 +14,11 @@ namespace bolt::arm_validation {
 
 // Stiffnesses of one kind of spring.
 struct SpringResult {
-    StableRange held, uncontrolled, free;  // in a hand, so without the passivity controller, and in no hand
+    // In a hand; in a hand without the passivity controller; in no hand.
+    StableRange held, uncontrolled, free;
 };
 
-// The worst of all motions at the announced limits.
+// The stable stiffnesses of one arm, and the worst outcomes of all motions at its announced limits.
 struct ArmResult {
     const ArmFacts* arm = nullptr;
     SpringResult contact, nut;
@@ -46,10 +47,10 @@ struct ValidationOptions {
 
 struct ValidationResult {
     std::vector<ArmResult> arms;
-    std::vector<ApproachResult> approaches;  // of the arms in approached_arms() that were asked for
+    std::vector<ApproachResult> approaches;  // of those requested arms for which is_approached() is true
 };
 
-// The arms that replay the paper's complaint: one of each kind.
+// True for the arms that replay the paper's complaint: one of each kind.
 bool is_approached(const ArmFacts& arm);
 // Fails if the assembly cannot be loaded.
 Result<ValidationResult> validate(const ValidationOptions& options);

@@ -77,7 +77,7 @@ std::size_t body_of(const ContactScene& scene, collision::ObstacleId id) {
     return part->body;
 }
 
-// Returns whether the contact belongs to a sample point of either side, and not to a piece of an edge.
+// Returns whether the contact belongs to a sample point of either body, and not to a piece of an edge.
 bool is_point_contact(const ContactScene& scene, const collision::CollisionWorld& world,
                       const collision::ToolShape& tool, const collision::Contact& c) {
     const collision::SurfaceSamples& samples =

@@ -23,9 +23,9 @@ struct NearPose {
     ExactContact points;    // of the sample points alone
     bool found = false;     // the query returned a contact
     double reported = 0.0;  // m, signed distance of the nearest contact; the band if there is none
-    // m, greatest position error of the contacts of points and of edge pieces: the distance of the witness
-    // points from their surfaces, or from each other compared with the reported distance. Edge pieces are
-    // less exact because a row of short edges is taken as straight.
+    // m, greatest position error of the contacts of points and of edge pieces: the distance of a witness
+    // point from its surface, or the difference of the witness points' distance from the reported distance.
+    // Edge pieces are less exact because a row of short edges is treated as straight.
     double point_error = 0.0, edge_error = 0.0;
     double distance_error = 0.0;  // m, error of the distance of the nearest contact, if it is one of a point
 };

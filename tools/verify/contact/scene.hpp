@@ -44,7 +44,7 @@ struct OracleQuery {
     DepthOptions depths;
 };
 
-// With one part: that part alone. Without: all parts, disabled bodies included.
+// The first overload takes all parts, including those of disabled bodies; the second takes `part` alone.
 ExactContact exact_contact(const ContactScene& scene, const collision::CollisionWorld& world,
                            const Pose& tool, const OracleQuery& query);
 ExactContact exact_contact(const ContactScene& scene, std::size_t part, const Pose& tool_to_part,
