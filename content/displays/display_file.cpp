@@ -47,7 +47,8 @@ ordered_json json_of(const Wall& wall) {
     return object;
 }
 
-// Writes the members of the tracker only if the head has a tracker.
+// Writes the members that only a tracker uses if the head has that tracker or their values are not the
+// defaults.
 ordered_json json_of(const HeadTracking& head) {
     const HeadTracking unless_given;
     ordered_json object;

@@ -25,7 +25,7 @@ std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode
     for (const JsonNode& item : reader.items(node))
         if (const auto text = reader.text(item)) texts[last_token(item.pointer)] = *text;
     for (const char* language : {"en", "de", "zh"})
-        reader.member(node, language);  // so that the names count as read
+        reader.member(node, language);  // known names; other codes are accepted too
     return texts;
 }
 

@@ -135,8 +135,8 @@ inline constexpr KeyRow key_rows[] = {
     {"reason.done_already.many", "count"},
     {"reason.wrong_way.one", ""},
     {"reason.wrong_way.many", "count"},
-    {"reason.overdone.one", ""},
-    {"reason.overdone.many", "count"},
+    {"reason.over_torque_corrected.one", ""},
+    {"reason.over_torque_corrected.many", "count"},
     {"reason.slipped.one", ""},
     {"reason.slipped.many", "count"},
     {"reason.unfinished", "step of"},
@@ -172,7 +172,7 @@ inline constexpr KeyRow key_rows[] = {
     {"verdict.low", ""},
     {"verdict.ok", ""},
     {"verdict.high", ""},
-    {"condition.sound", ""},
+    {"condition.intact", ""},
     {"condition.stripped", ""},
     {"condition.broken", ""},
     {"fault.none", ""},
@@ -347,7 +347,7 @@ inline constexpr KeyRow key_rows[] = {
     {"caption.groan", ""},
     {"caption.scrape", ""},
     {"caption.run", ""},
-    // Texts in the scene beside the wrench.
+    // Boxes over the picture of a lesson (game/trainer/hud.cpp); hud.turns is a label at the nut.
     {"hud.curve", "joint"},
     {"hud.step", "step of"},
     {"hud.pull", "force"},

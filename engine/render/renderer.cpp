@@ -37,7 +37,7 @@ shared::FrameData make_frame_data(const Scene& scene, std::span<const Eye> eyes,
     f.cut = glm::vec4(scene.cut_away.focus, scene.cut_away.radius);
     f.cut_strength = scene.cut_away.strength;
     f.outline_px = scene.outline_px;
-    f.shadows = ShadowPass::describe(scene, f) ? 1 : 0;
+    f.shadows = ShadowPass::set_shadow_view(scene, f) ? 1 : 0;
     return f;
 }
 

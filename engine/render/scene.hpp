@@ -117,10 +117,10 @@ struct Scene {
 struct Eye {
     glm::vec3 position{0.0F};
     glm::mat4 clip_from_world{1.0F};
-    // The area of the picture that lenses hide from the user: three corners of each triangle, −1 … 1 from the
-    // left to the right edge, and from the upper to the lower one. Null: there is no such area. Pixels in the
-    // area are black, except where an outline or a label that shows through parts is drawn, and their kept
-    // depth is 0.
+    // The area of the picture that lenses hide from the user, as triangles of three corners each: x from −1
+    // at the left edge to 1, y from −1 at the upper edge to 1. Null: there is no such area. Pixels in the
+    // area are black, except where an outline or a label that shows through parts is drawn; Renderer::depth()
+    // is 0 there.
     std::shared_ptr<const std::vector<glm::vec2>> hidden = nullptr;
 };
 

@@ -65,14 +65,14 @@ HapticMetricsBuilder::HapticMetricsBuilder(const session::Header& header,
 bool HapticMetricsBuilder::own_nut(collision::ObstacleId obstacle) const {
     if (!obstacle.is_nut()) return false;
     const auto joint = static_cast<int>(obstacle.index());
-    return joint == due_ || joint == state_.last_joint;
+    return joint == due_ || joint == latest_.last_joint;
 }
 
 void HapticMetricsBuilder::update_grip(double time, const session::TickRecord& tick) {
     const int held_before = previous_ ? previous_->joint : -1;
     if (tick.joint >= 0 && held_before < 0) engaged_at_ = time;
     if (tick.joint < 0 && held_before >= 0) released_at_ = time;
-    if (tick.joint >= 0) state_.last_joint = tick.joint;
+    if (tick.joint >= 0) latest_.last_joint = tick.joint;
     if (arrived_ || due_ < 0) return;
     const auto due = static_cast<std::size_t>(due_);
     if (due < seats_.size() &&
@@ -98,7 +98,7 @@ void HapticMetricsBuilder::update_touch(double time, const session::TickRecord& 
         contact_begin_ = time;
     }
     if (!touches && touched_before) contact_end_ = time;
-    if (touches) state_.last_touched = tick.touched;
+    if (touches) latest_.last_touched = tick.touched;
     const bool obstacle_contacts = free && touches && !touched_with_nut_ && !own_nut(tick.touched);
     if (!obstacle_contacts) {
         in_obstacle_contact_ = false;
@@ -144,7 +144,7 @@ void HapticMetricsBuilder::update_change(double time, const session::TickRecord&
     const bool large =
         metrics_.force_jumps.size() < max_force_jumps || by > metrics_.force_jumps.back().change;
     if (by <= 0.0 || !(large || at_limit)) return;
-    ForceJump jump = state_;
+    ForceJump jump = latest_;
     jump.time = time;
     jump.change = by;
     jump.tick = tick;

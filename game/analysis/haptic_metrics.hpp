@@ -113,7 +113,7 @@ class HapticMetricsBuilder {
     bool arrived_ = true;
     double step_begun_ = 0.0, near_nut_ = 0.0, nut_visible_ = 0.0;
     std::optional<session::TickRecord> previous_;
-    ForceJump state_;  // last joint and last obstacle so far
+    ForceJump latest_;  // last joint and last obstacle so far
     // s, session time of the last events
     double engaged_at_ = nan, released_at_ = nan;
     double contact_begin_ = nan, contact_end_ = nan;

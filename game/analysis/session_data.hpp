@@ -16,16 +16,6 @@
 
 namespace bolt::analysis {
 
-// Quartiles of type 7 (Hyndman and Fan, Am. Stat. 50 (1996) 361), the default of NumPy and R: linear
-// interpolation between the values.
-struct Quartiles {
-    double low = std::numeric_limits<double>::quiet_NaN(), median = low, high = low;
-    std::size_t n = 0;
-};
-
-// Ignores values that are not finite. Without values all are NaN.
-Quartiles quartiles(std::vector<double> values);
-
 struct SessionData {
     std::string file;
     session::Header header;

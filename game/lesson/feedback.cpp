@@ -179,7 +179,8 @@ Review review(const content::Assembly& assembly, const LessonResult& result) {
                 advice = TextKey("advice.wrong_way");
                 break;
             case DeductionKind::over_torque:
-                deduction.key = once ? TextKey("reason.overdone.one") : TextKey("reason.overdone.many");
+                deduction.key = once ? TextKey("reason.over_torque_corrected.one")
+                                     : TextKey("reason.over_torque_corrected.many");
                 advice = TextKey("advice.torque_high");
                 break;
             case DeductionKind::slipped:

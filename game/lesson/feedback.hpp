@@ -40,7 +40,7 @@ constexpr words::TextKey text_key(joint::Stage stage) {
 }
 
 constexpr words::TextKey text_key(joint::JointCondition condition) {
-    constexpr words::TextKey keys[] = {"condition.sound", "condition.stripped", "condition.broken"};
+    constexpr words::TextKey keys[] = {"condition.intact", "condition.stripped", "condition.broken"};
     return keys[static_cast<int>(condition)];
 }
 

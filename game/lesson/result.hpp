@@ -94,7 +94,7 @@ enum class MistakeKind : std::uint8_t {
 inline constexpr std::size_t mistake_kinds =
     static_cast<std::size_t>(MistakeKind::broken) + 1;  // the last kind
 
-// The comment gives the meaning of LessonEvent::value.
+// Behind each kind: the meaning of its LessonEvent::value.
 enum class EventKind : std::uint8_t {
     pass_begin,  // number of the pass
     step_begin,  // target torque, N·m

@@ -8,6 +8,7 @@
 #include "game/analysis/session_data.hpp"
 #include "game/plot/html.hpp"
 #include "game/report/report.hpp"
+#include "game/statistics/summary.hpp"
 
 namespace bolt::report {
 
@@ -159,10 +160,10 @@ void put_arrivals(std::string& out, const analysis::SessionData& s) {
             "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
             "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
             joint < 0 ? " class=\"sum\"" : "", plot::escape(name), wrench.size(),
-            plot::number(analysis::quartiles(wrench).median, 2), plot::number(slowest, 2),
-            plot::number(analysis::quartiles(near).median, 2),
+            plot::number(statistics::quartiles(wrench).median, 2), plot::number(slowest, 2),
+            plot::number(statistics::quartiles(near).median, 2),
             near_time > 0.0 ? plot::number(100.0 * visible_time / near_time, 0) + " %" : plot::number(nan, 0),
-            plot::number(analysis::quartiles(hand).median, 2));
+            plot::number(statistics::quartiles(hand).median, 2));
     };
     for (std::size_t j = 0; j < s.joints.size(); ++j) row(s.joints[j].id, static_cast<int>(j));
     row("all", -1);

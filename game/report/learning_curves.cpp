@@ -10,6 +10,7 @@
 #include "game/plot/html.hpp"
 #include "game/plot/plot.hpp"
 #include "game/report/attempts.hpp"
+#include "game/statistics/summary.hpp"
 
 namespace bolt::report {
 
@@ -65,7 +66,7 @@ double median_of_trainees(const TaskAttempts& task, const LearningMeasure& measu
         if (std::isfinite(value)) values.push_back(value);
     }
     if (values.size() < min_for_median) return std::numeric_limits<double>::quiet_NaN();
-    return analysis::quartiles(std::move(values)).median;
+    return statistics::quartiles(std::move(values)).median;
 }
 
 // Empty if no attempt of the trainee has the value.

@@ -139,8 +139,8 @@ void put_joints(std::string& out, const analysis::SessionData& s) {
                      : "<th class=\"n\">torque, N·m<br/>/ target</th><th class=\"n\">angle<br/>from snug</th>"
                        "<th class=\"n\">clamp, kN<br/>/ target</th><th class=\"n\">clamp<br/>error</th>";
     out +=
-        "<th class=\"n\">strokes</th><th class=\"n\">re-hits</th><th "
-        "class=\"n\">order<br/>errors</th></tr></thead>"
+        "<th class=\"n\">strokes</th><th class=\"n\">worked<br/>again</th><th "
+        "class=\"n\">out of<br/>turn</th></tr></thead>"
         "<tbody>\n";
     for (std::size_t j = 0; j < s.joints.size(); ++j) put_joint_row(out, s, j);
     out += "</tbody></table></div>\n" + (loosening ? std::string(loosening_note) : judging_note(s));

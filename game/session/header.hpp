@@ -66,7 +66,7 @@ std::string servo_text(double rate);
 //   `view_help` is set                simulated: only sessions of simulated trainees record it
 //   `trainee_profile` is "person"     person
 //   `tool` is not empty               person: the format is 4 or newer, in which every session of a simulated
-//                                     trainee has `view_help`
+//                                     trainee has `view_help`, and this one has none
 //   none of these                     unrecorded
 TraineeKind trainee_kind(const Header& header);
 

@@ -137,7 +137,7 @@ void lesson_system(const world::WriteHaptics& world, TickContext& tick) {
     // The last checkpoint belongs to the due step, or to the last step once all are done.
     const std::uint32_t done = lesson.due() == nullptr ? 1U : 0U;
     (void)lesson::undo_steps(lesson, world, undone - 1U + unsaved + done);
-    tracker.steps_begun = saved;  // counts the restored checkpoint too: that of the step that is due again
+    tracker.steps_begun = saved;  // the last one is that of the step that is due again
 }
 
 LessonSession::~LessonSession() = default;

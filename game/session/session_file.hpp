@@ -37,8 +37,9 @@ namespace bolt::session {
 // ticks collected so far.
 class SessionWriter {
   public:
-    // Creates a missing folder. Keeps an existing file at `path` beside it as <stem>.previous<extension>,
-    // merged into one file, and replaces an earlier one of that name; a session without any tick is not kept.
+    // Creates a missing folder. Merges an existing file at `path` with its -wal file and renames it to
+    // <stem>.previous<extension>, which replaces an earlier file of that name; a session without any tick is
+    // deleted.
     // Fails, and changes nothing, if another writer in this or another program is recording into `path` or
     // has it open. If several writers create it at the same time, one succeeds and holds the file until
     // finish() or its destruction.

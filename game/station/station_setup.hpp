@@ -49,8 +49,8 @@ DeviceSelection select_any_devices(std::span<const device::ListedDevice> connect
 std::vector<std::string> ids_of(const DeviceSelection& selection);
 
 // If `ids` is empty, sets it to the devices of the station file. Fails if a device of the file is connected
-// and cannot have its role, or with ErrorCode::usage if one of `ids` has the role of another device in the
-// file, because the file's settings are for that other device.
+// and cannot have its role. Fails with ErrorCode::usage if one of `ids` would take a role that the file gives
+// to another device, because the file's settings are for that device.
 Status add_devices_of(const content::StationFile& station, std::span<const device::ListedDevice> connected,
                       std::vector<std::string>& ids);
 

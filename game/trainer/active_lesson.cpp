@@ -153,7 +153,7 @@ void handle_mouse_input(ActiveLesson& active, const FrameInput& input, const Pro
     }
     if (active.undo.target && hand_of(active).nut) command.retreat = true;
     if (active.clock.finished || active.clock.paused) command = {};
-    trainer::apply_command(active.mouse, command, active.session->setup(), active.session->state());
+    trainer::apply_command(active.helped_hand, command, active.session->setup(), active.session->state());
 }
 
 }  // namespace
@@ -235,11 +235,11 @@ void step_ticks(scene::SceneWorld& world, LessonFrame& frame) {
     const servo::Setup& setup = session.setup();
     for (; active.clock.pending >= setup.dt && continues(active) && frame.status;
          active.clock.pending -= setup.dt) {
-        servo::TickInput input = step_hand(active.mouse, setup, session.state());
+        servo::TickInput input = step_hand(active.helped_hand, setup, session.state());
         if (const lesson::LessonStep* due = session.lesson().due(); due != nullptr && session.lesson().guides)
             input.guide = static_cast<std::int16_t>(due->joint);
         const auto undo = steps_to_undo(active.undo, session.lesson());
-        if (undo && active.mouse.action == HandAction::resting && !active.mouse.nut)
+        if (undo && active.helped_hand.action == HandAction::resting && !active.helped_hand.nut)
             session.request_undo(*undo);
         const Result<servo::Output> output = session.step(world, input);
         if (!output) {
@@ -248,7 +248,7 @@ void step_ticks(scene::SceneWorld& world, LessonFrame& frame) {
         }
         after_tick(world, active, *output);
     }
-    const WorkingHand hand = write_hand(world, hand_of(active.mouse));
+    const WorkingHand hand = write_hand(world, hand_of(active.helped_hand));
     if (hand.action == HandAction::reaching)
         active.handle_grip = scene::natural_grip(active.postures, hand.to, Vec3(0, 1, 0), active.shoulder);
 }

@@ -76,8 +76,8 @@ struct LessonVibration {
 
 struct ActiveLesson {
     std::unique_ptr<session::LessonSession> session;
-    std::optional<StationClient> station;  // none: the mouse moves the hand
-    HelpedHand mouse;
+    std::optional<StationClient> station;  // none: the helped hand plays
+    HelpedHand helped_hand;
     scene::Workplace workplace;  // contains the world
     render::Scene scene;
 

@@ -22,8 +22,8 @@ constexpr float min_run = 2.0F;                       // rad/s
 constexpr float min_load = 0.3F;
 constexpr double creep_for_caption = 0.02;  // rad under load, several stick-slip cycles (sound/synth.cpp)
 constexpr double creep_decay_time = 1.0;    // s
-constexpr double min_duration = 0.15;       // s, shortest other lasting sound with a caption
-constexpr double decay_rate = 3.0;          // relative to min_duration, after the sound has stopped
+constexpr double min_duration = 0.15;  // s, after which a lasting sound other than `groan` gets a caption
+constexpr double decay_rate = 3.0;     // how many times faster progress falls after the sound than it rose
 
 double& of(std::array<double, caption_count>& all, Caption caption) {
     return all.at(static_cast<std::size_t>(caption));
@@ -232,7 +232,7 @@ void draw_effort(const ActiveLesson& active, const words::Words& w, const glm::d
     const double force = std::abs(joint.torque) / setup.wrench.handle_length;
     const double greatest = setup.wrench.stiffness * to_radians(2.5) / setup.wrench.handle_length;
     const auto share = static_cast<float>(std::clamp(force / greatest, 0.0, 1.0));
-    begin_dialog("##strain", {static_cast<float>(0.5 * size.x), static_cast<float>(size.y) - 12.0F * scale},
+    begin_dialog("##effort", {static_cast<float>(0.5 * size.x), static_cast<float>(size.y) - 12.0F * scale},
                  {0.5F, 1.0F});
     text(words::format_text(w, "hud.pull", {{"force", words::Number{force, 0}}}));
     const ImVec2 low = ImGui::GetCursorScreenPos(), area(260.0F * scale, 12.0F * scale);

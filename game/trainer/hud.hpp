@@ -34,8 +34,8 @@ inline constexpr double caption_duration = 2.0;  // s
 
 struct Captions {
     std::array<double, caption_count> remaining{};  // s for which each is still shown
-    std::array<double, caption_count>
-        progress{};  // 0 … 1 of the duration after which a lasting sound gets its caption
+    // 0 … 1 of the time, or for `groan` of the nut's angle, after which a lasting sound gets its caption.
+    std::array<double, caption_count> progress{};
 };
 
 // Call once a tick of `dt` seconds.

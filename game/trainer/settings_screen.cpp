@@ -96,25 +96,28 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
         note_widget(context, key);
     }
     ImGui::Separator();
-    ImGui::Checkbox(words["menu.left_handed"].c_str(), &settings.left_handed);
-    note_widget(context, "menu.left_handed");
+    ImGui::Columns(2, "body and display", false);
+    const auto checkbox = [&](words::TextKey key, bool& value) {
+        const bool changed = ImGui::Checkbox(words[key].c_str(), &value);
+        note_widget(context, key);
+        return changed;
+    };
+    checkbox("menu.left_handed", settings.left_handed);
     bool seated = settings.seated_eye_height.has_value();
-    if (ImGui::Checkbox(words["menu.seated"].c_str(), &seated))
+    if (checkbox("menu.seated", seated))
         settings.seated_eye_height = seated ? std::optional(default_seat) : std::nullopt;
-    note_widget(context, "menu.seated");
+    draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::min_force_scale, 1.0});
+    note_widget(context, "menu.force_scale");
+    ImGui::NextColumn();
+    checkbox("menu.force_arrow", settings.force_arrow);
+    checkbox("menu.surroundings", settings.surroundings);
+    checkbox("menu.vignette", settings.vignette);
+    ImGui::Columns(1);
     if (settings.seated_eye_height) {
         draw_slider(words["settings.seated_height"].c_str(), *settings.seated_eye_height,
                     {content::min_seated_eye_height, content::max_seated_eye_height, "%.2f m", 1.0});
         note_widget(context, "settings.seated_height");
     }
-    draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::min_force_scale, 1.0});
-    note_widget(context, "menu.force_scale");
-    ImGui::Checkbox(words["menu.force_arrow"].c_str(), &settings.force_arrow);
-    note_widget(context, "menu.force_arrow");
-    ImGui::Checkbox(words["menu.surroundings"].c_str(), &settings.surroundings);
-    note_widget(context, "menu.surroundings");
-    ImGui::Checkbox(words["menu.vignette"].c_str(), &settings.vignette);
-    note_widget(context, "menu.vignette");
 }
 
 void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {

@@ -63,7 +63,7 @@ struct JawFit {
     // m along the flats from the axis to the two ends of the contact.
     double toward_throat = 0.0, toward_mouth = 0.0;
     double lateral_offset = 0.0;  // m, from the middle of the slot to the bolt's axis
-    double tilt = 0.0;            // rad, about the flats' length
+    double tilt = 0.0;            // rad, rotation of the jaw about the direction along its flats
 
     // Returns true if the hexagon is between the flats, at whatever angle.
     [[nodiscard]] bool surrounds(double opening) const {

@@ -39,8 +39,9 @@ struct PluginArmOptions {
 // Opens arm `index`. The error has a need (preparation_of()) in these cases:
 // - permission: the arm must move by itself, and `may_move` is false;
 // - user: the user must act;
-// - wait: with `waiting` and without `may_move`, the arm calibrates for longer than 0.5 s.
-// For user and wait, the arm stays open in `waiting` and continues its calibration at the next opening.
+// - wait: the arm still calibrates after 0.5 s. Without `waiting`, or with `may_move`, the call waits
+// instead. For user and wait, the arm stays open in `waiting` and continues its calibration at the next
+// opening.
 Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& options, Timer timer);
 
 }  // namespace bolt::device

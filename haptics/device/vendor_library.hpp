@@ -15,7 +15,7 @@ namespace bolt::device {
 
 class VendorLibrary {
   public:
-    // Loads the first of `candidates` that exists: a path, or a name without a slash, which the loader
+    // Loads the first of `candidates` that can be loaded: a path, or a name without a slash, which the loader
     // searches. If none can be loaded: ErrorCode::failed with the reason for the last path that exists, or
     // ErrorCode::no_device if no path exists. The library stays loaded until the program ends, because
     // vendors' threads may outlive a device.

@@ -51,7 +51,7 @@ double aligning_potential(double max_torque, const Hexagon& hexagon, const Vec3&
 // Plans a path for the guiding force around obstacles. The caller supplies the line-of-sight query (Embree,
 // in the servo), so the force never pulls through a housing.
 
-// Returns true if the straight segment is free. The query may include a margin as wide as the tool.
+// Returns true if the straight segment is free for a point; a query may also include a margin for the tool.
 using IsSegmentFree = FunctionRef<bool(const Vec3& from, const Vec3& to)>;
 
 struct GuideTarget {
@@ -68,15 +68,18 @@ struct GuidePath {
     std::size_t count = 0;         // 0: no path found
 };
 
-// Candidates: the straight segment, if it reaches the target along the axis, or from the side at the height
-// of the nut; via the approach point; over the target at several heights; around one side. Returns the
-// shortest free candidate. If none is free, returns the straight segment, whatever its direction, if it is
-// free; else an empty path. Queries `free` at most 100 times.
+// Candidates:
+// - the straight segment, if it ends along the axis or, at the height of the nut, from the side;
+// - via the approach point;
+// - over the target at several heights;
+// - around one side.
+// Returns the shortest free candidate. If none is free, returns the straight segment, whatever its direction,
+// if it is free; else an empty path. Queries `free` at most 100 times.
 GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree free);
 
-// The lowest height above the target, m, to which the tool may be led from its present position. The segment
-// queries ignore the width of the tool, and near the target the tool is certain to fit only along the axis.
-// So it is led at constant height until it is inside a cone about the axis, then down.
+// The lowest height above the target, m, to which the tool may be led from its present position. A segment
+// that is free for a point may be too narrow for the tool, and near the target the tool is certain to fit
+// only along the axis. So it is led at constant height until it is inside a cone about the axis, then down.
 double lowest_permitted_height(const GuideTarget& target, const Vec3& tool);
 
 // Moves the end of the path, and the approach point if there is one, to the target's present position.

@@ -60,11 +60,11 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
 // (haptics/collision/jaw.hpp); the corners limit the torque that it can transmit (haptics/joint/nut.hpp).
 //
 // The joint law alone, with its implicit step, acts about the bolt's axis; contacts act in the other five
-// directions. To separate them, contact queries turn the hexagon with the jaw once the play is used up, and
-// the moment of the contacts about the bolt is not rendered. If contacts drove the nut instead, its torque
-// would depend on the position error of the god-object: 0.01 mm at a corner changes a torque of 100 N·m by 3
-// N·m. The force is continuous at engagement: inside the play both the law's torque and the removed moment
-// are zero.
+// directions. To separate them, contact queries get a hexagon that turns with the jaw once the play is used
+// up, and the moment of the contacts about the bolt is not rendered. If contacts drove the nut instead, its
+// torque would depend on the position error of the god-object: 0.01 mm at a corner changes a torque of 100
+// N·m by 3 N·m. The force is continuous at engagement: inside the play both the law's torque and the removed
+// moment are zero.
 
 // Pose of the wrench in the nut's frame.
 Pose pose_in_nut_frame(const NutGeometry& nut, double nut_angle, const ToolPose& tool);

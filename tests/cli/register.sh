@@ -251,6 +251,7 @@ control 'event recentre stage'
 wait $player
 check 'a recentred headset has exit code 1' test $? = 1
 check 'with the reason: the points would be in two frames' grep -q 'the headset was recentred while points were measured' log
+hold 0 0 0 0
 start
 check 'a first point is asked for' eventually asked_for 1 controller
 control 'event instance_loss'

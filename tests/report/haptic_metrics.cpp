@@ -152,16 +152,6 @@ TEST_CASE("Haptic metrics: duration of each fault of the output") {
     CHECK(metrics.faults[0] == 0.0);
 }
 
-TEST_CASE("Quartiles: they agree with numpy.percentile, and values that are not finite are ignored") {
-    const Quartiles q = quartiles({7.0, 1.0, 3.0, bolt::nan, 10.0, 4.0, 20.0});
-    CHECK(q.n == 6);
-    CHECK(q.low == doctest::Approx(3.25));  // numpy.percentile([1, 3, 4, 7, 10, 20], [25, 50, 75])
-    CHECK(q.median == doctest::Approx(5.5));
-    CHECK(q.high == doctest::Approx(9.25));
-    CHECK(quartiles({2.0}).high == 2.0);
-    CHECK_FALSE(std::isfinite(quartiles({}).median));
-}
-
 TEST_CASE("Haptics section: shows all metrics, and names those that an old session lacks") {
     ScriptedSession script;
     script.touch(200, 230, ObstacleId::fixed(0));

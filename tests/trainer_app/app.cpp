@@ -268,13 +268,13 @@ TEST_CASE("Trainer: a press counts at its position even if the pointer moves on 
     const glm::dvec2 away(5.0, 90.0);
     driver.release(driver.hold(first));
     driver.move(away);
-    for (int i = 0; i < 40 && p.mouse.action != HandAction::resting; ++i) driver.frame();
+    for (int i = 0; i < 40 && p.helped_hand.action != HandAction::resting; ++i) driver.frame();
     REQUIRE_FALSE(p.pointer.nut);
     const auto there = project(driver.projection(), servo::nut_centre(p.session->setup().nuts[other], 0.0));
     REQUIRE(there);
     driver.frame({platform::CursorEvent{*there}, platform::ButtonEvent{platform::Button::left, true, *there},
                   platform::CursorEvent{away}});
-    CHECK(p.mouse.nut == other);
+    CHECK(p.helped_hand.nut == other);
 }
 
 TEST_CASE("Trainer: hints are shown in every language, and none in an assessment") {

@@ -54,7 +54,7 @@ void SimulatedUser::do_step() {
     const std::size_t joint = due()->joint;
     glm::dvec2 pointer = *at;
     dragged_ = now();
-    while (going() && due() != nullptr && lesson().mouse.button_down && now() - pressed < longest_hold)
+    while (going() && due() != nullptr && lesson().helped_hand.button_down && now() - pressed < longest_hold)
         if (fingers ? spin(*at, pointer) : pull(joint, pointer)) break;
     driver_.release(pointer);
     wait(0.5);
@@ -95,7 +95,7 @@ bool SimulatedUser::pull(std::size_t joint, glm::dvec2& pointer) {
     const bool yields = session.state().joints[joint].stage == joint::Stage::yield;
     const double until = torque_share * step_due.torque;
     if (lesson::requires_yield(session.lesson(), step_due) ? yields : torque >= until) return true;
-    if (hand_of(lesson()).free_swing < spent * lesson().mouse.free_swing) return true;
+    if (hand_of(lesson()).free_swing < spent * lesson().helped_hand.free_swing) return true;
     const glm::dvec2 lever = lever_on_screen(driver_.projection(), tool_of(lesson()).pose,
                                              setup.nuts[joint].axis, setup.wrench.handle_length);
     const double share = std::max(slowest_share, 1.0 - torque / until);

@@ -86,7 +86,7 @@ Result<ShadowPass> ShadowPass::create(const PassSetup& setup, std::uint32_t size
     return pass;
 }
 
-bool ShadowPass::describe(const Scene& scene, shared::FrameData& frame) {
+bool ShadowPass::set_shadow_view(const Scene& scene, shared::FrameData& frame) {
     if (!casts_shadow(scene)) return false;
     Scene casters = shadow_casters(scene, false);
     if (casters.objects.empty()) casters = shadow_casters(scene, true);

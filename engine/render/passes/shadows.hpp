@@ -11,9 +11,9 @@ class ShadowPass {
   public:
     static Result<ShadowPass> create(const PassSetup& setup, std::uint32_t size);
 
-    // Returns whether light 0 casts a shadow in this scene, and if so sets the shadow view in `frame`. The
+    // If light 0 casts a shadow, sets the shadow view in `frame`; returns false if it casts none. The
     // view contains the static objects; it contains the moving objects only if there are no static ones.
-    static bool describe(const Scene& scene, shared::FrameData& frame);
+    static bool set_shadow_view(const Scene& scene, shared::FrameData& frame);
 
     Status draw(PassContext& context);
     // Returns the map for shaders, in use `depth_read`.

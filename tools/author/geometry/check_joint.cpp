@@ -389,8 +389,8 @@ void check_swing(const SwingPair& swings, const WrenchShape& wrench, std::size_t
         messages.error(joint_pointer(index),
                        fmt::format("{} has {} of free swing on the nut{}: {}", wrench.name,
                                    in_degrees(swings), where, place),
-                       // With enough swing both ways up, the head collides and not the handle, both ways up
-                       // at the same jaw angles.
+                       // If the swing is enough either way up, the head limits the wrench, at the same jaw
+                       // angles either way up, so that turning it over gains nothing.
                        head_angle < to_radians(1.0) || swings.least() >= min_swing
                            ? "60 degrees: turning the wrench over gains nothing here"
                            : "30 degrees or more both ways up, or 60 one way up");

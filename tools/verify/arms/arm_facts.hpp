@@ -48,7 +48,7 @@ struct HandGrip {
     std::string_view name;
     double mass = 0.0, damping = 0.0, stiffness = 0.0;                     // kg, N·s/m, N/m
     double inertia = 0.0, angular_damping = 0.0, angular_stiffness = 0.0;  // kg·m², N·m·s/rad, N·m/rad
-    bool unheld = false;  // nobody holds the arm: a spring so soft that it pushes with one constant force
+    bool unheld = false;  // nobody holds the arm; a very soft spring stands for a constant push
 };
 
 inline constexpr std::size_t grip_count = 4;
