@@ -38,7 +38,7 @@ install(FILES ${BOLT_PACKAGING}/boltwright.desktop ${BOLT_PACKAGING}/boltwright-
 install(FILES ${BOLT_PACKAGING}/boltwright.svg DESTINATION share/icons/hicolor/scalable/apps COMPONENT boltwright)
 install(FILES ${BOLT_PACKAGING}/boltwright.xml DESTINATION share/mime/packages COMPONENT boltwright)
 install(FILES ${BOLT_PACKAGING}/io.github.boltwright.metainfo.xml DESTINATION share/metainfo COMPONENT boltwright)
-install(DIRECTORY content/assemblies content/environments content/hands content/schema content/tools
+install(DIRECTORY content/assemblies content/environments content/hands content/questionnaires content/schema content/tools
     DESTINATION ${content} COMPONENT content FILES_MATCHING REGEX "\\.(json|glb|step|hdr)$")
 install(FILES content/materials.json DESTINATION ${content} COMPONENT content)
 install(TARGETS bolt-author RUNTIME DESTINATION bin COMPONENT author)
@@ -95,7 +95,7 @@ set(CPACK_DEBIAN_CONTENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_CONTENT_DEBUGINFO_PACKAGE OFF)
 set(CPACK_DEBIAN_CONTENT_DESCRIPTION "assemblies and tools for Boltwright
 The gear reducer ZQ350, a flange DN 200, a bearing cover, wrenches, hands and
-a workshop, as glTF models with their STEP sources.")
+a workshop, as glTF models with their STEP sources; questionnaires for studies.")
 set(CPACK_DEBIAN_AUTHOR_PACKAGE_NAME boltwright-author)
 set(CPACK_DEBIAN_AUTHOR_PACKAGE_SECTION education)
 set(CPACK_DEBIAN_AUTHOR_PACKAGE_DEPENDS "boltwright (= ${PROJECT_VERSION})")

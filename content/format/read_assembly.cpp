@@ -21,12 +21,9 @@ constexpr double default_accuracy_percent = 4.0;  // ISO 6789-1: type II, class 
 constexpr double default_field_of_view = to_radians(40.0);
 
 std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode& node) {
-    std::map<std::string, std::string> texts;
-    for (const JsonNode& item : reader.items(node))
-        if (const auto text = reader.text(item)) texts[last_token(item.pointer)] = *text;
     for (const char* language : {"en", "de", "zh"})
         reader.member(node, language);  // known names; other codes are accepted too
-    return texts;
+    return reader.texts(node);
 }
 
 // Reads the members of a click-type torque wrench. On another tool they are an error.

@@ -56,6 +56,13 @@ std::optional<std::string> JsonReader::text(const JsonNode& node) const {
     return node.value->get<std::string>();
 }
 
+std::map<std::string, std::string> JsonReader::texts(const JsonNode& object) const {
+    std::map<std::string, std::string> texts;
+    for (const JsonNode& item : items(object))
+        if (auto member = text(item)) texts[last_token(item.pointer)] = *std::move(member);
+    return texts;
+}
+
 std::optional<double> JsonReader::number(const JsonNode& node) const {
     if (!node || !node.value->is_number()) return std::nullopt;
     return node.value->get<double>();

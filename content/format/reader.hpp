@@ -3,6 +3,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
@@ -43,6 +44,7 @@ class JsonReader {
     std::vector<JsonNode> items(
         const JsonNode& array) const;  // elements of an array, or members of an object
     std::optional<std::string> text(const JsonNode& node) const;
+    std::map<std::string, std::string> texts(const JsonNode& object) const;  // its texts, by member name
     std::optional<double> number(const JsonNode& node) const;
     std::optional<bool> boolean(const JsonNode& node) const;
     std::optional<Vec3> vector(const JsonNode& node) const;
