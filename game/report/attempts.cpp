@@ -305,13 +305,16 @@ std::string study_table(const AttemptList& with, const AttemptList& without, con
         const StudyMeasure& m = *compared[i];
         const std::vector<double> a = values_of(with, m), b = values_of(without, m);
         const statistics::Shift shift = statistics::independent_shift(a, b);
+        // A few lessons give no interval of 95 %.
+        const std::string difference =
+            shift.confidence < 0.95
+                ? plot::number(shift.estimate, m.decimals)
+                : quartile_text({shift.interval.low, shift.estimate, shift.interval.high, 0}, m.decimals);
         put(out,
             "<tr><td class=\"w\">{}, {}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
             "class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
             m.name, m.unit, quartile_text(statistics::quartiles(a), m.decimals),
-            quartile_text(statistics::quartiles(b), m.decimals),
-            quartile_text({shift.interval.low, shift.estimate, shift.interval.high, a.size()}, m.decimals),
-            p_text(adjusted[i]));
+            quartile_text(statistics::quartiles(b), m.decimals), difference, p_text(adjusted[i]));
     }
     return out +
            "</tbody></table></div>\n<p class=\"note\">Difference: the median of the differences of all pairs "

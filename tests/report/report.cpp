@@ -316,6 +316,24 @@ TEST_CASE("Report: only attempts with the same assembly, task, variant and law a
     CHECK_FALSE(has(attempts_section(attempts), "<h2>"));
 }
 
+TEST_CASE("Report: a study has the difference of the groups, its interval and its exact test") {
+    std::vector<Attempt> attempts;
+    for (int i = 0; i < 12; ++i) {
+        Attempt a = attempt_of(synthetic_session({}).data);
+        a.guided = i % 2 == 0;
+        a.score = (a.guided ? 60.0 : 40.0) + i / 2;
+        attempts.push_back(a);
+    }
+    const std::string html = guiding_study(attempts);
+    CHECK(markup_fault(html) == "");
+    // The 6th smallest and largest of the 36 differences.
+    CHECK(has(html, "<td class=\"n\">20.0 <span class=\"of\">(17.0 to 23.0)</span></td>"));
+    CHECK(has(html, "<td class=\"n\">0.013</td>"));  // 2/924, times the six rows of the table
+    CHECK(has(html, "<td class=\"n\">1.000</td>"));
+    attempts.resize(2);
+    CHECK(has(guiding_study(attempts), "<td class=\"n\">20.0</td>"));  // too few for an interval
+}
+
 TEST_CASE("Learning curves: one for each trainee, with the axes of all") {
     std::vector<Attempt> attempts;
     for (int i = 0; i < 10; ++i) {
