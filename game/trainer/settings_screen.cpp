@@ -106,6 +106,7 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     bool seated = settings.seated_eye_height.has_value();
     if (checkbox("menu.seated", seated))
         settings.seated_eye_height = seated ? std::optional(default_seat) : std::nullopt;
+    ImGui::SetNextItemWidth(0.4F * ImGui::GetColumnWidth());  // the label needs the rest of the column
     draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::min_force_scale, 1.0});
     note_widget(context, "menu.force_scale");
     ImGui::NextColumn();
