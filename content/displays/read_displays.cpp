@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "content/displays/embedded_schema.hpp"
+#include "content/format/embedded.hpp"
 #include "content/format/reader.hpp"
 
 namespace bolt::content {

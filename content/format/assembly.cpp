@@ -295,7 +295,7 @@ Status create_assembly(const fs::path& folder, std::string_view name) {
         BOLT_TRY(created.file(target / model.filename(), bytes));
     }
     BOLT_TRY(created.file(target / "assembly.json", text));
-    if (!inside) BOLT_TRY(created.file(target / schema_name, schema_text()));
+    if (!inside) BOLT_TRY(created.file(target / schema_name, assembly_schema_text()));
     created.commit();
     return {};
 }

@@ -335,7 +335,7 @@ bool is_inside(const std::vector<std::string>& inner, const std::vector<std::str
 }  // namespace
 
 const JsonSchema& assembly_schema() {
-    static const JsonSchema schema(schema_text());
+    static const JsonSchema schema(assembly_schema_text());
     return schema;
 }
 

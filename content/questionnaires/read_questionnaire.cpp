@@ -4,8 +4,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "content/format/embedded.hpp"
 #include "content/format/reader.hpp"
-#include "content/questionnaires/embedded_schema.hpp"
 #include "content/questionnaires/questionnaire.hpp"
 #include "engine/base/file.hpp"
 

@@ -124,7 +124,7 @@ class Swapchain {
     std::uint32_t next_acquire_ = 0;
     VkExtent2D window_{};
     bool stale_ = true, lost_ = false;
-    bool suboptimal_ = false, ignore_suboptimal_ = false;  // normal: not due to a wrong size, so ignored
+    bool suboptimal_ = false, ignore_suboptimal_ = false;  // ignored while the size is right
     std::uint32_t losses_ = 0;                             // of the surface, since the last presentation
     std::uint32_t creations_ = 0;
 };

@@ -16,10 +16,10 @@
 // Lighting is deferred, because a part's triangles are often smaller than the blocks that a rasteriser
 // shades: with forward lighting the same picture of the reducer took nearly three times as long on lavapipe.
 //
-// Each pass is a class in passes/ with its pipelines. A batch is the views that one draw draws,
-// one layer each: with multiview all views of a size. If the driver's multiview is wrong (multiview_works),
-// each view is a batch with images of its own. Separate images are needed because lavapipe of Mesa 22.3
-// always resolves into layer 0, even if the image view begins with another layer.
+// Each pass is a class in passes/ with its pipelines. A batch has the views that one draw call
+// renders, one layer each: with multiview all views of a size. If the driver's multiview is wrong
+// (multiview_works), each view is a batch with images of its own. Separate images are needed because lavapipe
+// of Mesa 22.3 always resolves into layer 0, even if the image view begins with another layer.
 #pragma once
 
 #include <optional>

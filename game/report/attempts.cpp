@@ -286,13 +286,17 @@ std::string p_text(double p) { return p < 0.001 ? "&lt; 0.001" : plot::number(p,
 
 // Quartiles of both groups, and their difference with its test; Holm's correction is for all rows.
 std::string study_table(const AttemptList& with, const AttemptList& without, const StudyFactor& factor) {
-    std::vector<const StudyMeasure*> compared;
+    struct Row {
+        const StudyMeasure* measure;
+        std::vector<double> with, without;
+    };
+    std::vector<Row> rows;
     std::vector<double> p;
     for (const StudyMeasure& m : measures) {
-        const std::vector<double> a = values_of(with, m), b = values_of(without, m);
-        if (a.empty() && b.empty()) continue;
-        compared.push_back(&m);
-        p.push_back(statistics::rank_sum_test(a, b).p_two_sided);
+        Row row{&m, values_of(with, m), values_of(without, m)};
+        if (row.with.empty() && row.without.empty()) continue;
+        p.push_back(statistics::rank_sum_test(row.with, row.without).p_two_sided);
+        rows.push_back(std::move(row));
     }
     const std::vector<double> adjusted = statistics::holm(p);
     std::string out;
@@ -301,20 +305,20 @@ std::string study_table(const AttemptList& with, const AttemptList& without, con
         "class=\"n\">{}</th><th class=\"n\">difference<br/>(95 % interval)</th><th "
         "class=\"n\">p</th></tr></thead><tbody>\n",
         factor.with, factor.without);
-    for (std::size_t i = 0; i < compared.size(); ++i) {
-        const StudyMeasure& m = *compared[i];
-        const std::vector<double> a = values_of(with, m), b = values_of(without, m);
-        const statistics::Shift shift = statistics::independent_shift(a, b);
-        // A few lessons give no interval of 95 %.
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const StudyMeasure& m = *rows[i].measure;
+        const statistics::Shift shift = statistics::independent_shift(rows[i].with, rows[i].without);
+        // A few lessons give no interval of 95 %; 1e-9 is for rounding.
         const std::string difference =
-            shift.confidence < 0.95
+            shift.confidence < 0.95 - 1e-9
                 ? plot::number(shift.estimate, m.decimals)
                 : quartile_text({shift.interval.low, shift.estimate, shift.interval.high, 0}, m.decimals);
         put(out,
             "<tr><td class=\"w\">{}, {}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
             "class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
-            m.name, m.unit, quartile_text(statistics::quartiles(a), m.decimals),
-            quartile_text(statistics::quartiles(b), m.decimals), difference, p_text(adjusted[i]));
+            m.name, m.unit, quartile_text(statistics::quartiles(rows[i].with), m.decimals),
+            quartile_text(statistics::quartiles(rows[i].without), m.decimals), difference,
+            p_text(adjusted[i]));
     }
     return out +
            "</tbody></table></div>\n<p class=\"note\">Difference: the median of the differences of all pairs "

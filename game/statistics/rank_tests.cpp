@@ -10,7 +10,8 @@ namespace bolt::statistics {
 
 namespace {
 
-constexpr std::size_t max_exact = 100;  // values of a rank sum test; its time grows with their fourth power
+// Values below which distributions are exact: the time for that of rank sums grows with their fourth power.
+constexpr std::size_t max_exact = 100;
 
 double median_of_sorted(std::span<const double> sorted) {
     const std::size_t half = sorted.size() / 2;
@@ -72,22 +73,34 @@ Tails tails(std::span<const double> p, std::size_t x) {
     return {less, greater, std::min(1.0, 2.0 * std::min(less, greater))};
 }
 
-// The interval between the k-th smallest and the k-th largest of the averages or differences: k − 1 is the
-// largest count with P(X ≤ k − 1) ≤ (1 − confidence) / 2, and k is at least 1. `p`: of the count of averages
-// or differences that are positive if there is no shift.
-Shift shift_of(std::vector<double> sorted, std::span<const double> p, double confidence) {
-    std::sort(sorted.begin(), sorted.end());
-    Shift shift;
-    shift.estimate = median_of_sorted(sorted);
-    const double tail = 0.5 * (1.0 - confidence);
+// The count of averages or differences that are positive if there is no shift: the probability of each count
+// or, for large samples, only the standard deviation about half of all, whose normal distribution is used.
+struct PositiveCount {
+    std::vector<double> p;
+    double deviation = 0.0;
+};
+
+// The largest k ≥ 1 with P(count ≤ k − 1) ≤ tail, and that probability.
+std::pair<std::size_t, double> lowest_counts(const PositiveCount& count, std::size_t all, double tail) {
+    if (count.p.empty()) {
+        const double z = boost::math::quantile(boost::math::normal(), tail);
+        const double k = std::floor(0.5 * static_cast<double>(all) + z * count.deviation + 0.5);
+        return {static_cast<std::size_t>(std::max(1.0, k)), tail};
+    }
     std::size_t k = 0;
     double below = 0.0;
-    while (k < sorted.size() && below + p[k] <= tail) below += p[k++];
-    if (k == 0) below = p[k++];
-    k = std::min(k, sorted.size());
-    shift.interval = {sorted[k - 1], sorted[sorted.size() - k]};
-    shift.confidence = std::max(0.0, 1.0 - 2.0 * below);
-    return shift;
+    while (k < all && below + count.p[k] <= tail) below += count.p[k++];
+    if (k == 0) below = count.p[k++];
+    return {std::min(k, all), below};
+}
+
+// The interval between the k-th smallest and the k-th largest of the averages or differences.
+Shift shift_of(std::vector<double> sorted, const PositiveCount& count, double confidence) {
+    std::sort(sorted.begin(), sorted.end());
+    const auto [k, below] = lowest_counts(count, sorted.size(), 0.5 * (1.0 - confidence));
+    return {median_of_sorted(sorted),
+            {sorted[k - 1], sorted[sorted.size() - k]},
+            std::max(0.0, 1.0 - 2.0 * below)};
 }
 
 // The distribution by whole counts from the one by doubled ranks, of which only even sums occur.
@@ -177,8 +190,12 @@ Shift paired_shift(std::span<const double> differences, double confidence) {
     std::vector<double> averages;
     for (std::size_t i = 0; i < kept.size(); ++i)
         for (std::size_t j = i; j < kept.size(); ++j) averages.push_back(0.5 * (kept[i] + kept[j]));
-    const std::vector<double> p = signed_sums(ranks_without_ties(kept.size()));
-    return shift_of(std::move(averages), every_second(p, 0), confidence);
+    const auto n = static_cast<double>(kept.size());
+    const PositiveCount count =
+        kept.size() < max_exact
+            ? PositiveCount{every_second(signed_sums(ranks_without_ties(kept.size())), 0), 0.0}
+            : PositiveCount{{}, std::sqrt(n * (n + 1.0) * (2.0 * n + 1.0) / 24.0)};
+    return shift_of(std::move(averages), count, confidence);
 }
 
 RankSumTest rank_sum_test(std::span<const double> a, std::span<const double> b) {
@@ -207,9 +224,15 @@ Shift independent_shift(std::span<const double> a, std::span<const double> b, do
     std::vector<double> differences;
     for (const double x : a)
         for (const double y : b) differences.push_back(x - y);
-    const std::vector<double> p = drawn_sums(ranks_without_ties(a.size() + b.size()), a.size());
-    // The smallest doubled sum of the ranks of `a`; from there on each count of positive differences.
-    return shift_of(std::move(differences), every_second(p, a.size() * (a.size() + 1)), confidence);
+    const std::size_t n = a.size() + b.size();
+    const auto pairs = static_cast<double>(differences.size());
+    // The smallest doubled sum of the ranks of `a` is a.size() (a.size() + 1).
+    const PositiveCount count =
+        n < max_exact ? PositiveCount{every_second(drawn_sums(ranks_without_ties(n), a.size()),
+                                                   a.size() * (a.size() + 1)),
+                                      0.0}
+                      : PositiveCount{{}, std::sqrt(pairs * (static_cast<double>(n) + 1.0) / 12.0)};
+    return shift_of(std::move(differences), count, confidence);
 }
 
 FriedmanTest friedman_test(std::span<const std::vector<double>> rows) {

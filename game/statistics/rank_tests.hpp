@@ -17,8 +17,8 @@ std::vector<double> midranks(std::span<const double> values);
 // An estimate of a location shift with its interval (Hodges and Lehmann 1963).
 struct Shift {
     double estimate = std::numeric_limits<double>::quiet_NaN();
-    Interval interval;  // between two of the averages or differences, so that it covers at least `confidence`
-    double confidence = 0.0;  // exact without ties
+    Interval interval;        // from one of the averages or differences to another
+    double confidence = 0.0;  // of the interval; exact without ties, below 100 values
 };
 
 // Wilcoxon's signed rank test of paired differences.
@@ -26,7 +26,7 @@ struct SignedRankTest {
     std::size_t n = 0;                      // of differences that are not zero
     std::size_t zeros = 0;                  // differences that are zero; they are dropped
     double positive = 0.0, negative = 0.0;  // sums of the ranks of positive and of negative differences
-    // Exact, also with ties: of all 2^n assignments of signs to the midranks.
+    // Exact, also with ties: of all 2^n assignments of signs to the midranks. The time grows with n³.
     double p_greater = 1.0, p_less = 1.0, p_two_sided = 1.0;
     double rank_biserial = 0.0;  // (positive − negative) / (n (n + 1) / 2), −1 … 1
 };

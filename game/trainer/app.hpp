@@ -62,7 +62,7 @@ class App : public view::WindowContent {
     Status share(cluster::MessageWriter& message) override;
     // Fails if the GPU fails, or the session cannot be recorded.
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
-    void move_eyes(const view::WindowFrame& window) override;
+    bool move_eyes(const view::WindowFrame& window) override;
     // Called instead of update() and draw() while the window is minimised: pauses a station.
     Status frame_while_hidden() override;
 

@@ -202,9 +202,10 @@ Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& imme
     return darkens ? draw_vignette(*gpu_->context->renderer, frame, room_->vignette, immersive) : Status{};
 }
 
-void App::move_eyes(const view::WindowFrame& window) {
+bool App::move_eyes(const view::WindowFrame& window) {
     // draw() may have ended the lesson, so scene_in_room() may differ from the drawn pose.
     if (room_) move_eyes_in_room(*gpu_->context->renderer, room_->drawn_scene, *window.immersive);
+    return room_.has_value();
 }
 
 }  // namespace bolt::trainer

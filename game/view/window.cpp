@@ -172,13 +172,15 @@ Status FrameLoop::draw_window(WindowFrame window) {
 
 void FrameLoop::latch_eyes(xr::HeadsetFrame& frame, const WindowFrame& window, ImmersiveFrame& immersive) {
     const xr::HeadView recorded = frame.view;
+    const std::vector<EyeGroup> recorded_groups = immersive.groups;
     options_.headset->locate(frame);
-    if (frame.view.eyes.size() != recorded.eyes.size()) {
-        frame.view = recorded;
-        return;
+    if (frame.view.eyes.size() == recorded.eyes.size()) {
+        immersive.groups = {eye_group(frame.view, recorded_groups.front().size)};
+        if (content_.move_eyes(window)) return;
     }
-    immersive.groups = {eye_group(frame.view, immersive.groups.front().size)};
-    content_.move_eyes(window);
+    // The runtime must get the pose that the pictures are drawn for.
+    frame.view = recorded;
+    immersive.groups = recorded_groups;
 }
 
 // A frame of the headset; the window mirrors the first eye, and never delays the headset.

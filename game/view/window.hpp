@@ -45,9 +45,9 @@ class WindowContent {
     // with one, each group of eyes is drawn as a group of the renderer. The poses of the eyes may be newer
     // than those of update().
     virtual Status draw(gpu::FrameContext& frame, const WindowFrame& window) = 0;
-    // Called between draw() and the submission of a headset's frame, if its eyes have moved meanwhile: moves
-    // those of the recorded pictures (Renderer::move_eyes).
-    virtual void move_eyes(const WindowFrame&) {}
+    // Called between draw() and the submission of a headset's frame, with its latest eyes: moves those of the
+    // recorded pictures there (Renderer::move_eyes). Returns false if they stay where draw() had them.
+    virtual bool move_eyes(const WindowFrame&) { return false; }
     // The picture for the window, valid after draw(). On walls the control window shows all of it; the window
     // of a headset does not use it.
     [[nodiscard]] virtual render::ImageLayer window_picture(const render::Renderer& renderer) const {

@@ -50,12 +50,12 @@ Quat from_vendor_frame(const double rotation[3][3]) {
     return glm::normalize(glm::quat_cast(matrix));
 }
 
-Error arm_error(const ForceDimensionApi& api, const std::string& name, const char* failure) {
+Error arm_error(const ForceDimensionApi& api, const std::string& name, const char* problem) {
     const int code = api.get_error();
     const char* text = api.get_error_text();
     Error error;
     error.code = ErrorCode::no_device;
-    error.what = fmt::format("{}: {}: {}", name, failure, text != nullptr ? text : "no reason given");
+    error.what = fmt::format("{}: {}: {}", name, problem, text != nullptr ? text : "no reason given");
     error.expected = code == error_in_use ? "an arm that no other program uses"
                                           : "an arm that is switched on and connected by USB";
     error.lost = code == error_communication || code == error_no_device || code == error_timeout ||
@@ -234,8 +234,8 @@ class ForceDimensionArm final : public DeviceDriver {
         return {};
     }
 
-    [[nodiscard]] Status failure(const char* failure) const {
-        return fail(arm_error(api_, description_.name, failure));
+    [[nodiscard]] Status failure(const char* problem) const {
+        return fail(arm_error(api_, description_.name, problem));
     }
 
     // An arm that has braked must be opened again, so that its force grows slowly from zero.

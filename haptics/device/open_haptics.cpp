@@ -50,11 +50,11 @@ unsigned gravest_error(const OpenHapticsApi& api) {
 
 bool is_lost(unsigned code) { return code >= first_fault && code < no_licence && code != already_initiated; }
 
-Error arm_error(const OpenHapticsApi& api, const std::string& name, const char* failure, unsigned code) {
+Error arm_error(const OpenHapticsApi& api, const std::string& name, const char* problem, unsigned code) {
     const char* text = code != 0 ? api.get_error_text(code) : nullptr;
     Error error;
     error.code = ErrorCode::no_device;
-    error.what = fmt::format("{}: {}: {}", name, failure, text != nullptr ? text : "no reason given");
+    error.what = fmt::format("{}: {}: {}", name, problem, text != nullptr ? text : "no reason given");
     error.expected = code == no_licence          ? "a licence of OpenHaptics for this computer"
                      : code == already_initiated ? "an arm that no other program uses"
                                                  : "an arm that is switched on, connected, and set up with "
@@ -189,8 +189,8 @@ class OpenHapticsArm final : public DeviceDriver {
     [[nodiscard]] Error lost() const {
         return arm_error(api_, arm_.description.name, "its forces have ended", report_.fault);
     }
-    [[nodiscard]] Status failure(const char* failure, unsigned code) const {
-        return fail(arm_error(api_, arm_.description.name, failure, code));
+    [[nodiscard]] Status failure(const char* problem, unsigned code) const {
+        return fail(arm_error(api_, arm_.description.name, problem, code));
     }
 
     void update_report() {

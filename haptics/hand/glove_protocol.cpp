@@ -245,8 +245,7 @@ std::vector<std::uint8_t> GloveHandshake::update(std::span<const std::uint8_t> r
         if (now - last_byte_ >= options_.quiet_time) return start_step(HandshakeStep::sensors, now);
         if (now - since_ < options_.quiet_timeout) return {};
         if (attempts_ < options_.tries) return start_step(HandshakeStep::silencing, now);
-        fail_with("the port is never quiet_time",
-                  "a CyberGlove at 115200 baud, which stops streaming on command");
+        fail_with("the port is never quiet", "a CyberGlove at 115200 baud, which stops streaming on command");
         return {};
     }
     reply_.insert(reply_.end(), received.begin(), received.end());

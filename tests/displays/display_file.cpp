@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "content/displays/embedded_schema.hpp"
 #include "content/displays/example_displays.hpp"
+#include "content/format/embedded.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/random.hpp"
 #include "tests/displays/support.hpp"

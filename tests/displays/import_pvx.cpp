@@ -46,7 +46,7 @@ std::string file_of(const std::string& machines) { return "<pvx>\n" + machines +
 ImportedDisplays imported(const std::string& text, double scale = 1.0) {
     ImportedDisplays result = import_pvx(text, "c.pvx", scale);
     for (const Error& error : result.errors) FAIL_CHECK(error.message());
-    // What is imported can be written and read.
+    // An imported file can be written and read.
     const LoadedDisplays again = parse_displays(displays_json(result.displays), "d.json");
     for (const Error& error : again.errors) FAIL_CHECK(error.message());
     CHECK(again.displays == result.displays);

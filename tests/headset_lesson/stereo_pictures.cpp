@@ -36,11 +36,11 @@ std::vector<render::Eye> eyes_at_model(const view::EyeGroup& group) {
 }
 
 // Shows the cover for some frames. In each the head is at `before` until the pictures are recorded, then at
-// `after`.
+// `after`. Without `follows` the pictures stay those from `before`.
 class CoverInHeadset : public view::WindowContent {
   public:
-    CoverInHeadset(const test::MockRuntime& mock, const Pose& before, const Pose& after)
-        : mock_(mock), before_(before), after_(after) {}
+    CoverInHeadset(const test::MockRuntime& mock, const Pose& before, const Pose& after, bool follows)
+        : mock_(mock), before_(before), after_(after), follows_(follows) {}
 
     Status start(view::GpuContext& gpu) override {
         gpu_ = &gpu;
@@ -66,22 +66,24 @@ class CoverInHeadset : public view::WindowContent {
         const render::Eye eye;
         return gpu_->renderer->render(frame, cover_->shown->scene, std::span(&eye, 1), window.size);
     }
-    void move_eyes(const view::WindowFrame& window) override {
-        submitted_ = window.immersive->groups.front();
-        gpu_->renderer->move_eyes(eyes_at_model(submitted_), view::immersive_group);
+    bool move_eyes(const view::WindowFrame& window) override {
         mock_->set_head({before_});
+        latest_ = window.immersive->groups.front();
+        if (follows_) gpu_->renderer->move_eyes(eyes_at_model(latest_), view::immersive_group);
+        return follows_;
     }
     [[nodiscard]] bool closed() const override { return closed_; }
-    // Of the last frame.
+    // The eyes of the last frame.
     [[nodiscard]] const view::EyeGroup& recorded() const { return recorded_; }
-    [[nodiscard]] const view::EyeGroup& submitted() const { return submitted_; }
+    [[nodiscard]] const view::EyeGroup& latest() const { return latest_; }
 
   private:
     const test::MockRuntime& mock_;
     Pose before_, after_;
+    bool follows_;
     view::GpuContext* gpu_ = nullptr;
     std::optional<ShownCover> cover_;
-    view::EyeGroup recorded_, submitted_;
+    view::EyeGroup recorded_, latest_;
     int frames_ = 0;
     bool closed_ = false;
 };
@@ -91,10 +93,10 @@ class CoverInHeadset : public view::WindowContent {
 struct InHeadset {
     std::vector<mock::Picture> pictures;
     Vec3 eye;  // m, position of the first one, as submitted
-    view::EyeGroup recorded, submitted;
+    view::EyeGroup recorded, latest;
 };
 
-InHeadset show_in_headset(const Pose& before, const Pose& after) {
+InHeadset show_in_headset(const Pose& before, const Pose& after, bool follows = true) {
     mock::Config config;
     config.width = config.max_width = 320;
     config.height = config.max_height = 300;
@@ -114,11 +116,11 @@ InHeadset show_in_headset(const Pose& before, const Pose& after) {
     run.headset = &headset;
     run.adapts_resolution = false;
     run.instance = options;
-    CoverInHeadset content(mock, before, after);
+    CoverInHeadset content(mock, before, after, follows);
     const Status done = view::run_in_window(content, window, instance, run);
     REQUIRE_MESSAGE(done, (done ? "" : done.error().message()));
     for (const std::string& message : instance.log().messages) FAIL_CHECK(message);
-    InHeadset shown{{}, {}, content.recorded(), content.submitted()};
+    InHeadset shown{{}, {}, content.recorded(), content.latest()};
     for (const mock::Frame& frame : mock->take_frames()) {
         if (frame.views.empty()) continue;
         shown.pictures.clear();
@@ -152,7 +154,7 @@ TEST_CASE("Stereo pictures: those in the headset are those that are drawn withou
                              Pose{{0.2, 1.5, -0.1}, rotation({-0.2, 0.4, 0.1})}}) {
         const InHeadset shown = show_in_headset(head, head);
         REQUIRE(shown.pictures.size() == 2);
-        const std::vector<render::Picture> drawn = draw_without_headset(shown.submitted);
+        const std::vector<render::Picture> drawn = draw_without_headset(shown.latest);
         REQUIRE(drawn.size() == 2);
         for (std::size_t eye = 0; eye < 2; ++eye) {
             CHECK(shown.pictures[eye].width == drawn[eye].width);
@@ -179,13 +181,20 @@ TEST_CASE("Stereo pictures: a head that moves while they are recorded sees them 
     const Pose after{{0.004, 1.601, -0.002}, rotation({-0.395, 0.008, 0.001})};
     const InHeadset shown = show_in_headset(before, after);
     REQUIRE(shown.pictures.size() == 2);
-    const std::vector<render::Picture> drawn = draw_without_headset(shown.submitted),
+    const std::vector<render::Picture> drawn = draw_without_headset(shown.latest),
                                        as_recorded = draw_without_headset(shown.recorded);
     for (std::size_t eye = 0; eye < 2; ++eye) {
         CHECK(shown.pictures[eye].rgba == drawn[eye].rgba);
         CHECK(drawn[eye].rgba != as_recorded[eye].rgba);  // control
     }
-    // The runtime is told the pose that they were drawn for, half the distance of the eyes beside the head.
-    const Vec3 expected = after.position - 0.032 * (after.orientation * Vec3(1.0, 0.0, 0.0));
-    CHECK(glm::length(shown.eye - expected) < 1e-6);
+    // The runtime gets the pose that they were drawn for, half the distance of the eyes beside the head.
+    const auto left_eye = [](const Pose& head) {
+        return head.position - 0.032 * (head.orientation * Vec3(1.0, 0.0, 0.0));
+    };
+    CHECK(glm::length(shown.eye - left_eye(after)) < 1e-6);
+    // Also if the content cannot move its eyes.
+    const InHeadset still = show_in_headset(before, after, false);
+    REQUIRE(still.pictures.size() == 2);
+    CHECK(still.pictures[0].rgba == as_recorded[0].rgba);
+    CHECK(glm::length(still.eye - left_eye(before)) < 1e-6);
 }

@@ -343,7 +343,7 @@ TEST_CASE("Import: raised faces and the gasket of a flange count as clamped memb
     CHECK(members[0] == json({{"thickness_mm", 21}, {"material", "steel"}}));
     CHECK(members[1] == json({{"thickness_mm", 2}, {"material", "gasket"}}));
     CHECK(members[2] == json({{"thickness_mm", 21}, {"material", "steel"}}));
-    // Of four joints on a circle, the second is opposite to the first.
+    // The second of four joints on a circle is opposite to the first.
     const json& order = file["order"];
     const auto place = [&](const json& id) {
         for (const json& joint : file["joints"])

@@ -1,7 +1,7 @@
 // Reading of questionnaires, and the mistakes that the reader reports.
 #include <nlohmann/json.hpp>
 
-#include "content/questionnaires/embedded_schema.hpp"
+#include "content/format/embedded.hpp"
 #include "tests/questionnaires/support.hpp"
 #include "tests/support/replaced.hpp"
 

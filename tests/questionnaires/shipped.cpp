@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "content/format/embedded.hpp"
 #include "content/format/schema.hpp"
-#include "content/questionnaires/embedded_schema.hpp"
 #include "tests/questionnaires/support.hpp"
 #include "tests/support/replaced.hpp"
 
@@ -22,8 +22,8 @@ std::vector<std::string> ids_of(const Questionnaire& questionnaire) {
     return ids;
 }
 
-// What contradicts `texts_may_be_shipped`: a text or label of a questionnaire whose key only may be shipped,
-// or a missing one of another, in a language that we ship.
+// Returns the ids of items, or "labels", that contradict `texts_may_be_shipped`: a text or label although
+// only the key may be shipped, or a missing one, in a language that we ship, although it may be.
 std::vector<std::string> text_mistakes(const Questionnaire& questionnaire) {
     std::vector<std::string> found;
     const AnswerLabels& labels = questionnaire.answer_scale.labels;

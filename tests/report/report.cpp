@@ -332,6 +332,9 @@ TEST_CASE("Report: a study has the difference of the groups, its interval and it
     const double rows = static_cast<double>(count_of(html, "<td class=\"w\">"));
     CHECK(has(html, fmt::format("<td class=\"n\">{:.3f}</td>", rows * 2.0 / 924.0)));
     CHECK(has(html, "<td class=\"n\">1.000</td>"));
+    std::vector<Attempt> many;
+    for (int i = 0; i < 10; ++i) many.insert(many.end(), attempts.begin(), attempts.end());
+    CHECK(has(guiding_study(many), "20.0 <span class=\"of\">(19.0 to 21.0)</span>"));
     attempts.resize(2);
     CHECK(has(guiding_study(attempts), "<td class=\"n\">20.0</td>"));  // too few for an interval
 }

@@ -28,6 +28,18 @@ AppOptions tracked_hand(const char* assembly) {
     return o;
 }
 
+// The options with a settings file in `folder` for a trainee, changed by `change`.
+template <class Change>
+AppOptions with_settings(AppOptions options, const test::Folder& folder, const Change& change) {
+    options.settings_file = folder.path() / "settings.json";
+    content::TraineeSettings settings;
+    settings.language = "en";
+    settings.trainee = "Ada";
+    change(settings);
+    test::need(write_file(options.settings_file, content::settings_text(settings)));
+    return options;
+}
+
 }  // namespace
 
 TEST_CASE("Room: workpiece and panel stand in front of the user, and stay when the head moves") {
@@ -48,15 +60,10 @@ TEST_CASE("Room: workpiece and panel stand in front of the user, and stay when t
 }
 
 TEST_CASE("Room: the trainee's setting shows the surroundings in place of the workshop, if the headset can") {
-    AppOptions options = tracked_hand("cover-m8");
     const test::Folder folder;
-    options.settings_file = folder.path() / "surroundings.json";
-    content::TraineeSettings settings;
-    settings.language = "en";
-    settings.trainee = "Ada";
-    settings.surroundings = true;
-    test::need(write_file(options.settings_file, content::settings_text(settings)));
-    HeadlessTrainer driver(std::move(options), {eye_size, 0.3F, 0.02});
+    HeadlessTrainer driver(with_settings(tracked_hand("cover-m8"), folder,
+                                         [](content::TraineeSettings& s) { s.surroundings = true; }),
+                           {eye_size, 0.3F, 0.02});
     REQUIRE_MESSAGE(driver.app().preferences().settings.surroundings,
                     driver.app().preferences().file_error_message);
     driver.immersive = test::standing_user(eye_size);
@@ -135,16 +142,13 @@ TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wren
 }
 
 TEST_CASE("Room: a seated trainee finishes the first nut with the left hand") {
-    AppOptions options = tracked_hand("first-nut");
     const test::Folder folder;
-    options.settings_file = folder.path() / "seated.json";
-    content::TraineeSettings settings;
-    settings.language = "en";
-    settings.trainee = "Ada";
-    settings.left_handed = true;
-    settings.seated_eye_height = 1.15;
-    test::need(write_file(options.settings_file, content::settings_text(settings)));
-    HeadlessTrainer driver(std::move(options), {eye_size, 0.3F, 0.02});
+    HeadlessTrainer driver(with_settings(tracked_hand("first-nut"), folder,
+                                         [](content::TraineeSettings& s) {
+                                             s.left_handed = true;
+                                             s.seated_eye_height = 1.15;
+                                         }),
+                           {eye_size, 0.3F, 0.02});
     REQUIRE_MESSAGE(driver.app().preferences().settings.left_handed,
                     driver.app().preferences().file_error_message);
     // A headset without a floor: its origin is where the head was.
@@ -274,15 +278,10 @@ TEST_CASE("Room: the vignette closes while the scene moves, and opens when it st
 TEST_CASE("Room: raising the workpiece darkens the edge of the view, unless the setting is off") {
     for (const bool darkens : {true, false}) {
         CAPTURE(darkens);
-        AppOptions options = tracked_hand("first-nut");
         const test::Folder folder;
-        options.settings_file = folder.path() / "vignette.json";
-        content::TraineeSettings settings;
-        settings.language = "en";
-        settings.trainee = "Ada";
-        settings.vignette = darkens;
-        test::need(write_file(options.settings_file, content::settings_text(settings)));
-        HeadlessTrainer driver(std::move(options), {eye_size, 0.3F, 0.02});
+        HeadlessTrainer driver(with_settings(tracked_hand("first-nut"), folder,
+                                             [&](content::TraineeSettings& s) { s.vignette = darkens; }),
+                               {eye_size, 0.3F, 0.02});
         driver.immersive = test::standing_user(eye_size);
         driver.draw_interval = 1;
         const auto brightness = [&](double x, double y) {  // 0 … 1 of width and height

@@ -183,6 +183,25 @@ TEST_CASE("Rank sum test: the normal approximation of large samples continues th
     CHECK(rank_sum_test(equal, equal).p_two_sided == 1.0);
 }
 
+TEST_CASE("Shift: the normal approximation of large samples continues the exact intervals") {
+    const auto spaced = [](std::size_t n) {
+        std::vector<double> values(n);
+        for (std::size_t i = 0; i < n; ++i) values[i] = (double(i) + 0.5) / double(n);
+        return values;
+    };
+    const Shift exact = independent_shift(spaced(49), spaced(50)),
+                approximate = independent_shift(spaced(50), spaced(50));
+    CHECK(approximate.interval.low == doctest::Approx(exact.interval.low).epsilon(0.02));
+    CHECK(approximate.interval.high == doctest::Approx(exact.interval.high).epsilon(0.02));
+    CHECK(exact.confidence != 0.95);
+    CHECK(approximate.confidence == doctest::Approx(0.95));
+    const Shift paired = paired_shift(spaced(99)), large = paired_shift(spaced(100));
+    CHECK(large.interval.low == doctest::Approx(paired.interval.low).epsilon(0.01));
+    CHECK(large.interval.high == doctest::Approx(paired.interval.high).epsilon(0.01));
+    // 4 · 10⁶ pairs; the exact distribution would take hours.
+    CHECK(independent_shift(spaced(2000), spaced(2000)).interval.high < 0.03);
+}
+
 TEST_CASE("Shift: the interval covers the true shift as often as it states") {
     Random random(1);
     int covered = 0;

@@ -364,7 +364,7 @@ class Importer {
             name = "assembly.draft.json";
         }
         if (!shipped && !fs::exists(options_.folder / schema, ignored) &&
-            !check_written(schema, write_file(write_to() / schema, content::schema_text())))
+            !check_written(schema, write_file(write_to() / schema, content::assembly_schema_text())))
             return false;
         return note_file(name, write_file(write_to() / name, draft.text));
     }
