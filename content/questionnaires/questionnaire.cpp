@@ -16,12 +16,14 @@ constexpr double step_tolerance = 1e-6;  // of a step; decimal steps such as 0.1
 Status check_answers(const Questionnaire& questionnaire, const Answers& answers) {
     std::vector<std::string> ids;
     for (const QuestionnaireItem& item : questionnaire.items) ids.push_back(item.id);
-    const AnswerScale& scale = questionnaire.answer_scale;
     for (const auto& [id, answer] : answers) {
-        if (std::find(ids.begin(), ids.end(), id) == ids.end())
+        const auto found = std::find(ids.begin(), ids.end(), id);
+        if (found == ids.end())
             return fail(ErrorCode::bad_content,
                         fmt::format("{}: there is no item {}", questionnaire.id, in_quotes(id)),
                         suggest(id, ids));
+        const auto index = static_cast<std::size_t>(found - ids.begin());
+        const AnswerScale& scale = answer_scale_of(questionnaire, questionnaire.items[index]);
         if (answer && !is_answer(scale, *answer))
             return fail(
                 ErrorCode::bad_content,
@@ -34,9 +36,10 @@ Status check_answers(const Questionnaire& questionnaire, const Answers& answers)
 // None if the item is unanswered.
 std::optional<double> part_of(const Questionnaire& questionnaire, const QuestionnaireScale& scale,
                               const ScaleItem& item, const Answers& answers) {
-    const auto answer = answers.find(questionnaire.items[item.item].id);
+    const QuestionnaireItem& asked = questionnaire.items[item.item];
+    const auto answer = answers.find(asked.id);
     if (answer == answers.end() || !answer->second) return std::nullopt;
-    const AnswerScale& range = questionnaire.answer_scale;
+    const AnswerScale& range = answer_scale_of(questionnaire, asked);
     const double part = item.reversed ? range.low + range.high - *answer->second : *answer->second;
     return scale.from_zero ? part - range.low : part;
 }
@@ -52,6 +55,18 @@ std::optional<double> combine(const std::vector<std::optional<double>>& parts, C
 }
 
 }  // namespace
+
+const AnswerScale& answer_scale_of(const Questionnaire& questionnaire, const QuestionnaireItem& item) {
+    return item.answer_scale ? *item.answer_scale : questionnaire.answer_scale;
+}
+
+std::vector<std::string> answer_labels(const Questionnaire& questionnaire, const QuestionnaireItem& item,
+                                       const std::string& language) {
+    const bool own = item.answer_scale || !item.labels.empty();
+    const AnswerLabels& labels = own ? item.labels : questionnaire.answer_scale.labels;
+    const auto found = labels.find(language);
+    return found == labels.end() ? std::vector<std::string>{} : found->second;
+}
 
 bool is_answer(const AnswerScale& scale, double number) {
     const double steps = (number - scale.low) / scale.step;

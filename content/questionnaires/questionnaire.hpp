@@ -10,7 +10,8 @@
 //
 // The score of a scale, from the answers x of its items:
 //
-//   part      = x, or low + high − x if the scale reverses the item; minus low with from_zero
+//   part      = x, or low + high − x if the scale reverses the item; minus low with from_zero. low and high
+//               are the item's own, if it has any
 //   raw value = the sum or the mean of the parts
 //   score     = weight · raw value
 //
@@ -44,6 +45,7 @@ struct QuestionnaireItem {
     std::string id;                            // answers are stored under it
     std::map<std::string, std::string> texts;  // by language; empty where only the key may be shipped
     AnswerLabels labels;                       // empty: those of the answer scale
+    std::optional<AnswerScale> answer_scale;   // without labels; none: that of the questionnaire
 };
 
 struct ScaleItem {
@@ -90,6 +92,11 @@ LoadedQuestionnaire load_questionnaire(const std::filesystem::path& path);
 bool is_answer(const AnswerScale& scale, double number);
 
 // The functions below need a questionnaire without mistakes.
+
+// The answers to choose from, and their labels: two, one for each answer, or none in this language.
+const AnswerScale& answer_scale_of(const Questionnaire& questionnaire, const QuestionnaireItem& item);
+std::vector<std::string> answer_labels(const Questionnaire& questionnaire, const QuestionnaireItem& item,
+                                       const std::string& language);
 
 // The number of answers to choose from, at least 2.
 std::size_t answer_count(const AnswerScale& scale);

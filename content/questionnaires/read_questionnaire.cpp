@@ -167,9 +167,14 @@ void read_items_and_scales(JsonReader& reader, std::optional<std::size_t> answer
                    scales = reader.member(reader.root(), "scales");
     const KnownIds item_ids = read_ids(reader, items, "item"), scale_ids = read_ids(reader, scales, "scale");
     for (const JsonNode& node : reader.items(items)) {
-        QuestionnaireItem item{item_ids.ids[to.items.size()], {}, {}};
+        QuestionnaireItem item{item_ids.ids[to.items.size()], {}, {}, {}};
         item.texts = reader.texts(reader.member(node, "text"));
-        item.labels = read_labels(reader, node, answers);
+        std::optional<std::size_t> count = answers;
+        if (const JsonNode own = reader.member(node, "answers")) {
+            item.answer_scale.emplace();
+            count = read_range(reader, own, *item.answer_scale);
+        }
+        item.labels = read_labels(reader, node, count);
         to.items.push_back(std::move(item));
     }
     KnownIds above{{}, scale_ids.complete};

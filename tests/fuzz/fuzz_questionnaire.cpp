@@ -32,20 +32,30 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const bolt::Error& error : read.errors) expect(error.line >= 1 && !error.what.empty());
     if (!read.ok()) return 0;
     const Questionnaire& questionnaire = read.questionnaire;
-    const AnswerScale& range = questionnaire.answer_scale;
-    const std::size_t count = answer_count(range);
-    expect(count >= 2 && !questionnaire.items.empty() && !questionnaire.scales.empty());
-    for (const auto& [language, labels] : range.labels) expect(labels.size() == 2 || labels.size() == count);
+    expect(!questionnaire.items.empty() && !questionnaire.scales.empty());
+    for (const QuestionnaireItem& item : questionnaire.items) {
+        const std::size_t count = answer_count(answer_scale_of(questionnaire, item));
+        expect(count >= 2);
+        for (const auto& [language, labels] : item.labels)
+            expect(labels.size() == 2 || labels.size() == count);
+        const std::size_t shown = answer_labels(questionnaire, item, "en").size();
+        expect(shown == 0 || shown == 2 || shown == count);
+    }
     for (const QuestionnaireScale& scale : questionnaire.scales)
         expect(scale.items.empty() != scale.scales.empty());
     Answers answers;
     check_scores(questionnaire, answers, false);
-    for (const double answer : {range.low, range.high}) {
-        for (const QuestionnaireItem& item : questionnaire.items) answers[item.id] = answer;
+    for (const bool high : {false, true}) {
+        for (const QuestionnaireItem& item : questionnaire.items) {
+            const AnswerScale& range = answer_scale_of(questionnaire, item);
+            answers[item.id] = high ? range.high : range.low;
+        }
         expect(answers.size() == questionnaire.items.size());  // ids are unique
         check_scores(questionnaire, answers, true);
     }
-    answers.begin()->second = range.high + range.step;
+    const QuestionnaireItem& first = questionnaire.items.front();
+    const AnswerScale& range = answer_scale_of(questionnaire, first);
+    answers[first.id] = range.high + range.step;
     expect(!score(questionnaire, answers));
     expect(missing_texts(questionnaire, "en").size() <= questionnaire.items.size());
     return 0;

@@ -29,7 +29,8 @@ const std::string everything = R"({
   },
   "items": [
     { "id": "seat", "text": { "en": "I sat well." } },
-    { "id": "cold", "text": { "en": "I was cold." }, "labels": { "en": ["no", "yes"] } },
+    { "id": "cold", "text": { "en": "I was cold." },
+      "answers": { "low": 1, "high": 4, "step": 0.5 }, "labels": { "en": ["no", "yes"] } },
     { "id": "noise" }
   ],
   "scales": [
@@ -201,7 +202,18 @@ TEST_CASE("Questionnaires: several mistakes are reported at once, in the order o
     REQUIRE(found.size() == 3);
     CHECK(has(found[0], "q.json:10:"));
     CHECK(has(found[1], "q.json:15:"));
-    CHECK(has(found[2], "q.json:21:"));
+    CHECK(has(found[2], "q.json:22:"));
+}
+
+TEST_CASE("Questionnaires: the labels of an item with its own answers are counted against these") {
+    const std::string own = R"("answers": { "low": 1, "high": 4, "step": 0.5 })";
+    check_mistake(own, R"("answers": { "low": 1, "high": 4, "step": 2 })", "2 }", "steps of 2 do not lead");
+    check_mistake(R"({ "en": ["no", "yes"] })", R"({ "en": ["no", "so", "yes"] })", R"(["no", "so")",
+                  "3 labels; expected 2 labels, for the lowest and the highest answer, or 7");
+    const std::string three =
+        test::replaced(replaced(everything, own, R"("answers": { "low": 0, "high": 2, "step": 1 })"),
+                       R"({ "en": ["no", "yes"] })", R"({ "en": ["no", "so", "yes"] })");
+    CHECK(parsed(three).items[1].labels.at("en").size() == 3);
 }
 
 TEST_CASE("Questionnaires: a wrong id is one mistake, without unknown ids as its consequence") {

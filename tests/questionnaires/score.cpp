@@ -53,16 +53,18 @@ double any_answer(Random& random, const AnswerScale& scale) {
 Answers any_answers(Random& random, const Questionnaire& questionnaire) {
     Answers answers;
     for (const QuestionnaireItem& item : questionnaire.items)
-        answers[item.id] = any_answer(random, questionnaire.answer_scale);
+        answers[item.id] = any_answer(random, answer_scale_of(questionnaire, item));
     return answers;
 }
 
 // The answers that give the lowest or the highest score of a scale of items.
 Answers extreme_answers(const Questionnaire& questionnaire, const QuestionnaireScale& scale, bool highest) {
     Answers answers;
-    const AnswerScale& range = questionnaire.answer_scale;
-    for (const ScaleItem& item : scale.items)
-        answers[questionnaire.items[item.item].id] = item.reversed == highest ? range.low : range.high;
+    for (const ScaleItem& item : scale.items) {
+        const QuestionnaireItem& asked = questionnaire.items[item.item];
+        const AnswerScale& range = answer_scale_of(questionnaire, asked);
+        answers[asked.id] = item.reversed == highest ? range.low : range.high;
+    }
     return answers;
 }
 
@@ -163,17 +165,23 @@ TEST_CASE("Questionnaires: reversal is an involution") {
         Questionnaire reversed = questionnaire;
         for (QuestionnaireScale& scale : reversed.scales)
             for (ScaleItem& item : scale.items) item.reversed = !item.reversed;
-        const AnswerScale& range = questionnaire.answer_scale;
         for (int i = 0; i < 50; ++i) {
             // Reversed items with mirrored answers give the same scores.
             const Answers answers = any_answers(random, questionnaire);
             Answers mirrored = answers;
-            for (auto& [item, answer] : mirrored) answer = range.low + range.high - *answer;
+            for (const QuestionnaireItem& item : questionnaire.items) {
+                const AnswerScale& range = answer_scale_of(questionnaire, item);
+                mirrored[item.id] = range.low + range.high - *mirrored[item.id];
+            }
             CAPTURE(id);
             CHECK(scored(reversed, mirrored) == scored(questionnaire, answers));
         }
-        Answers one_high = all_answered(questionnaire, range.low);
-        one_high[questionnaire.items.front().id] = range.high;
+        Answers one_high;
+        for (const QuestionnaireItem& item : questionnaire.items)
+            one_high[item.id] = answer_scale_of(questionnaire, item).low;
+        const QuestionnaireItem& scored_item =
+            questionnaire.items[questionnaire.scales.front().items.front().item];
+        one_high[scored_item.id] = answer_scale_of(questionnaire, scored_item).high;
         CHECK(scored(reversed, one_high) != scored(questionnaire, one_high));  // mirroring matters
     }
 }
@@ -226,6 +234,19 @@ TEST_CASE("Questionnaires: an answer off the answer scale is an error that names
     const auto unknown = score(tlx, {{"efort", 50.0}});
     REQUIRE_FALSE(unknown);
     CHECK(unknown.error().message() == "tlx: there is no item \"efort\"; did you mean \"effort\"?");
+}
+
+TEST_CASE("Questionnaires: an item with its own answers accepts these only, and reverses within them") {
+    Questionnaire background = shipped("background");
+    Answers answers{{"group", 3.0}, {"sight", 1.0}, {"age", 6.0}};
+    CHECK(scored(background, answers).front().score == 3.0);
+    background.scales.front().items.front().reversed = true;
+    CHECK(scored(background, answers).front().score == 1.0);  // 1 + 3 − 3
+    for (const auto& [item, value] : {std::pair("group", 0.0), std::pair("sight", 2.0), std::pair("vr", 4.0)})
+        CHECK_FALSE(score(background, {{item, value}}));
+    CHECK(answer_labels(background, background.items[2], "de") == std::vector<std::string>{"Nein", "Ja"});
+    CHECK(answer_labels(background, background.items[5], "en").size() == 4);  // the questionnaire's
+    CHECK(answer_labels(background, background.items[5], "fi").empty());
 }
 
 TEST_CASE("Questionnaires: every answer of a scale with decimal steps is accepted") {

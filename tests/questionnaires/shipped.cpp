@@ -93,7 +93,8 @@ TEST_CASE("Questionnaires: files without texts report every item as missing, oth
     for (const char* language : {"en", "de"}) {
         for (const char* id : {"ssq", "ipq"})
             CHECK(missing_texts(shipped(id), language) == ids_of(shipped(id)));
-        for (const char* id : {"sus", "tlx", "paper"}) CHECK(missing_texts(shipped(id), language).empty());
+        for (const char* id : {"sus", "tlx", "paper", "background"})
+            CHECK(missing_texts(shipped(id), language).empty());
     }
     CHECK(missing_texts(shipped("sus"), "fi") == numbers_to(10));
     // A laboratory's copy with one text.

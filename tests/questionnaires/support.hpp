@@ -9,7 +9,7 @@
 
 namespace questionnaire_test {
 
-inline constexpr const char* shipped_ids[] = {"sus", "tlx", "ssq", "ipq", "paper"};
+inline constexpr const char* shipped_ids[] = {"sus", "tlx", "ssq", "ipq", "paper", "background"};
 
 inline std::filesystem::path shipped_file(const std::string& id) {
     return bolt::content::content_folder() / "questionnaires" / (id + ".json");
