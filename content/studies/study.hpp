@@ -1,0 +1,175 @@
+// Reads the plan of a study with people: its conditions, who gets them in which order, its forms, and its
+// planned comparisons. A study is a folder with the plan, study.json, whose members
+// content/schema/study.schema.json describes, and the forms, questionnaires/ID.json:
+//
+//   {"format": "boltwright study 1", "id": "guiding", "title": {"en": "Guiding"},
+//    "information": {"en": "..."}, "consent": {"en": ["I take part."]},
+//    "design": {"subjects": "within", "order": "williams", "participants": 20},
+//    "lesson": {"assembly": "cover-m8"},
+//    "conditions": [{"id": "with", "title": {"en": "With"}, "lesson": {"mode": "guided"}},
+//                   {"id": "without", "title": {"en": "Without"}, "lesson": {"mode": "practice"}}],
+//    "forms": [{"form": "paper", "when": ["after_condition"]}],
+//    "comparisons": [{"measure": "paper.guidance"}]}
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "content/questionnaires/questionnaire.hpp"
+#include "engine/base/result.hpp"
+
+namespace bolt::content {
+
+enum class StudySubjects : std::uint8_t { within, between };
+enum class StudyOrder : std::uint8_t { williams, random };
+
+struct StudyDesign {
+    StudySubjects subjects = StudySubjects::within;
+    StudyOrder order = StudyOrder::williams;  // within subjects
+    std::size_t participants = 1;             // planned
+    std::size_t sessions = 1;                 // lessons in each condition
+    std::uint64_t seed = 1;
+    bool blind = false;
+    double shortest_break = 0.0;  // s, between two conditions
+    bool show_results = false;    // of a lesson, to the participant
+};
+
+// Settings of a lesson, with the words of the schema.
+struct StudyLesson {
+    std::string assembly = "zq350";
+    std::string variant, tool;  // empty: the assembly's default
+    std::string mode = "practice", task = "tighten";
+    std::string law;  // empty: the assembly's
+    std::string hand = "helped";
+    std::vector<std::string> devices;  // empty: those of the command line
+    bool guide = true, view_help = true;
+    std::optional<double> force_scale;  // none: that of the participant's settings
+    bool operator==(const StudyLesson&) const = default;
+};
+
+struct StudyTraining {
+    double duration = 0.0;  // s in lessons
+    StudyLesson lesson;
+};
+
+struct StudyCondition {
+    std::string id;
+    std::map<std::string, std::string> titles;  // by language
+    StudyLesson lesson;
+    std::map<std::string, std::string> levels;  // by factor
+};
+
+enum class FormTime : std::uint8_t {
+    before,           // after consent
+    after_training,   // needs a training
+    after_session,    // after each lesson of a condition
+    after_condition,  // after its last lesson
+    after,            // at the end of the first visit
+    retention,        // after the retention test
+};
+inline constexpr std::size_t form_times = static_cast<std::size_t>(FormTime::retention) + 1;
+std::string_view name(FormTime time);
+
+struct StudyForm {
+    std::string id;  // of the questionnaire
+    std::array<bool, form_times> at{};
+    [[nodiscard]] bool is_at(FormTime time) const { return at[static_cast<std::size_t>(time)]; }
+};
+
+struct StudyRetention {
+    double after_days = 0.0;
+    StudyLesson lesson;
+};
+
+// Measures that every lesson has, computed from its session; the results page has their definitions.
+inline constexpr std::string_view objective_measures[] = {
+    "score",        "duration_s", "joints_ok",      "torque_error", "clamp_scatter", "over_torque",
+    "order_errors", "bumps",      "contact_time_s", "force_rate",   "time_to_nut_s", "nut_visible"};
+inline constexpr std::size_t objective_measure_count = std::size(objective_measures);
+
+// Two or more groups of conditions that one measure compares: single conditions, or the levels of a factor.
+struct ComparedGroup {
+    std::string name;                     // id of the condition, or the level
+    std::vector<std::size_t> conditions;  // indices into Study::conditions
+};
+
+struct PlannedComparison {
+    std::string measure;
+    std::string factor;  // empty: single conditions
+    bool retention = false;
+    std::vector<ComparedGroup> groups;
+};
+
+struct PublishedValue {
+    std::string measure;
+    std::optional<double> min, max;
+    double mean = 0.0;
+    int decimals = 0;  // of the printed mean
+    std::size_t n = 0;
+    std::string source;
+};
+
+struct Study {
+    std::string id;
+    std::map<std::string, std::string> titles, information;  // by language
+    std::map<std::string, std::vector<std::string>> consent;
+    StudyDesign design;
+    std::optional<StudyTraining> training;
+    std::vector<StudyCondition> conditions;
+    std::vector<StudyForm> forms;
+    std::optional<StudyRetention> retention;
+    std::vector<PlannedComparison> comparisons;
+    std::vector<PublishedValue> published;
+    std::vector<Questionnaire> questionnaires;  // one for each of `forms`, if loaded from a folder
+    std::uint64_t checksum = 0;                 // of the files' bytes; changes with every change of the plan
+
+    // The form of a measure "FORM.SCALE"; null for an objective measure.
+    [[nodiscard]] const Questionnaire* form_of(std::string_view measure) const;
+};
+
+// A study without mistakes, or all mistakes of its files, each with file, line and column.
+struct LoadedStudy {
+    Study study;
+    std::vector<Error> errors;
+    [[nodiscard]] bool ok() const { return errors.empty(); }
+};
+
+// `file` is used in messages. `forms`: by id, for the scales that measures name; null: they are not checked.
+LoadedStudy parse_study(std::string_view text, const std::string& file,
+                        const std::vector<Questionnaire>* forms = nullptr);
+// Reads study.json of a folder, and the forms that it names. `forms`: folder of ID.json; empty: the folder
+// questionnaires of the study.
+LoadedStudy load_study(const std::filesystem::path& folder, const std::filesystem::path& forms = {});
+
+inline constexpr const char* study_file_name = "study.json";
+inline constexpr const char* forms_folder_name = "questionnaires";
+
+// Languages in which a participant can read everything: the title, the information, the consent, and every
+// item of every form. A form without a text of its own licence has none until the laboratory adds them.
+std::vector<std::string> complete_languages(const Study& study);
+
+// Orders of conditions (order.cpp).
+
+// A Williams square of `n` conditions: rows in which each condition follows each other one equally often and
+// is in each position equally often. n rows, or 2 n if n is odd (E. J. Williams, Aust. J. Sci. Res. A 2
+// (1949) 149; construction: 0, 1, n − 1, 2, n − 2, ..., each next row plus 1 modulo n, odd n also mirrored).
+std::vector<std::vector<std::size_t>> williams_square(std::size_t n);
+
+// The conditions of a participant, in order, as indices into Study::conditions; one between subjects.
+// `place` counts from 0 and is unique among the participants who have not withdrawn.
+//   williams        the rows of the square in turn, in an order drawn for each repetition of the square
+//   random          each block of n places gets a Latin square with drawn rows and conditions
+//   between         each block of n places gets each condition once, in drawn order
+// Deterministic in design.seed.
+std::vector<std::size_t> conditions_of(const Study& study, std::size_t place);
+
+// Number of participants after which the orders are balanced: a multiple of it is needed.
+std::size_t balanced_participants(const Study& study);
+
+}  // namespace bolt::content
