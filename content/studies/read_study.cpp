@@ -269,7 +269,7 @@ void read_comparisons(StudyReader& reader) {
                         "every participant had every condition before the retention test, which cannot tell "
                         "them apart",
                         R"("subjects": "between")");
-        if (comparison.groups.size() < 2 && reader.conditions_valid && !factor)
+        if (comparison.groups.size() < 2 && reader.conditions_valid && !factor && !conditions)
             json.report(node.pointer, "one condition cannot be compared", "two or more conditions");
         reader.study.comparisons.push_back(std::move(comparison));
     }
