@@ -143,8 +143,8 @@ TEST_CASE("Studies: every contradiction has its line and column") {
     check_mistake(R"("after_training", "after_session")", R"("after_training")", R"("tlx.workload")",
                   "form \"tlx\" is not presented in the conditions");
     check_mistake(R"({ "measure": "paper.stability" })",
-                  R"({ "measure": "paper.stability", "retention": true })", R"(true },)",
-                  "which cannot tell them apart");
+                  R"({ "measure": "paper.stability", "retention": true })",
+                  "true },\n    { \"measure\": \"bumps\"", "which cannot tell them apart");
     check_mistake(R"("mean": "6.684")", R"("mean": "6,684")", R"("6,684")", "no number");
     check_mistake(R"("id": "help")", R"("id": "he lp")", R"("he lp")", "characters that are not allowed");
     check_mistake(R"("participants": 12)", R"("participants": 0)", "0, \"sessions\"", "expected");
