@@ -9,7 +9,7 @@
 
 #include "game/analysis/session_data.hpp"
 #include "game/plot/html.hpp"
-#include "game/plot/svg.hpp"
+#include "game/plot/strips.hpp"
 #include "game/report/report.hpp"
 #include "game/statistics/rank_tests.hpp"
 
@@ -222,37 +222,9 @@ std::vector<double> values_of(const AttemptList& group, const StudyMeasure& meas
     return values;
 }
 
-// Draws the box of the quartiles and one dot per value. Dots that would overlap are stacked within the row;
-// more than five equal values also get a text with their number.
-void draw_row(plot::Svg& svg, const std::vector<double>& values, const plot::AxisScale& x, double left,
-              double middle, std::string_view dot) {
-    constexpr double radius = 2.6, room = 11.0;
+plot::StripRow strip_row(std::string_view label, const std::vector<double>& values, std::string_view style) {
     const statistics::Quartiles q = statistics::quartiles(values);
-    if (q.n == 0) return;
-    svg.rect({left + x(q.low), middle - room, x(q.high) - x(q.low), 2.0 * room}, "bf", 2.0);
-    svg.line({left + x(q.median), middle - room - 2.0}, {left + x(q.median), middle + room + 2.0}, "me1");
-    std::vector<double> sorted = values;
-    std::sort(sorted.begin(), sorted.end());
-    std::vector<plot::SvgPoint> drawn;
-    for (const double value : sorted) {
-        plot::SvgPoint p{left + x(value), middle};
-        for (int step = 1; step < 9; ++step) {
-            const bool covered = std::any_of(drawn.begin(), drawn.end(), [&](const plot::SvgPoint& d) {
-                return std::hypot(d.x - p.x, d.y - p.y) < 2.0 * radius;
-            });
-            if (!covered) break;
-            p.y = middle + (step % 2 == 1 ? 1.0 : -1.0) * std::ceil(0.5 * step) * radius;
-        }
-        drawn.push_back(p);
-        svg.circle(p, radius, dot);
-    }
-    constexpr std::ptrdiff_t most = 5;
-    for (auto same = sorted.begin(); same != sorted.end();) {
-        const auto end = std::upper_bound(same, sorted.end(), *same);
-        if (end - same > most)
-            svg.text({left + x(*same) + 2.0 * radius, middle + 4.0}, "sm", fmt::format("×{}", end - same));
-        same = end;
-    }
+    return {std::string(label), values, q.low, q.median, q.high, style};
 }
 
 std::string strip_plot(const AttemptList& with, const AttemptList& without, const StudyMeasure& measure,
@@ -261,20 +233,11 @@ std::string strip_plot(const AttemptList& with, const AttemptList& without, cons
     if (a.empty() || b.empty()) return {};
     const double high =
         std::max(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
-    constexpr double width = 460.0, height = 112.0, left = 82.0, right = 22.0;
-    const plot::AxisTicks ticks = plot::covering_ticks(0.0, high > 0.0 ? high : 1.0, 5);
-    const plot::AxisScale x{ticks.range, width - left - right, false};
-    plot::Svg svg(width, height, fmt::format("{}, {}, {}", measure.name, measure.unit, factor.title));
-    for (const double at : ticks.values) {
-        svg.line({left + x(at), 4.0}, {left + x(at), 80.0}, "gr");
-        svg.text({left + x(at), 93.0}, "tk mid", plot::number(at, ticks.decimals));
-    }
-    svg.text({left - 8.0, 26.0}, "lb end", factor.with);
-    svg.text({left - 8.0, 64.0}, "lb end", factor.without);
-    draw_row(svg, a, x, left, 22.0, "mpeak");
-    draw_row(svg, b, x, left, 60.0, "mclamp");
-    svg.text({left + 0.5 * x.length, 106.0}, "sm mid", measure.unit);
-    return plot::figure(fmt::format("<h3>{}</h3>", measure.name), svg.finish(), "");
+    const plot::StripPlot strips{fmt::format("{}, {}, {}", measure.name, measure.unit, factor.title),
+                                 std::string(measure.unit),
+                                 {strip_row(factor.with, a, "mpeak"), strip_row(factor.without, b, "mclamp")},
+                                 plot::covering_ticks(0.0, high > 0.0 ? high : 1.0, 5)};
+    return plot::figure(fmt::format("<h3>{}</h3>", measure.name), plot::draw(strips), "");
 }
 
 std::string quartile_text(const statistics::Quartiles& q, int decimals) {

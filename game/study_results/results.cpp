@@ -1,0 +1,252 @@
+#include "game/study_results/results.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/base/math.hpp"
+
+namespace bolt::study {
+
+namespace {
+
+void add_scores(const content::Study& study, const ParticipantState& state, const Step& step,
+                Observation common, StudyData& data) {
+    const auto answers = state.progress.answers.find(step.id);
+    if (answers == state.progress.answers.end()) return;
+    const content::Questionnaire& form = study.questionnaires[step.form];
+    const auto scores = content::score(form, answers->second);
+    if (!scores) return;  // the form was changed since; the journal keeps the answers
+    for (const content::ScaleScore& scale : *scores)
+        if (scale.score) {
+            common.measure = form.id + "." + scale.scale;
+            common.value = *scale.score;
+            data.observations.push_back(common);
+        }
+}
+
+void add_measures(const ParticipantState& state, const Step& step, Observation common, StudyData& data) {
+    const auto measures = state.progress.measures.find(step.id);
+    if (measures == state.progress.measures.end()) return;
+    for (const auto& [measure, value] : measures->second) {
+        common.measure = measure;
+        common.value = value;
+        data.observations.push_back(common);
+    }
+}
+
+Sample sample_of(std::string name, const std::vector<double>& values,
+                 const statistics::BootstrapOptions* bootstrap) {
+    Sample sample;
+    sample.name = std::move(name);
+    for (const double value : values)
+        if (std::isfinite(value)) sample.values.push_back(value);
+    sample.quartiles = statistics::quartiles(sample.values);
+    sample.mean = sample.min = sample.max = nan;
+    if (sample.values.empty()) return sample;
+    const auto mean = [](std::span<const double> v) {
+        return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+    };
+    sample.mean = mean(sample.values);
+    const auto [low, high] = std::minmax_element(sample.values.begin(), sample.values.end());
+    sample.min = *low;
+    sample.max = *high;
+    if (bootstrap != nullptr)
+        sample.mean_interval = statistics::bootstrap_interval(sample.values, mean, *bootstrap);
+    return sample;
+}
+
+std::string title_of(const std::map<std::string, std::string>& titles) {
+    const auto english = titles.find("en");
+    return english != titles.end() ? english->second : titles.begin()->second;
+}
+
+// The step between the means of so many answers that one person gives.
+double answer_step(const content::Study& study, const std::string& measure) {
+    const content::Questionnaire* form = study.form_of(measure);
+    if (form == nullptr) return 0.0;
+    for (const content::QuestionnaireScale& scale : form->scales)
+        if (form->id + "." + scale.id == measure && scale.items.size() == 1)
+            return content::answer_scale_of(*form, form->items[scale.items.front().item]).step *
+                   scale.weight;
+    return 0.0;
+}
+
+MeasureInfo info_of(const std::vector<MeasureInfo>& infos, const std::string& measure) {
+    const auto found =
+        std::find_if(infos.begin(), infos.end(), [&](const MeasureInfo& m) { return m.id == measure; });
+    return found == infos.end() ? MeasureInfo{measure, measure} : *found;
+}
+
+// Participants with a finite value in every group: one row for each.
+std::vector<std::vector<double>> complete_rows(const std::vector<std::vector<double>>& groups) {
+    std::vector<std::vector<double>> rows;
+    for (std::size_t i = 0; i < groups.front().size(); ++i) {
+        std::vector<double> row;
+        for (const std::vector<double>& group : groups) row.push_back(group[i]);
+        if (std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); }))
+            rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+void test_within(const std::vector<std::vector<double>>& groups, ComparisonResult& result) {
+    const std::vector<std::vector<double>> rows = complete_rows(groups);
+    result.n = rows.size();
+    if (groups.size() > 2) {
+        result.friedman = statistics::friedman_test(rows);
+        result.p = result.friedman->p;
+        return;
+    }
+    std::vector<double> differences;
+    for (const std::vector<double>& row : rows) differences.push_back(row[0] - row[1]);
+    result.signed_rank = statistics::signed_rank_test(differences);
+    result.shift = statistics::paired_shift(differences);
+    result.p = result.signed_rank->p_two_sided;
+}
+
+void test_between(ComparisonResult& result) {
+    const std::vector<double>&a = result.groups[0].values, &b = result.groups[1].values;
+    result.n = a.size() + b.size();
+    result.rank_sum = statistics::rank_sum_test(a, b);
+    result.shift = statistics::independent_shift(a, b);
+    result.p = result.rank_sum->p_two_sided;
+}
+
+}  // namespace
+
+bool StudyData::simulated() const {
+    return std::any_of(participants.begin(), participants.end(),
+                       [](const ParticipantState& state) { return state.progress.simulated; });
+}
+
+std::size_t StudyData::completed() const {
+    return static_cast<std::size_t>(
+        std::count_if(participants.begin(), participants.end(),
+                      [](const ParticipantState& state) { return state.due == state.steps.size(); }));
+}
+
+StudyData collect(const content::Study& study, std::vector<ParticipantState> states) {
+    StudyData data;
+    for (ParticipantState& state : states) {
+        if (state.withdrawn) {
+            ++data.withdrawn;
+            continue;
+        }
+        Observation common;
+        common.participant = data.participants.size();
+        for (const Step& step : state.steps) {
+            common.retention = step.kind == StepKind::retention || step.id.starts_with("retention/");
+            if (step.condition == no_index && !common.retention) {
+                // Between subjects a form at the end belongs to the participant's only condition.
+                if (step.kind != StepKind::form || study.design.subjects == content::StudySubjects::within ||
+                    !step.id.starts_with("after/"))
+                    continue;
+            }
+            common.condition = step.condition;
+            if (step.condition == no_index && study.design.subjects == content::StudySubjects::between)
+                common.condition = content::conditions_of(study, state.progress.place).front();
+            common.part = step.part;
+            common.lesson = step.lesson;
+            if (step.kind == StepKind::form) add_scores(study, state, step, common, data);
+            if (step.kind == StepKind::lesson || step.kind == StepKind::retention)
+                add_measures(state, step, common, data);
+        }
+        data.participants.push_back(std::move(state));
+    }
+    return data;
+}
+
+Result<StudyData> collect(const content::Study& study, const std::filesystem::path& folder) {
+    BOLT_TRY_ASSIGN(auto states, list_participants(study, folder));
+    for (const ParticipantState& state : states)
+        if (!state.withdrawn && state.progress.checksum != study.checksum) {
+            Error error;
+            error.file = folder.string();
+            error.what = "the plan or a form was changed after " + state.participant + " began";
+            error.expected = "the files as they were, or study run --accept-change for this participant";
+            return fail(std::move(error));
+        }
+    return collect(study, std::move(states));
+}
+
+std::vector<double> participant_means(const StudyData& data, const std::string& measure,
+                                      const std::vector<std::size_t>& conditions, bool retention) {
+    std::vector<double> sums(data.participants.size(), 0.0);
+    std::vector<std::size_t> counts(data.participants.size(), 0);
+    for (const Observation& o : data.observations) {
+        if (o.measure != measure || o.retention != retention) continue;
+        const bool any_condition = conditions.empty();
+        if (!any_condition && std::find(conditions.begin(), conditions.end(), o.condition) == conditions.end())
+            continue;
+        sums[o.participant] += o.value;
+        ++counts[o.participant];
+    }
+    std::vector<double> means;
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        means.push_back(counts[i] == 0 ? nan : sums[i] / static_cast<double>(counts[i]));
+    return means;
+}
+
+std::vector<ComparisonResult> compare(const content::Study& study, const StudyData& data) {
+    const std::vector<MeasureInfo> infos = measure_infos(study);
+    std::vector<ComparisonResult> results;
+    std::vector<double> p;
+    for (const content::PlannedComparison& planned : study.comparisons) {
+        ComparisonResult result;
+        result.planned = &planned;
+        result.info = info_of(infos, planned.measure);
+        std::vector<std::vector<double>> groups;
+        for (const content::ComparedGroup& group : planned.groups) {
+            groups.push_back(participant_means(data, planned.measure, group.conditions, planned.retention));
+            std::string name = group.name;
+            if (planned.factor.empty())
+                name = title_of(study.conditions[group.conditions.front()].titles);
+            else
+                name = planned.factor + " " + group.name;
+            result.groups.push_back(sample_of(std::move(name), groups.back(), nullptr));
+        }
+        if (study.design.subjects == content::StudySubjects::within)
+            test_within(groups, result);
+        else
+            test_between(result);
+        p.push_back(result.p);
+        results.push_back(std::move(result));
+    }
+    const std::vector<double> adjusted = statistics::holm(p);
+    for (std::size_t i = 0; i < results.size(); ++i) results[i].p_holm = adjusted[i];
+    return results;
+}
+
+Results analyse(const content::Study& study, const StudyData& data,
+                const statistics::BootstrapOptions& bootstrap) {
+    Results results;
+    results.bootstrap = bootstrap;
+    for (const MeasureInfo& info : measure_infos(study)) {
+        MeasureResult measure;
+        measure.info = info;
+        bool any = false;
+        for (std::size_t i = 0; i < study.conditions.size(); ++i) {
+            measure.conditions.push_back(sample_of(title_of(study.conditions[i].titles),
+                                                   participant_means(data, info.id, {i}, false), &bootstrap));
+            any = any || !measure.conditions.back().values.empty();
+        }
+        Sample retention =
+            sample_of("Retention test", participant_means(data, info.id, {}, true), &bootstrap);
+        if (study.retention && !retention.values.empty()) measure.retention = std::move(retention);
+        for (const content::PublishedValue& published : study.published)
+            if (published.measure == info.id) {
+                measure.published = &published;
+                const double step = answer_step(study, info.id);
+                if (step > 0.0)
+                    measure.published_is_possible = statistics::is_possible_mean(
+                        published.mean, published.decimals, published.n, step);
+            }
+        if (any || measure.retention || measure.published != nullptr)
+            results.measures.push_back(std::move(measure));
+    }
+    results.comparisons = compare(study, data);
+    return results;
+}
+
+}  // namespace bolt::study

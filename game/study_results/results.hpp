@@ -1,0 +1,129 @@
+// The results of a study: the values of all measures by participant and condition, their description, and the
+// planned comparisons.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "content/studies/study.hpp"
+#include "engine/base/result.hpp"
+#include "game/statistics/rank_tests.hpp"
+#include "game/statistics/summary.hpp"
+#include "game/study/measures.hpp"
+#include "game/study/participation.hpp"
+
+namespace bolt::study {
+
+// One value of one measure.
+struct Observation {
+    std::size_t participant = 0;       // index into StudyData::participants
+    std::size_t condition = no_index;  // none: a retention test within subjects
+    std::size_t part = no_index;       // in the order of the participant; none: retention
+    std::size_t lesson = no_index;     // of the part; none: a form after the whole part
+    bool retention = false;
+    std::string measure;
+    double value = 0.0;
+};
+
+struct StudyData {
+    std::vector<ParticipantState> participants;  // who have not withdrawn
+    std::size_t withdrawn = 0;
+    std::vector<Observation> observations;
+    [[nodiscard]] bool simulated() const;         // some participant is simulated
+    [[nodiscard]] std::size_t completed() const;  // participants who did every step
+};
+
+// The data of a folder. Forms with unanswered items give no value for the scales that need them.
+Result<StudyData> collect(const content::Study& study, const std::filesystem::path& folder);
+// The observations of participants that are already listed.
+StudyData collect(const content::Study& study, std::vector<ParticipantState> states);
+
+// For each participant: the mean of the measure's values in these conditions; NaN without any.
+std::vector<double> participant_means(const StudyData& data, const std::string& measure,
+                                      const std::vector<std::size_t>& conditions, bool retention);
+
+// The values of one measure in one condition, one for each participant who has any.
+struct Sample {
+    std::string name;  // title of the condition, or of the retention test
+    std::vector<double> values;
+    statistics::Quartiles quartiles;
+    double mean = 0.0, min = 0.0, max = 0.0;  // NaN without values
+    statistics::Interval mean_interval;       // bootstrap
+};
+
+struct MeasureResult {
+    MeasureInfo info;
+    std::vector<Sample> conditions;                  // in the order of the plan
+    std::optional<Sample> retention;                 // if the plan has the test and the measure has values
+    const content::PublishedValue* published = nullptr;
+    bool published_is_possible = true;               // GRIM
+};
+
+struct ComparisonResult {
+    const content::PlannedComparison* planned = nullptr;
+    MeasureInfo info;
+    std::vector<Sample> groups;
+    std::size_t n = 0;  // participants in the test
+    // One of these, by the design and the number of groups.
+    std::optional<statistics::SignedRankTest> signed_rank;
+    std::optional<statistics::RankSumTest> rank_sum;
+    std::optional<statistics::FriedmanTest> friedman;
+    std::optional<statistics::Shift> shift;  // first group minus second, of two groups
+    double p = 1.0, p_holm = 1.0;
+};
+
+struct Results {
+    std::vector<MeasureResult> measures;  // those with any value
+    std::vector<ComparisonResult> comparisons;
+    statistics::BootstrapOptions bootstrap;
+};
+
+// `study` must outlive the results.
+Results analyse(const content::Study& study, const StudyData& data,
+                const statistics::BootstrapOptions& bootstrap = {.resamples = 5000});
+
+// Only the planned comparisons, with Holm's correction.
+std::vector<ComparisonResult> compare(const content::Study& study, const StudyData& data);
+
+// The page: a single HTML file without external resources.
+std::string results_page(const content::Study& study, const StudyData& data, const Results& results);
+
+// The progress of all participants, for the experimenter: a page that reloads itself, and lines for a
+// terminal. `now`: s since 1970-01-01 UTC. Neither names a condition if the study is blind.
+std::string progress_page(const content::Study& study, const std::vector<ParticipantState>& states,
+                          std::int64_t now);
+std::string progress_text(const content::Study& study, const std::vector<ParticipantState>& states,
+                          std::int64_t now);
+
+// A row for each observation: participant, person, simulated, condition, part, lesson, retention, measure,
+// value (RFC 4180).
+std::string results_csv(const content::Study& study, const StudyData& data);
+// Everything that the page shows, as numbers.
+std::string results_json(const content::Study& study, const StudyData& data, const Results& results);
+
+// Power of the planned comparisons of forms, by simulation (power.cpp).
+
+struct PowerOptions {
+    std::size_t participants = 20, studies = 500;
+    std::uint64_t seed = 1;
+    // By condition: shift of the answers in standard deviations of a participant's answers about its mean.
+    std::vector<double> effects;
+    double significance = 0.05;
+};
+struct Power {
+    const content::PlannedComparison* planned = nullptr;
+    double rate = 0.0;  // share of the simulated studies in which Holm's p is below the significance
+};
+// An answer is, in units of a third of the scale's half width: a trait of the person + the effect of the
+// condition + an error, both of standard deviation 1, added to the middle of the scale, rounded to its step
+// and limited to it. Comparisons of objective measures and of retention are left out.
+std::vector<Power> simulate_power(const content::Study& study, const PowerOptions& options);
+
+// The answer to an item for a latent value, as above; reversed items of the form are not turned, because
+// both ends of a scale are only names here.
+double simulated_answer(const content::AnswerScale& scale, double latent);
+
+}  // namespace bolt::study
