@@ -23,8 +23,8 @@ StudyData simulated_forms(const content::Study& study, const PowerOptions& optio
             const double effect =
                 step.condition < options.effects.size() ? options.effects[step.condition] : 0.0;
             for (const content::QuestionnaireItem& item : form.items)
-                state.progress.answers[step.id][item.id] = simulated_answer(
-                    content::answer_scale_of(form, item), trait + effect + random.normal());
+                state.progress.answers[step.id][item.id] =
+                    simulated_answer(content::answer_scale_of(form, item), trait + effect + random.normal());
         }
         states.push_back(std::move(state));
     }

@@ -67,8 +67,7 @@ double answer_step(const content::Study& study, const std::string& measure) {
     if (form == nullptr) return 0.0;
     for (const content::QuestionnaireScale& scale : form->scales)
         if (form->id + "." + scale.id == measure && scale.items.size() == 1)
-            return content::answer_scale_of(*form, form->items[scale.items.front().item]).step *
-                   scale.weight;
+            return content::answer_scale_of(*form, form->items[scale.items.front().item]).step * scale.weight;
     return 0.0;
 }
 
@@ -177,7 +176,8 @@ std::vector<double> participant_means(const StudyData& data, const std::string& 
     for (const Observation& o : data.observations) {
         if (o.measure != measure || o.retention != retention) continue;
         const bool any_condition = conditions.empty();
-        if (!any_condition && std::find(conditions.begin(), conditions.end(), o.condition) == conditions.end())
+        if (!any_condition &&
+            std::find(conditions.begin(), conditions.end(), o.condition) == conditions.end())
             continue;
         sums[o.participant] += o.value;
         ++counts[o.participant];
@@ -239,8 +239,8 @@ Results analyse(const content::Study& study, const StudyData& data,
                 measure.published = &published;
                 const double step = answer_step(study, info.id);
                 if (step > 0.0)
-                    measure.published_is_possible = statistics::is_possible_mean(
-                        published.mean, published.decimals, published.n, step);
+                    measure.published_is_possible =
+                        statistics::is_possible_mean(published.mean, published.decimals, published.n, step);
             }
         if (any || measure.retention || measure.published != nullptr)
             results.measures.push_back(std::move(measure));

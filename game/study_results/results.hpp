@@ -56,10 +56,10 @@ struct Sample {
 
 struct MeasureResult {
     MeasureInfo info;
-    std::vector<Sample> conditions;                  // in the order of the plan
-    std::optional<Sample> retention;                 // if the plan has the test and the measure has values
+    std::vector<Sample> conditions;   // in the order of the plan
+    std::optional<Sample> retention;  // if the plan has the test and the measure has values
     const content::PublishedValue* published = nullptr;
-    bool published_is_possible = true;               // GRIM
+    bool published_is_possible = true;  // GRIM
 };
 
 struct ComparisonResult {

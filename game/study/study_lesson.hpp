@@ -1,0 +1,39 @@
+// The lessons of a study: what they need, and their settings as the rest of the program has them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "content/format/assembly.hpp"
+#include "content/studies/study.hpp"
+#include "engine/base/result.hpp"
+#include "game/session/lesson_session.hpp"
+
+namespace bolt::study {
+
+// A folder or file in the study's folder, if there is one of this name; otherwise as the user would give it
+// on the command line.
+std::string assembly_of(const content::StudyLesson& lesson, const std::filesystem::path& study_folder);
+
+// The options that a session records, without the trainee. `assembly_law`: of the assembly.
+session::LessonOptions lesson_options(const content::StudyLesson& lesson, joint::Law assembly_law);
+
+// The assembly of a lesson with its variant, tool and law.
+Result<content::Assembly> load_lesson_assembly(const content::StudyLesson& lesson,
+                                               const std::filesystem::path& study_folder);
+
+// The same seed for the same lesson of a participant on every machine.
+std::uint64_t lesson_seed(const content::Study& study, std::size_t place, std::string_view step);
+
+// What prevents the study, or makes it weaker, beyond the mistakes of its files.
+struct StudyCheck {
+    std::vector<Error> errors;            // assemblies, variants and tools that do not exist
+    std::vector<std::string> additions;   // texts that the laboratory has to add before the first person
+    std::vector<std::string> weaknesses;  // the design can be run, but not as well as it could be
+};
+StudyCheck check_study(const content::Study& study, const std::filesystem::path& folder);
+
+}  // namespace bolt::study

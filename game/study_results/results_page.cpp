@@ -1,0 +1,392 @@
+// The pages of a study: its results, and the progress of its participants.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "game/plot/html.hpp"
+#include "game/plot/plot.hpp"
+#include "game/plot/strips.hpp"
+#include "game/study_results/results.hpp"
+
+namespace bolt::study {
+
+namespace {
+
+using plot::put;
+
+constexpr double high_shift_confidence = 0.95 - 1e-9;  // 1e-9 is for rounding
+
+std::string english(const std::map<std::string, std::string>& texts) {
+    const auto found = texts.find("en");
+    return found != texts.end() ? found->second : texts.empty() ? std::string() : texts.begin()->second;
+}
+
+std::string shown(const MeasureInfo& info, double value) {
+    return plot::number(value * info.scale, info.decimals);
+}
+
+std::string p_text(double p) { return p < 0.001 ? "&lt; 0.001" : plot::number(p, 3); }
+
+std::string simulated_banner(const StudyData& data) {
+    if (!data.simulated()) return {};
+    const auto simulated = std::count_if(data.participants.begin(), data.participants.end(),
+                                         [](const ParticipantState& s) { return s.progress.simulated; });
+    return fmt::format(
+        "<p class=\"banner\"><strong>Simulated participants.</strong> {} of {} participants are programs: "
+        "their lessons are those of simulated trainees, and their answers are random numbers. This page "
+        "shows how the design works; it says nothing about people.</p>\n",
+        simulated, data.participants.size());
+}
+
+std::string design_text(const content::Study& study) {
+    const content::StudyDesign& design = study.design;
+    const std::size_t n = study.conditions.size();
+    if (n == 1) return "one condition";
+    if (design.subjects == content::StudySubjects::between)
+        return fmt::format("{} groups of different participants, assigned by permuted blocks of {} (seed {})",
+                           n, n, design.seed);
+    if (design.order == content::StudyOrder::williams)
+        return fmt::format("{} conditions within subjects, in the orders of a Williams square (seed {})", n,
+                           design.seed);
+    return fmt::format(
+        "{} conditions within subjects, in random orders that are balanced in every {} participants (seed "
+        "{})",
+        n, n, design.seed);
+}
+
+std::string facts(const content::Study& study, const StudyData& data) {
+    std::int64_t first = 0, last = 0;
+    double set_back = 0.0;
+    std::size_t interrupted = 0;
+    for (const ParticipantState& state : data.participants) {
+        first = first == 0 ? state.progress.begun : std::min(first, state.progress.begun);
+        last = std::max(last, state.progress.latest);
+        set_back += state.progress.clock_set_back;
+        interrupted += state.progress.interrupted.size();
+    }
+    std::string out = "<dl class=\"facts\">\n";
+    out += plot::fact("participants",
+                      fmt::format("{} of {} planned", data.participants.size(), study.design.participants));
+    out += plot::fact("did every step", std::to_string(data.completed()));
+    out += plot::fact("withdrew", std::to_string(data.withdrawn));
+    if (first != 0)
+        out += plot::fact("dates", time_text(first).substr(0, 10) + " to " + time_text(last).substr(0, 10));
+    out += plot::fact("interrupted lessons", std::to_string(interrupted));
+    if (set_back > 0.0)
+        out += plot::fact("clock set back", fmt::format("by {} in total", plot::duration_text(set_back)));
+    out += plot::fact("plan", fmt::format("{:016x}", study.checksum));
+    return out + "</dl>\n";
+}
+
+// The row of a measure in one condition: n, minimum, maximum, mean with interval, median, quartiles.
+void put_row(std::string& out, const MeasureResult& measure, const Sample& sample, bool first) {
+    const MeasureInfo& info = measure.info;
+    put(out,
+        "<tr><td class=\"w\">{}</td><td class=\"w\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
+        "class=\"n\">{}</td><td class=\"n\">{} <span class=\"of\">[{}, {}]</span></td><td "
+        "class=\"n\">{}</td><td class=\"n\">{} <span class=\"of\">to {}</span></td></tr>\n",
+        first ? fmt::format("{} <span class=\"of\">{}</span>", plot::escape(info.title), info.unit) : "",
+        plot::escape(sample.name), sample.values.size(), shown(info, sample.min), shown(info, sample.max),
+        plot::number(sample.mean * info.scale, info.decimals + 1), shown(info, sample.mean_interval.low),
+        shown(info, sample.mean_interval.high), shown(info, sample.quartiles.median),
+        shown(info, sample.quartiles.low), shown(info, sample.quartiles.high));
+}
+
+void put_published(std::string& out, const MeasureResult& measure) {
+    const content::PublishedValue& value = *measure.published;
+    put(out,
+        "<tr><td></td><td class=\"w\">{}{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
+        "class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">–</td><td class=\"n\">–</td></tr>\n",
+        plot::escape(value.source),
+        measure.published_is_possible ? "" : " <span class=\"bad\">impossible mean</span>", value.n,
+        value.min ? plot::number(*value.min, 0) : "–", value.max ? plot::number(*value.max, 0) : "–",
+        plot::number(value.mean, value.decimals));
+}
+
+std::string description_table(const Results& results, bool objective) {
+    std::string rows;
+    bool impossible = false;
+    for (const MeasureResult& measure : results.measures) {
+        if (measure.info.definition.empty() == objective) continue;
+        bool first = true;
+        for (const Sample& sample : measure.conditions) {
+            put_row(rows, measure, sample, first);
+            first = false;
+        }
+        if (measure.retention) put_row(rows, measure, *measure.retention, first);
+        if (measure.published != nullptr) put_published(rows, measure);
+        impossible = impossible || !measure.published_is_possible;
+    }
+    if (rows.empty()) return {};
+    std::string out = fmt::format(
+        "<h2>{}</h2>\n<div class=\"scroll\"><table><thead><tr><th>measure</th><th>condition</th><th "
+        "class=\"n\">n</th><th class=\"n\">min</th><th class=\"n\">max</th><th class=\"n\">mean [95 "
+        "%]</th><th "
+        "class=\"n\">median</th><th "
+        "class=\"n\">quartiles</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+        objective ? "Measured in the lessons" : "Judged by the participants", rows);
+    if (impossible)
+        out +=
+            "<p class=\"note\">Impossible mean: no answers of so many people in steps of this scale have a "
+            "mean that is printed so (GRIM test, Brown and Heathers 2017). The printed value rests on other "
+            "data than the publication says.</p>\n";
+    return out;
+}
+
+std::string definitions(const Results& results) {
+    std::string out = "<p class=\"note\">";
+    for (const MeasureResult& measure : results.measures)
+        if (!measure.info.definition.empty())
+            put(out, "{}: {}. ", plot::escape(measure.info.title), plot::escape(measure.info.definition));
+    return out + "</p>\n";
+}
+
+std::string box_plot(const MeasureResult& measure) {
+    plot::StripPlot strips;
+    strips.title = measure.info.title;
+    strips.unit = measure.info.unit;
+    strips.left = 110.0;
+    std::vector<const Sample*> samples;
+    for (const Sample& sample : measure.conditions) samples.push_back(&sample);
+    if (measure.retention) samples.push_back(&*measure.retention);
+    double low = 0.0, high = 0.0;
+    for (const Sample* sample : samples) {
+        plot::StripRow row;
+        row.label = sample->name.size() > 18 ? sample->name.substr(0, 17) + "…" : sample->name;
+        const double scale = measure.info.scale;
+        for (const double value : sample->values) {
+            row.values.push_back(value * scale);
+            low = std::min(low, value * scale);
+            high = std::max(high, value * scale);
+        }
+        row.low = sample->quartiles.low * scale;
+        row.median = sample->quartiles.median * scale;
+        row.high = sample->quartiles.high * scale;
+        if (sample == (measure.retention ? &*measure.retention : nullptr)) row.style = "mclamp";
+        strips.rows.push_back(std::move(row));
+    }
+    strips.ticks = plot::covering_ticks(low, high > low ? high : low + 1.0, 5);
+    return plot::figure("<h3>" + plot::escape(measure.info.title) + "</h3>", plot::draw(strips), "");
+}
+
+std::string box_plots(const Results& results) {
+    std::string out = "<h2>Every value</h2>\n<div class=\"grid\">\n";
+    for (const MeasureResult& measure : results.measures) {
+        const bool any = std::any_of(measure.conditions.begin(), measure.conditions.end(),
+                                     [](const Sample& s) { return !s.values.empty(); });
+        if (any || measure.retention) out += box_plot(measure);
+    }
+    return out +
+           "</div>\n<p class=\"note\">A dot is a participant: the mean of its lessons in the condition. Box "
+           "and line: quartiles and median of type 7 (linear interpolation), as in NumPy and R's quantile(); "
+           "R's boxplot() draws hinges, which differ in small samples.</p>\n";
+}
+
+std::string test_text(const ComparisonResult& result) {
+    if (result.friedman)
+        return fmt::format("Friedman χ²({}) = {}, W = {}", result.friedman->conditions - 1,
+                           plot::number(result.friedman->chi_squared, 2),
+                           plot::number(result.friedman->kendall_w, 2));
+    if (result.signed_rank)
+        return fmt::format(
+            "Wilcoxon W⁺ = {}, W⁻ = {}{}, r = {}", plot::number(result.signed_rank->positive, 1),
+            plot::number(result.signed_rank->negative, 1),
+            result.signed_rank->zeros > 0 ? fmt::format(" ({} equal)", result.signed_rank->zeros) : "",
+            plot::number(result.signed_rank->rank_biserial, 2));
+    return fmt::format("rank sum U = {}, r = {}", plot::number(result.rank_sum->u, 1),
+                       plot::number(result.rank_sum->rank_biserial, 2));
+}
+
+std::string comparisons_table(const Results& results) {
+    if (results.comparisons.empty()) return {};
+    std::string out =
+        "<h2>Planned comparisons</h2>\n<div class=\"scroll\"><table><thead><tr><th>measure</th><th>groups "
+        "(median)</th><th class=\"n\">n</th><th class=\"n\">difference [95 %]</th><th>test</th><th "
+        "class=\"n\">p</th><th class=\"n\">p (Holm)</th></tr></thead><tbody>\n";
+    for (const ComparisonResult& result : results.comparisons) {
+        std::string groups, difference = "–";
+        for (const Sample& group : result.groups)
+            groups += fmt::format("{}{} <span class=\"of\">{}</span>", groups.empty() ? "" : ", ",
+                                  plot::escape(group.name), shown(result.info, group.quartiles.median));
+        if (result.shift && std::isfinite(result.shift->estimate)) {
+            difference =
+                plot::signed_number(result.shift->estimate * result.info.scale, result.info.decimals);
+            if (result.shift->confidence >= high_shift_confidence)
+                difference += fmt::format(" <span class=\"of\">[{}, {}]</span>",
+                                          shown(result.info, result.shift->interval.low),
+                                          shown(result.info, result.shift->interval.high));
+        }
+        put(out,
+            "<tr><td class=\"w\">{}{}</td><td class=\"w\">{}</td><td class=\"n\">{}</td><td "
+            "class=\"n\">{}</td><td class=\"w\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+            plot::escape(result.info.title), result.planned->retention ? ", retention test" : "", groups,
+            result.n, difference, test_text(result), p_text(result.p), p_text(result.p_holm));
+    }
+    return out +
+           "</tbody></table></div>\n<p class=\"note\">Difference: Hodges and Lehmann's estimate, first group "
+           "minus second, with the interval of the exact distribution where there are enough participants. "
+           "r: rank-biserial correlation, −1 to 1. p: two-sided; exact below 100 participants for Wilcoxon "
+           "and rank sum, χ² distribution for Friedman. Holm's correction is for all rows. With five "
+           "participants or fewer no signed rank test can fall below 0.05.</p>\n";
+}
+
+// The values of a participant's lessons in their order, one line each; never a mean of people.
+std::string learning_curve(const StudyData& data, const MeasureInfo& info) {
+    plot::Plot plot;
+    plot.title = info.title + " over the lessons";
+    double low = 0.0, high = 1.0;
+    std::size_t lessons = 0;
+    for (std::size_t i = 0; i < data.participants.size(); ++i) {
+        plot::PlotLine line{{}, "ln p1"};
+        for (const Observation& o : data.observations)
+            if (o.participant == i && o.measure == info.id && !o.retention && o.lesson != no_index)
+                line.points.push_back({static_cast<double>(line.points.size() + 1), o.value * info.scale});
+        for (const plot::SvgPoint& point : line.points) {
+            low = std::min(low, point.y);
+            high = std::max(high, point.y);
+        }
+        lessons = std::max(lessons, line.points.size());
+        plot.lines.push_back(std::move(line));
+    }
+    if (lessons < 2) return {};
+    plot.x = {plot::count_ticks(1, static_cast<int>(lessons), 10), "lesson of the participant"};
+    plot.y = {plot::covering_ticks(low, high, 5), info.unit};
+    return plot::figure("<h3>" + plot::escape(info.title) + "</h3>", plot::draw(plot), "");
+}
+
+std::string learning_curves(const StudyData& data) {
+    std::string figures;
+    for (const char* id : {"score", "duration_s", "torque_error", "bumps"})
+        for (const MeasureInfo& info : objective_measure_infos())
+            if (info.id == id) figures += learning_curve(data, info);
+    if (figures.empty()) return {};
+    return "<h2>Over the lessons</h2>\n<div class=\"grid\">\n" + figures +
+           "</div>\n<p class=\"note\">A line is a participant. Within subjects the condition changes along "
+           "the line, so practice and condition are seen together; the balanced order separates them only on "
+           "average.</p>\n";
+}
+
+std::string methods(const content::Study& study, const StudyData& data, const Results& results) {
+    std::string out = "<h2>Methods</h2>\n<p>";
+    put(out, "{} participants took part{}; {} did every step and {} withdrew. ", data.participants.size(),
+        data.simulated() ? " (simulated)" : "", data.completed(), data.withdrawn);
+    put(out, "The design had {}. ", design_text(study));
+    if (study.training)
+        put(out, "Before the first condition each participant trained for {} in lessons. ",
+            plot::duration_text(study.training->duration));
+    put(out, "Each condition had {} lesson{}. ", study.design.sessions,
+        study.design.sessions == 1 ? "" : "s of the same task");
+    if (study.design.blind) out += "The experimenter did not see the conditions. ";
+    if (study.retention)
+        put(out, "A retention test without change of condition followed after {} days. ",
+            study.retention->after_days);
+    out += "Forms: ";
+    for (std::size_t i = 0; i < study.questionnaires.size(); ++i)
+        put(out, "{}{} ({})", i == 0 ? "" : "; ", plot::escape(english(study.questionnaires[i].titles)),
+            plot::escape(study.questionnaires[i].source));
+    put(out,
+        ". Samples are described by median and quartiles (type 7) and by the mean with a percentile "
+        "bootstrap interval of 95 % ({} resamples, seed {}). The {} comparisons were planned before the "
+        "first participant; two related samples were compared by Wilcoxon's signed rank test (exact, zero "
+        "differences dropped, midranks for ties), more than two by Friedman's test, independent samples by "
+        "the rank sum test (exact), all two-sided, with Holm's correction. Effect sizes are the "
+        "rank-biserial "
+        "correlation and Kendall's W; differences are Hodges and Lehmann's estimates. Analysed with "
+        "Boltwright.</p>\n",
+        results.bootstrap.resamples, results.bootstrap.seed, study.comparisons.size());
+    return out;
+}
+
+std::string comments(const StudyData& data) {
+    std::string rows;
+    for (const ParticipantState& state : data.participants)
+        if (!state.progress.comment.empty())
+            put(rows, "<tr><td>{}</td><td class=\"w\">{}</td></tr>\n", state.participant,
+                plot::escape(state.progress.comment));
+    if (rows.empty()) return {};
+    return "<h2>Comments</h2>\n<table><thead><tr><th>participant</th><th>comment</th></tr></thead><tbody>\n" +
+           rows + "</tbody></table>\n";
+}
+
+// The due step without anything that tells the condition.
+std::string step_text(const ParticipantState& state) {
+    if (state.withdrawn) return "withdrew";
+    if (state.due == state.steps.size()) return "complete";
+    const Step& step = state.steps[state.due];
+    return step.id;
+}
+
+std::string conditions_text(const content::Study& study, const ParticipantState& state) {
+    if (study.design.blind || state.withdrawn) return "–";
+    std::string text;
+    for (const std::size_t condition : content::conditions_of(study, state.progress.place))
+        text += (text.empty() ? "" : ", ") + study.conditions[condition].id;
+    return text;
+}
+
+std::string waiting_text(const content::Study& study, const ParticipantState& state, std::int64_t now) {
+    if (state.withdrawn) return {};
+    const auto due = retention_due(study, state.progress);
+    if (due && state.due < state.steps.size() && state.steps[state.due].kind == StepKind::retention)
+        return (*due > now ? "retention test from " : "retention test since ") +
+               time_text(*due).substr(0, 10);
+    return "last entry " + time_text(state.progress.latest);
+}
+
+}  // namespace
+
+std::string results_page(const content::Study& study, const StudyData& data, const Results& results) {
+    std::string body;
+    put(body, "<p class=\"over\">Boltwright study</p>\n<h1>{}</h1>\n<p>{}.</p>\n",
+        plot::escape(english(study.titles)), plot::escape(design_text(study)));
+    body += simulated_banner(data) + facts(study, data);
+    if (data.participants.empty()) body += "<p class=\"banner\">Nobody has taken part yet.</p>\n";
+    body += description_table(results, false) + description_table(results, true) + definitions(results);
+    if (!data.participants.empty()) {
+        body += comparisons_table(results) + box_plots(results) + learning_curves(data);
+        body += methods(study, data, results) + comments(data);
+    }
+    return plot::page(english(study.titles) + ": results", body);
+}
+
+std::string progress_text(const content::Study& study, const std::vector<ParticipantState>& states,
+                          std::int64_t now) {
+    std::string out;
+    std::size_t complete = 0, withdrawn = 0;
+    for (const ParticipantState& state : states) {
+        withdrawn += state.withdrawn;
+        complete += !state.withdrawn && state.due == state.steps.size();
+        put(out, "{:<5} {:>2} of {:<3} {:<26} {:<24} {}{}\n", state.participant, state.due,
+            state.steps.size(), step_text(state), conditions_text(study, state),
+            waiting_text(study, state, now), state.progress.simulated ? " (simulated)" : "");
+    }
+    put(out, "{} of {} planned participants complete, {} begun, {} withdrew\n", complete,
+        study.design.participants, states.size() - withdrawn, withdrawn);
+    return out;
+}
+
+std::string progress_page(const content::Study& study, const std::vector<ParticipantState>& states,
+                          std::int64_t now) {
+    std::string body;
+    put(body,
+        "<meta http-equiv=\"refresh\" content=\"10\"/>\n<p class=\"over\">Boltwright study, progress at "
+        "{}</p>\n<h1>{}</h1>\n",
+        time_text(now), plot::escape(english(study.titles)));
+    body +=
+        "<div class=\"scroll\"><table><thead><tr><th>participant</th><th class=\"n\">steps done</th><th>due "
+        "step</th><th>conditions</th><th></th></tr></thead><tbody>\n";
+    for (const ParticipantState& state : states)
+        put(body,
+            "<tr><td>{}{}</td><td class=\"n\">{} <span class=\"of\">of "
+            "{}</span></td><td>{}</td><td>{}</td><td "
+            "class=\"w\">{}</td></tr>\n",
+            state.participant, state.progress.simulated ? " (simulated)" : "", state.due, state.steps.size(),
+            step_text(state), plot::escape(conditions_text(study, state)), waiting_text(study, state, now));
+    body += "</tbody></table></div>\n";
+    if (study.design.blind)
+        body += "<p class=\"note\">The study is blind: this page does not show the conditions.</p>\n";
+    return plot::page(english(study.titles) + ": progress", body);
+}
+
+}  // namespace bolt::study

@@ -1,0 +1,158 @@
+#include "game/study_results/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "engine/base/random.hpp"
+#include "game/study/measures.hpp"
+#include "game/study/study_lesson.hpp"
+#include "game/study_results/results.hpp"
+#include "game/trainees/trainee.hpp"
+
+namespace bolt::study {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// One simulated participant, with a clock of its own that its lessons and breaks advance.
+struct SimulatedPerson {
+    Participation participation;
+    std::shared_ptr<std::int64_t> now;
+    Random random;
+    double trait;  // standard deviations, of all its answers
+    std::string profile;
+};
+
+// All that the persons share.
+struct Simulation {
+    const content::Study& study;
+    const fs::path& folder;
+    const SimulationOptions& options;
+    const SimulationProgress& progress;
+    std::mutex progress_mutex{};
+    std::atomic<bool> stopped{false};
+};
+
+Status answer_form(const Simulation& simulation, SimulatedPerson& person, const Step& step) {
+    const content::Questionnaire& form = simulation.study.questionnaires[step.form];
+    const std::vector<double>& effects = simulation.options.effects;
+    const double effect = step.condition < effects.size() ? effects[step.condition] : 0.0;
+    for (const content::QuestionnaireItem& item : form.items) {
+        const double latent = person.trait + effect + person.random.normal();
+        BOLT_TRY(person.participation.answer(item.id,
+                                             simulated_answer(content::answer_scale_of(form, item), latent)));
+    }
+    *person.now += static_cast<std::int64_t>(5 * form.items.size());
+    return person.participation.complete();
+}
+
+Status play_lesson(const Simulation& simulation, SimulatedPerson& person, const Step& step) {
+    const content::StudyLesson& lesson = person.participation.lesson();
+    BOLT_TRY_ASSIGN(const auto assembly, load_lesson_assembly(lesson, simulation.folder));
+    trainees::TrainOptions train;
+    train.lesson = lesson_options(lesson, assembly.law);
+    train.lesson.seed = lesson_seed(simulation.study, person.participation.progress().place, step.id);
+    train.lesson.trainee = person.participation.progress().person;
+    BOLT_TRY_ASSIGN(train.trainee, trainees::find_profile(person.profile));
+    train.lesson.trainee_profile = train.trainee.name;
+    if (lesson.view_help && simulation.options.make_view_helper)
+        train.view_help = simulation.options.make_view_helper();
+    BOLT_TRY_ASSIGN(const auto out, person.participation.begin_lesson());
+    const fs::path session = out / "session.boltwright";
+    BOLT_TRY_ASSIGN(const auto outcome,
+                    trainees::train(assembly, train, session, [](const auto&) { return true; }));
+    *person.now += static_cast<std::int64_t>(outcome.result.duration);
+    BOLT_TRY_ASSIGN(const auto measures, measure_session(session));
+    return person.participation.end_lesson(measures);
+}
+
+Status do_step(const Simulation& simulation, SimulatedPerson& person) {
+    const Step& step = *person.participation.due();
+    *person.now += static_cast<std::int64_t>(person.participation.wait());
+    switch (step.kind) {
+        case StepKind::language:
+            BOLT_TRY(person.participation.choose_language(simulation.study.consent.begin()->first));
+            break;
+        case StepKind::consent:
+            for (std::size_t i = 0; i < simulation.study.consent.begin()->second.size(); ++i)
+                BOLT_TRY(person.participation.agree(i));
+            break;
+        case StepKind::form:
+            return answer_form(simulation, person, step);
+        case StepKind::training:
+            *person.now += static_cast<std::int64_t>(simulation.study.training->duration);
+            return person.participation.end_lesson({{"duration_s", simulation.study.training->duration}});
+        case StepKind::lesson:
+        case StepKind::retention:
+            return play_lesson(simulation, person, step);
+        default:
+            break;
+    }
+    return person.participation.complete();
+}
+
+Status do_all_steps(Simulation& simulation, SimulatedPerson& person) {
+    while (person.participation.due() != nullptr && !simulation.stopped) {
+        const Step step = *person.participation.due();
+        BOLT_TRY(do_step(simulation, person));
+        if (step.kind != StepKind::lesson && step.kind != StepKind::retention) continue;
+        const std::lock_guard lock(simulation.progress_mutex);
+        if (!simulation.progress(person.participation.participant(), step)) simulation.stopped = true;
+    }
+    return {};
+}
+
+Result<std::vector<SimulatedPerson>> enrol_persons(const Simulation& simulation) {
+    const std::vector<std::string> profiles = trainees::profile_names();
+    std::vector<SimulatedPerson> persons;
+    for (std::size_t i = 0; i < simulation.options.participants; ++i) {
+        const auto now = std::make_shared<std::int64_t>(system_time());
+        BOLT_TRY_ASSIGN(auto participation, Participation::enrol(simulation.study, simulation.folder,
+                                                                 fmt::format("simulated-{}", i + 1), true,
+                                                                 [now] { return *now; }));
+        Random random(simulation.options.seed, i);
+        const double trait = random.normal();
+        persons.push_back(
+            {std::move(participation), now, random, trait, profiles[random.bits() % profiles.size()]});
+    }
+    return persons;
+}
+
+}  // namespace
+
+Status simulate(const content::Study& study, const fs::path& folder, const SimulationOptions& options,
+                const SimulationProgress& progress) {
+    BOLT_TRY_ASSIGN(const auto present, list_participants(study, folder));
+    if (!present.empty()) {
+        Error error;
+        error.file = (folder / participants_folder_name).string();
+        error.what = fmt::format("has {} participants", present.size());
+        error.expected =
+            "a folder of the study without participants, because simulated ones are never mixed "
+            "with people";
+        return fail(std::move(error));
+    }
+    Simulation simulation{study, folder, options, progress};
+    BOLT_TRY_ASSIGN(auto persons, enrol_persons(simulation));
+    std::atomic<std::size_t> next{0};
+    std::vector<Status> results(persons.size());
+    const auto work = [&] {
+        for (std::size_t i = next++; i < persons.size(); i = next++) {
+            results[i] = do_all_steps(simulation, persons[i]);
+            if (!results[i]) simulation.stopped = true;
+        }
+    };
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 1; i < options.threads; ++i) threads.emplace_back(work);
+    work();
+    threads.clear();
+    for (Status& result : results) BOLT_TRY(std::move(result));
+    if (simulation.stopped) return fail(ErrorCode::failed, "the simulation was stopped");
+    return {};
+}
+
+}  // namespace bolt::study
