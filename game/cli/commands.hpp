@@ -33,6 +33,7 @@ void add_glove(CLI::App& app, int& exit_code);
 void add_devices(CLI::App& app, int& exit_code);
 void add_station(CLI::App& app, int& exit_code);
 void add_displays(CLI::App& app, int& exit_code);
+void add_study(CLI::App& app, int& exit_code);
 
 // Adds the subcommand `register` to `station`.
 void add_station_register(CLI::App& station, int& exit_code);
