@@ -82,7 +82,8 @@ int run_new(const StudyArguments& options) {
         if (Status copied = copy_content_file(forms / name, to / content::forms_folder_name / name); !copied)
             return print_error(copied.error());
     }
-    if (Status copied = copy_content_file(from / content::study_file_name, to / content::study_file_name); !copied)
+    if (Status copied = copy_content_file(from / content::study_file_name, to / content::study_file_name);
+        !copied)
         return print_error(copied.error());
     const Status printed =
         print(fmt::format("{}\nEdit it, then: boltwright study check {}\nMore forms to copy into {}: {}\n",
@@ -312,7 +313,7 @@ void add_study(CLI::App& app, int& exit_code) {
         *study, "check",
         "Check the plan, its forms and its lessons; list the orders, what is to be added, and weaknesses",
         options, exit_code, run_check);
-    // RUN add_study_run(*study, exit_code);
+    add_study_run(*study, exit_code);
     CLI::App* status = add_command(*study, "status", "List the participants and how far they are", options,
                                    exit_code, run_status);
     status->add_option("--html", options->html, "Also write a page that reloads itself");

@@ -160,17 +160,26 @@ struct Surroundings {
     view::Walls* walls = nullptr;
 };
 
-Status run_window(const TrainArguments& options, const trainees::TrainOptions& train,
-                  const trainer::Equipment& equipment, const Surroundings& surroundings,
-                  platform::Desktop& desktop) {
+// What a window shows: a lesson, the menu, or a study.
+struct WindowRequest {
+    const TrainArguments& options;
+    const trainees::TrainOptions& train;
+    const trainer::Equipment& equipment;
+    std::optional<trainer::StudyRun> study{};
+};
+
+Status run_window(WindowRequest request, const Surroundings& surroundings, platform::Desktop& desktop) {
+    const TrainArguments& options = request.options;
+    const trainees::TrainOptions& train = request.train;
     xr::Headset* headset = surroundings.headset;
     const std::filesystem::path out(options.out);
     if (Status made = make_folder(out); !made) return made;
     trainer::AppOptions app_options;
     app_options.choice = {options.assembly, options.variant,  train.lesson.mode, train.lesson.task,
-                          options.trainee,  options.language, options.tool,      equipment};
+                          options.trainee,  options.language, options.tool,      request.equipment};
     app_options.sound = !options.silent;
-    app_options.menu = !options.start;
+    app_options.menu = !options.start && !request.study;
+    app_options.study = std::move(request.study);
     app_options.lesson = train.lesson;
     app_options.lesson.trainee_profile = "person";
     if (!options.law.empty()) app_options.choice.law = train.lesson.law;
@@ -233,8 +242,8 @@ Status check_hands(const TrainArguments& options, const trainer::Equipment& equi
 }
 
 // Shows the lesson, or, in a process that another one leads, that one's lesson.
-Status show(const TrainArguments& options, const trainees::TrainOptions& train,
-            const trainer::Equipment& equipment, xr::Headset* headset, platform::Desktop& desktop) {
+Status show(WindowRequest request, xr::Headset* headset, platform::Desktop& desktop) {
+    const TrainArguments& options = request.options;
     OpenedWalls opened;
     if (!options.displays.empty()) {
         BOLT_TRY_ASSIGN(auto walls, open_walls(options.displays, desktop, options.quiet));
@@ -245,7 +254,7 @@ Status show(const TrainArguments& options, const trainees::TrainOptions& train,
         return follow_first_process(lesson, opened, desktop, {options.gpu, options.validate});
     }
     view::Walls* walls = opened.walls.get();
-    const Status done = run_window(options, train, equipment, {headset, walls}, desktop);
+    const Status done = run_window(std::move(request), {headset, walls}, desktop);
     if (!done && walls != nullptr && walls->leader() != nullptr) walls->leader()->end(done.error());
     return done;
 }
@@ -289,7 +298,7 @@ int run_train(TrainArguments options) {
     std::error_code ignored;
     if (std::filesystem::exists(options.assembly, ignored))
         named.assembly = std::filesystem::absolute(options.assembly).lexically_normal().string();
-    const Status done = show(named, *train, *equipment, headset->get(), *desktop);
+    const Status done = show({named, *train, *equipment}, headset->get(), *desktop);
     return done ? 0 : print_error(done.error());
 }
 
@@ -306,7 +315,20 @@ Status train_from_desktop() {
     if (!loaded.ok()) return fail(loaded.errors.front());
     BOLT_TRY_ASSIGN(const auto train, train_options(options, loaded.assembly));
     BOLT_TRY_ASSIGN(auto desktop, platform::Desktop::open());
-    return run_window(options, train, equipment, {}, desktop);
+    return run_window({options, train, equipment}, {}, desktop);
+}
+
+Status run_study(const TrainArguments& options, trainer::StudyRun study) {
+    TrainArguments used = options;
+    BOLT_TRY_ASSIGN(const auto headset_use, cli::headset_use(used));
+    BOLT_TRY(check_displays(used, headset_use));
+    BOLT_TRY_ASSIGN(auto equipment, equipment_of(used));
+    BOLT_TRY_ASSIGN(const auto headset, open_headset(headset_use, used.quiet));
+    BOLT_TRY_ASSIGN(auto desktop, platform::Desktop::open());
+    if (headset && headset->creator() != nullptr && !equipment.needs_station())
+        equipment.hand = trainer::HandMode::tracked;
+    const trainees::TrainOptions unused{};  // the plan has the settings of the lessons
+    return show({used, unused, equipment, std::move(study)}, headset.get(), desktop);
 }
 
 void add_train(CLI::App& app, int& exit_code) {

@@ -98,12 +98,9 @@ void add_device_options(CLI::App& train, TrainArguments& options) {
         "Display file: shows the lesson on projection walls. `boltwright displays new` makes one");
     train.add_flag("--full-resolution", options.full_resolution,
                    "Keep the resolution of headset and window even if the GPU is too slow for it");
-    train.add_flag("--headless", options.headless,
-                   "No window: a simulated trainee performs the lesson in virtual time");
 }
 
 void add_window_options(CLI::App& train, TrainArguments& options) {
-    train.add_flag("--start", options.start, "Start the lesson immediately, without the menu");
     train.add_option("--size", options.size, "WIDTHxHEIGHT of the window")->capture_default_str();
     train.add_flag("--full-screen", options.full_screen, "Use the full screen");
     train.add_option("--trainee", options.trainee,
@@ -121,6 +118,9 @@ void add_window_options(CLI::App& train, TrainArguments& options) {
 }
 
 void add_session_options(CLI::App& train, TrainArguments& options) {
+    train.add_flag("--start", options.start, "Start the lesson immediately, without the menu");
+    train.add_flag("--headless", options.headless,
+                   "No window: a simulated trainee performs the lesson in virtual time");
     train
         .add_option("--operator", options.trainee_profile,
                     fmt::format("Simulated trainee: {}", fmt::join(trainees::profile_names(), ", ")))
@@ -152,6 +152,11 @@ void add_train_options(CLI::App& train, TrainArguments& options) {
     add_device_options(train, options);
     add_window_options(train, options);
     add_session_options(train, options);
+}
+
+void add_study_options(CLI::App& run, TrainArguments& options) {
+    add_device_options(run, options);
+    add_window_options(run, options);
 }
 
 Result<HeadsetUse> headset_use(TrainArguments& options) {

@@ -13,6 +13,9 @@
 namespace CLI {
 class App;
 }
+namespace bolt::trainer {
+struct StudyRun;
+}
 
 namespace bolt::cli {
 
@@ -44,6 +47,12 @@ struct TrainArguments {
 };
 
 void add_train_options(CLI::App& train, TrainArguments& options);
+
+// The options of a window and its devices, without those of a lesson, which the plan of a study has.
+void add_study_options(CLI::App& run, TrainArguments& options);
+
+// Leads a participant through a study in a window (train.cpp).
+Status run_study(const TrainArguments& options, trainer::StudyRun study);
 
 enum class HeadsetUse : std::uint8_t {
     none,

@@ -45,7 +45,14 @@ App::App(AppOptions options) : options_(std::move(options)) {
         if (const auto data = user_data_folder()) menu_.folders.assemblies = *data / "assemblies";
         menu_.first_start = options_.first_start;
     }
-    start_requested_ = !options_.menu;
+    if (options_.study) {
+        study_.emplace(std::move(options_.study->participation));
+        screen_ = ShownScreen::study;
+        const study::Progress& progress = study_->participation().progress();
+        options_.choice.trainee = progress.person;
+        if (!progress.language.empty()) options_.choice.language = progress.language;
+    }
+    start_requested_ = !options_.menu && !study_;
     preferences_.folder = options_.settings_folder;
     preferences_.file = options_.settings_file;
     preferences_.known = settings_vocabulary(words::languages(words::words_folder()));
@@ -77,6 +84,7 @@ Status App::start(view::GpuContext& gpu_context) {
     gpu_->ui = std::move(ui);
     add_language_characters(*gpu_->ui, languages_);
     add_constant_characters(*gpu_->ui, menu_);
+    if (study_) gpu_->ui->add_characters(study_->texts());
     BOLT_TRY_ASSIGN(auto fonts, text::load_fonts());
     gpu_->fonts.emplace(std::move(fonts));
     return active_ ? upload_lesson() : Status{};
@@ -181,7 +189,7 @@ void App::perform(ScreenAction action) {
             end_requested_ = true;
             return;
         case ScreenAction::show_menu:
-            screen_ = ShownScreen::menu;
+            screen_ = study_ ? ShownScreen::study : ShownScreen::menu;
             return;
         case ScreenAction::open_settings:
             select_trainee();
@@ -221,7 +229,7 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
         active.station->keyboard.handle_events(in_lesson ? picture.events
                                                          : std::span<const platform::InputEvent>());
     // The menu has a text field, and the settings bind keys. In a room the pointer is the panel's.
-    const bool has_keys = screen_ != ShownScreen::menu && !settings_;
+    const bool has_keys = screen_ != ShownScreen::menu && screen_ != ShownScreen::study && !settings_;
     const InputFocus focus{has_keys && !in_room() && !gpu_->ui->wants_pointer(), has_keys};
     const double shown = std::min(window.seconds, max_frame_time);
     LessonFrame frame{active,
@@ -286,8 +294,11 @@ void App::draw_screen(const ScreenContext& context) {
                 pictures.thumbnails.emplace(entry.name, gpu_->ui->picture(*thumbnail));
         perform(draw_menu(context, menu_, pictures, options_.choice, preferences_));
     } else if (screen_ == ShownScreen::result) {
-        perform(
-            draw_result(context, context_->assembly, outcome_->result, {options_.menu, tour_.has_value()}));
+        perform(draw_result(context, context_->assembly, outcome_->result,
+                            {options_.menu, tour_.has_value(), study_.has_value()}));
+    } else if (screen_ == ShownScreen::study) {
+        perform(study_->draw(context));
+        follow_study();
     }
 }
 
@@ -376,9 +387,10 @@ Status App::update(const view::WindowFrame& window) {
         BOLT_TRY(report_start(enter_lesson(std::move(*started), aspect)));
     }
     if (window.immersive != nullptr) place_in_room(*window.immersive);  // a lesson that has just begun
-    if (screen_ == ShownScreen::menu && active_) BOLT_TRY(close_lesson());
+    const bool left = screen_ == ShownScreen::menu || screen_ == ShownScreen::study;
+    if (left && active_) BOLT_TRY(close_lesson());
     const bool chooses = screen_ == ShownScreen::menu || screen_ == ShownScreen::result;
-    const bool can_start = chooses && !settings_ && menu_.page == MenuPage::choices;
+    const bool can_start = chooses && !study_ && !settings_ && menu_.page == MenuPage::choices;
     // While the arrow keys have marked a control, Enter presses it. While a name is typed, Enter ends it.
     const bool enter_starts = !gpu_->ui->navigates_by_keys() && !gpu_->ui->edits_text();
     bool close_settings = false;

@@ -11,15 +11,24 @@
 #include "game/trainer/room_state.hpp"
 #include "game/trainer/settings_screen.hpp"
 #include "game/trainer/shared_lesson.hpp"
+#include "game/trainer/study_screen.hpp"
 #include "game/trainer/tour.hpp"
 #include "game/view/window.hpp"
 
 namespace bolt::trainer {
 
+// A study that the program leads a participant through, in place of the menu.
+struct StudyRun {
+    study::Participation participation;
+    std::filesystem::path folder;   // of the study
+    std::function<void()> on_step;  // called when another step is due
+};
+
 struct AppOptions {
     LessonChoice choice;
     bool sound = false;
-    bool menu = true;  // false: a lesson starts at once
+    bool menu = true;                 // false: a lesson starts at once
+    std::optional<StudyRun> study{};  // then `menu` is false
     session::LessonOptions lesson;
     std::filesystem::path out;                             // folder of the session
     bool folder_per_lesson = false;                        // each lesson gets a folder of its own in `out`
@@ -44,6 +53,7 @@ enum class ShownScreen : std::uint8_t {
     starting,  // a lesson with devices is being started
     lesson,
     result,
+    study,  // the page of the due step
 };
 
 class App : public view::WindowContent {
@@ -68,7 +78,11 @@ class App : public view::WindowContent {
 
     // Ends the lesson, if one runs, as it stands. Its session and the files beside it are written.
     Status end_lesson();
-    Status end() override { return end_lesson(); }
+    // The lesson of a study that the program's end interrupts does not count: it begins again.
+    Status end() override {
+        interrupted_ = true;
+        return end_lesson();
+    }
 
     [[nodiscard]] bool closed() const override { return closed_; }
     [[nodiscard]] bool scales_scene() const override { return active_.has_value() && !in_room(); }
@@ -95,6 +109,7 @@ class App : public view::WindowContent {
     [[nodiscard]] const std::optional<Error>& start_error() const { return menu_.start_error; }
     [[nodiscard]] const ArmScreen& arm_screen() const { return arm_screen_; }
     [[nodiscard]] const std::optional<RoomState>& room() const { return room_; }
+    [[nodiscard]] const std::optional<StudyScreen>& study() const { return study_; }
 
   private:
     struct GpuResources {
@@ -120,6 +135,9 @@ class App : public view::WindowContent {
     void follow_arm(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);
     Status close_lesson();
     [[nodiscard]] LessonChoice lesson_choice() const;
+    Result<LessonRequest> study_request();
+    void count_study_lesson();
+    void follow_study();
     Status upload_lesson();
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
     [[nodiscard]] bool in_room() const { return room_ && room_->shown; }
@@ -156,6 +174,9 @@ class App : public view::WindowContent {
     ShownScreen screen_ = ShownScreen::menu;
     Menu menu_;
     std::optional<SettingsScreen> settings_;  // while it is shown
+    std::optional<StudyScreen> study_;        // with AppOptions::study
+    std::string study_step_;                  // id of the due step in the last frame
+    bool interrupted_ = false;                // the program ends
     std::vector<DrawnWidget> drawn_widgets_;  // in the last frame
     ui::UiInput input_;
     bool closed_ = false, full_screen_requested_ = false;

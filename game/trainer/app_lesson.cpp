@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "game/study/measures.hpp"
+#include "game/study/study_lesson.hpp"
 #include "game/trainer/app.hpp"
 
 namespace bolt::trainer {
@@ -43,14 +45,49 @@ LessonChoice App::lesson_choice() const {
     return tour_requested_ ? tour_choice(std::move(choice)) : choice;
 }
 
+// The lesson of the study's due step. Its settings precede those of the participant, which differ from one to
+// the other.
+Result<LessonRequest> App::study_request() {
+    study::Participation& participation = study_->participation();
+    const content::StudyLesson& lesson = participation.lesson();
+    const std::filesystem::path& study_folder = options_.study->folder;
+    BOLT_TRY_ASSIGN(const auto assembly, study::load_lesson_assembly(lesson, study_folder));
+    const session::LessonOptions settings = study::lesson_options(lesson, assembly.law);
+    LessonRequest request{
+        options_.choice, preferences_.settings, options_.lesson, {}, options_.start_station};
+    LessonChoice& choice = request.choice;
+    choice.assembly = study::assembly_of(lesson, study_folder);
+    choice.variant = lesson.variant;
+    choice.tool = lesson.tool;
+    choice.mode = settings.mode;
+    choice.task = settings.task;
+    choice.law = settings.law;
+    choice.equipment = equipment_for(lesson.devices, lesson.hand == "free", choice.equipment);
+    request.settings.force_scale = lesson.force_scale.value_or(request.settings.force_scale);
+    request.options.guide = settings.guide;
+    request.options.obstacles = settings.obstacles;
+    request.options.seed =
+        study::lesson_seed(participation.study(), participation.progress().place, participation.due()->id);
+    BOLT_TRY_ASSIGN(request.folder, participation.begin_lesson());
+    return request;
+}
+
 Status App::begin_lesson(float aspect) {
     select_trainee();
     save_preferences();
-    const LessonChoice choice = lesson_choice();
     if (active_ && options_.choice.equipment.needs_station())
         active_->station.reset();  // it holds the devices
-    BOLT_TRY_ASSIGN(folder_, make_lesson_folder(options_.out, options_.folder_per_lesson, choice.assembly));
-    LessonRequest request{choice, preferences_.settings, options_.lesson, folder_, options_.start_station};
+    LessonRequest request;
+    if (study_) {
+        BOLT_TRY_ASSIGN(request, study_request());
+        folder_ = request.folder;
+    } else {
+        const LessonChoice chosen = lesson_choice();
+        BOLT_TRY_ASSIGN(folder_,
+                        make_lesson_folder(options_.out, options_.folder_per_lesson, chosen.assembly));
+        request = {chosen, preferences_.settings, options_.lesson, folder_, options_.start_station};
+    }
+    const LessonChoice& choice = request.choice;
     if (!choice.equipment.has_hardware()) return enter_lesson(start_lesson(request), aspect);
     if (active_) BOLT_TRY(close_lesson());
     start_thread_ = std::make_unique<LessonStartThread>(std::move(request), std::move(given_up_));
@@ -77,6 +114,7 @@ Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
     world::add_haptics(active.workplace.world, active.session->state());
     BOLT_TRY(upload_lesson());
     place_trainee(active, *context_, aspect);
+    active.view.help = !study_ || study_->participation().lesson().view_help;
     if (const Status sounds = start_sound(active, options_.sound); !sounds) log(sounds.error().message());
     apply_preferences();
     ++lesson_number_;
@@ -95,6 +133,12 @@ Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
 // An error of a start is shown in the menu if there is one.
 Status App::report_start(Status begun) {
     if (begun) return {};
+    if (study_ && !begun.error().lost) {
+        study_->show_error(begun.error());
+        screen_ = ShownScreen::study;
+        log(begun.error().message());
+        return {};
+    }
     if (begun.error().lost || !options_.menu) return begun;
     menu_.start_error = begun.error();
     screen_ = ShownScreen::menu;
@@ -106,8 +150,8 @@ void App::cancel_start() {
     if (!start_thread_) return;
     start_thread_->give_up();
     given_up_ = std::move(start_thread_);
-    screen_ = ShownScreen::menu;
-    closed_ = closed_ || !options_.menu;
+    screen_ = study_ ? ShownScreen::study : ShownScreen::menu;
+    closed_ = closed_ || (!options_.menu && !study_);
 }
 
 // Shows what the arm needs, before and during a lesson, and performs the user's answer.
@@ -153,8 +197,30 @@ Status App::end_lesson() {
         log(fmt::format("drawing was too slow: the lesson lagged {:.0f} s behind real time",
                         active.clock.lag));
     if (options_.on_end)
-        return options_.on_end(active.session->assembly(), context_->options, *outcome_, folder_);
+        BOLT_TRY(options_.on_end(active.session->assembly(), context_->options, *outcome_, folder_));
+    if (study_ && !interrupted_) count_study_lesson();
     return {};
+}
+
+// Records the measures of the lesson that has ended, and shows the next page of the study.
+void App::count_study_lesson() {
+    screen_ = ShownScreen::study;
+    const Status stored =
+        study::measure_session(folder_ / "session.boltwright").and_then([&](const auto& measures) {
+            return study_->participation().end_lesson(measures);
+        });
+    if (!stored)
+        study_->show_error(stored.error());
+    else if (study_->participation().study().design.show_results)
+        screen_ = ShownScreen::result;
+}
+
+// Reports when another step of the study is due.
+void App::follow_study() {
+    if (study_->has_withdrawn()) return;
+    const study::Step* due = study_->participation().due();
+    const std::string now = due == nullptr ? std::string() : due->id;
+    if (std::exchange(study_step_, now) != now && options_.study->on_step) options_.study->on_step();
 }
 
 }  // namespace bolt::trainer

@@ -49,6 +49,22 @@ void offer_tracked_hand(std::vector<DeviceOption>& options) {
     options.push_back({{}, tracked});
 }
 
+Equipment equipment_for(const std::vector<std::string>& devices, bool free, Equipment base) {
+    const std::string first = devices.empty() ? std::string() : devices.front();
+    if (!first.empty()) {
+        base.devices.clear();
+        base.hand = HandMode::helped;
+    }
+    if (first == "simulated")
+        base.hand = HandMode::keyboard;
+    else if (first == "simulated-arm")
+        base.hand = HandMode::simulated_arm;
+    else if (!first.empty() && first != "mouse")
+        base.devices = devices;
+    if (free && base.devices.empty() && base.hand == HandMode::helped) base.hand = HandMode::free;
+    return base;
+}
+
 Equipment default_equipment() {
     Equipment equipment;
     const station_setup::DeviceSelection all = station_setup::select_any_devices(device::list_devices());

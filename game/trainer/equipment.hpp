@@ -34,6 +34,10 @@ struct Equipment {
     bool operator==(const Equipment&) const = default;
 };
 
+// The equipment of a study's lesson: `devices` in place of those of `base`, unless it is empty. The words are
+// those of --device except "auto". `free`: as --hand free.
+Equipment equipment_for(const std::vector<std::string>& devices, bool free, Equipment base);
+
 // An entry in the menu of devices.
 struct DeviceOption {
     std::string name;  // names of the devices; empty: mouse and keyboard, as Equipment::hand says

@@ -242,7 +242,8 @@ void view_system(scene::SceneWorld& world, LessonFrame& frame) {
         active.view.camera.glide_to(view::fit_to_box(active.view.camera.goal, active.workplace.workpiece,
                                                      static_cast<float>(frame.size.x / frame.size.y)));
     // In a room the user moves the head; nothing else moves the view.
-    if (!active.view.head && (frame.input.triggered(Action::find_view) || joint_out_of_view(active, frame)))
+    if (!active.view.head && active.view.help &&
+        (frame.input.triggered(Action::find_view) || joint_out_of_view(active, frame)))
         show_due_joint(active, frame.size);
     (void)active.view.camera.advance(frame.seconds);
     scene::fade_near_arms(world, active.view.head ? active.view.head->position

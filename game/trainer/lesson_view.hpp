@@ -31,6 +31,7 @@ struct CloseUp {
 struct LessonView {
     view::CameraGlide camera;
     motion::VisibilityModel visibility;
+    bool help = true;          // the program finds a view of the due joint
     double out_of_view = 0.0;  // s since the due joint was last visible
     CloseUp close_up;
     bool clamp_map = false;                   // show the clamp force of every joint

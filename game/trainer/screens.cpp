@@ -137,7 +137,8 @@ ScreenAction draw_result(const ScreenContext& context, const content::Assembly& 
     ImGui::Separator();
     // Above the table, which may be longer than the picture, so that the buttons are always visible.
     if (options.tour) draw_wrapped(words["tour.done"], muted_text);
-    if (draw_button(context, "menu.again")) action = ScreenAction::start_lesson;
+    if (options.study && draw_button(context, "study.next")) action = ScreenAction::show_menu;
+    if (!options.study && draw_button(context, "menu.again")) action = ScreenAction::start_lesson;
     if (options.menu && draw_button(context, "menu.menu")) action = ScreenAction::show_menu;
     if (draw_button(context, "menu.quit")) action = ScreenAction::quit;
     ImGui::Separator();

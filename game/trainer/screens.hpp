@@ -58,8 +58,9 @@ struct ScreenContext {
 
 ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode);
 struct ResultOptions {
-    bool menu = false;  // offers the way back to the menu
-    bool tour = false;  // the lesson was the tour
+    bool menu = false;   // offers the way back to the menu
+    bool tour = false;   // the lesson was the tour
+    bool study = false;  // the lesson is part of a study, whose next page follows
 };
 ScreenAction draw_result(const ScreenContext& context, const content::Assembly& assembly,
                          const lesson::LessonResult& result, const ResultOptions& options);

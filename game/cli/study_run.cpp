@@ -1,0 +1,92 @@
+// boltwright study run: leads a participant through a study in a window, a headset or before walls.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "engine/base/file.hpp"
+#include "game/cli/commands.hpp"
+#include "game/cli/study_folder.hpp"
+#include "game/cli/train_arguments.hpp"
+#include "game/study/study_lesson.hpp"
+#include "game/study_results/results.hpp"
+#include "game/trainer/app.hpp"
+
+namespace bolt::cli {
+
+namespace {
+
+struct StudyRunArguments {
+    std::string folder, participant;
+    bool accept_change = false;
+    TrainArguments window;
+};
+
+// The participant that --participant names, or that the person of --trainee is already, or a new one.
+Result<study::Participation> find_participation(const content::Study& study,
+                                                const StudyRunArguments& options) {
+    if (!options.participant.empty())
+        return study::Participation::resume(study, options.folder, options.participant,
+                                            options.accept_change);
+    const std::string& person = options.window.trainee;
+    if (person.empty())
+        return fail(ErrorCode::usage, "nobody takes part",
+                    "--trainee NAME for a person, or --participant P03 for one who has begun");
+    BOLT_TRY_ASSIGN(const auto states, study::list_participants(study, options.folder));
+    for (const study::ParticipantState& state : states)
+        if (!state.withdrawn && state.progress.person == person)
+            return study::Participation::resume(study, options.folder, state.participant,
+                                                options.accept_change);
+    return study::Participation::enrol(study, options.folder, person, false);
+}
+
+// The page for the experimenter. A page that cannot be written must not stop the participant.
+void write_progress(const content::Study& study, const std::string& folder) {
+    const auto states = study::list_participants(study, folder);
+    if (!states) {
+        (void)print_error(states.error());
+        return;
+    }
+    const std::string page = study::progress_page(study, *states, study::system_time());
+    if (Status written = write_file(std::filesystem::path(folder) / "progress.html", page); !written)
+        (void)print_error(written.error());
+}
+
+Status run(const StudyRunArguments& options) {
+    BOLT_TRY_ASSIGN(const auto study, load_study_folder(options.folder));
+    const study::StudyCheck check = study::check_study(study, options.folder);
+    if (!check.errors.empty()) return fail(check.errors.front());
+    if (content::complete_languages(study).empty())
+        return fail(ErrorCode::bad_content, "there is no language in which everything can be read",
+                    "what `boltwright study check` says is to be added");
+    BOLT_TRY_ASSIGN(auto participation, find_participation(study, options));
+    if (participation.due() == nullptr)
+        return fail(ErrorCode::usage, fmt::format("{} has done every step", participation.participant()),
+                    "another participant");
+    (void)std::fputs(fmt::format("{}: {}\n", participation.participant(), participation.due()->id).c_str(),
+                     stderr);
+    TrainArguments window = options.window;
+    window.out = options.folder;
+    trainer::StudyRun run{std::move(participation), options.folder,
+                          [&] { write_progress(study, options.folder); }};
+    return run_study(window, std::move(run));
+}
+
+}  // namespace
+
+void add_study_run(CLI::App& study, int& exit_code) {
+    const auto options = std::make_shared<StudyRunArguments>();
+    CLI::App* command = study.add_subcommand(
+        "run", "Lead a participant through the study in a window; continues where it ended");
+    command->add_option("folder", options->folder, "Folder of the study")->required();
+    command->add_option("--participant", options->participant, "One who has begun, such as P03");
+    command->add_flag("--accept-change", options->accept_change,
+                      "Continue although the plan was changed; the record says so");
+    add_study_options(*command, options->window);
+    command->callback([options, &exit_code] {
+        const Status done = run(*options);
+        exit_code = done ? 0 : print_error(done.error());
+    });
+}
+
+}  // namespace bolt::cli

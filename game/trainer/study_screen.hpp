@@ -1,0 +1,64 @@
+// The pages that lead a participant through a study: information, consent, questionnaires, breaks, and the
+// start of each lesson. Every answer is stored when it is given (study::Participation). The pages never show
+// the name of a condition.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "game/study/participation.hpp"
+#include "game/trainer/screens.hpp"
+
+namespace bolt::trainer {
+
+class StudyScreen {
+  public:
+    explicit StudyScreen(study::Participation participation) : participation_(std::move(participation)) {}
+
+    // Draws the page of the due step. Returns start_lesson, quit or none.
+    ScreenAction draw(const ScreenContext& context);
+
+    [[nodiscard]] study::Participation& participation() { return participation_; }
+    [[nodiscard]] const study::Participation& participation() const { return participation_; }
+    [[nodiscard]] bool has_withdrawn() const { return stop_ == StopDialog::withdrawn; }
+    // All texts that the pages can show, for the characters of the font.
+    [[nodiscard]] std::string texts() const;
+    // Shows on the page that something could not be stored, until something is stored.
+    void show_error(const Error& error) { error_ = error; }
+
+  private:
+    enum class StopDialog : std::uint8_t { closed, choice, withdrawal, withdrawn };
+
+    // What a page's row of buttons offers.
+    struct PageButtons {
+        words::TextKey forward;
+        bool enabled = true, back = false;
+    };
+    enum class Pressed : std::uint8_t { none, forward, back };
+    Pressed draw_buttons(const ScreenContext& context, const PageButtons& buttons);
+
+    ScreenAction draw_step(const ScreenContext& context, const study::Step& step);
+    void draw_language(const ScreenContext& context);
+    void draw_information(const ScreenContext& context);
+    void draw_consent(const ScreenContext& context);
+    void draw_form(const ScreenContext& context, const content::Questionnaire& form);
+    void draw_item(const ScreenContext& context, const content::Questionnaire& form);
+    ScreenAction draw_lesson(const ScreenContext& context, const study::Step& step);
+    void draw_break(const ScreenContext& context);
+    void draw_comment(const ScreenContext& context);
+    ScreenAction draw_last_pages(const ScreenContext& context, const study::Step& step);
+    ScreenAction draw_stop_dialog(const ScreenContext& context);
+    // Completes the due step; a failure is shown on the page.
+    void complete();
+    bool store(const Status& stored);
+
+    study::Participation participation_;
+    std::string shown_step_;  // id
+    std::size_t item_ = 0;    // of the form that is shown
+    std::string comment_;
+    StopDialog stop_ = StopDialog::closed;
+    std::optional<Error> error_;
+};
+
+}  // namespace bolt::trainer
