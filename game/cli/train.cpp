@@ -178,8 +178,7 @@ Status run_window(WindowRequest request, const Surroundings& surroundings, platf
     app_options.choice = {options.assembly, options.variant,  train.lesson.mode, train.lesson.task,
                           options.trainee,  options.language, options.tool,      request.equipment};
     app_options.sound = !options.silent;
-    app_options.menu = !options.start && !request.study;
-    app_options.study = std::move(request.study);
+    app_options.menu = !options.start;
     app_options.lesson = train.lesson;
     app_options.lesson.trainee_profile = "person";
     if (!options.law.empty()) app_options.choice.law = train.lesson.law;
@@ -215,7 +214,7 @@ Status run_window(WindowRequest request, const Surroundings& surroundings, platf
                                              .instance = instance_options};
     if (headset != nullptr) instance_options.creator = headset->creator();
     BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create(instance_options));
-    trainer::App app(std::move(app_options));
+    trainer::App app(std::move(app_options), std::move(request.study));
     catch_interruption();
     BOLT_TRY(view::run_in_window(app, *window, instance, run_options));
     if (!instance.log().messages.empty()) return fail(ErrorCode::failed, instance.log().messages.front());

@@ -37,7 +37,7 @@ void add_language_characters(ui::Ui& ui, std::span<const words::Words> languages
 
 }  // namespace
 
-App::App(AppOptions options) : options_(std::move(options)) {
+App::App(AppOptions options, std::optional<StudyRun> study) : options_(std::move(options)) {
     if (options_.menu) {
         menu_.assemblies = list_assemblies();
         menu_.devices = device_options(options_.choice.equipment);
@@ -45,8 +45,9 @@ App::App(AppOptions options) : options_(std::move(options)) {
         if (const auto data = user_data_folder()) menu_.folders.assemblies = *data / "assemblies";
         menu_.first_start = options_.first_start;
     }
-    if (options_.study) {
-        study_.emplace(std::move(options_.study->participation));
+    if (study) {
+        study_.emplace(std::move(*study));
+        options_.menu = false;
         screen_ = ShownScreen::study;
         const study::Progress& progress = study_->participation().progress();
         options_.choice.trainee = progress.person;
@@ -298,7 +299,6 @@ void App::draw_screen(const ScreenContext& context) {
                             {options_.menu, tour_.has_value(), study_.has_value()}));
     } else if (screen_ == ShownScreen::study) {
         perform(study_->draw(context));
-        follow_study();
     }
 }
 

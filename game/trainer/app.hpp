@@ -17,18 +17,10 @@
 
 namespace bolt::trainer {
 
-// A study that the program leads a participant through, in place of the menu.
-struct StudyRun {
-    study::Participation participation;
-    std::filesystem::path folder;   // of the study
-    std::function<void()> on_step;  // called when another step is due
-};
-
 struct AppOptions {
     LessonChoice choice;
     bool sound = false;
-    bool menu = true;                 // false: a lesson starts at once
-    std::optional<StudyRun> study{};  // then `menu` is false
+    bool menu = true;  // false: a lesson starts at once
     session::LessonOptions lesson;
     std::filesystem::path out;                             // folder of the session
     bool folder_per_lesson = false;                        // each lesson gets a folder of its own in `out`
@@ -58,7 +50,8 @@ enum class ShownScreen : std::uint8_t {
 
 class App : public view::WindowContent {
   public:
-    explicit App(AppOptions options);
+    // `study`: leads its participant, without a menu.
+    explicit App(AppOptions options, std::optional<StudyRun> study = {});
     ~App() override;
 
     // Creates all GPU objects. Call it at the beginning and after release().
@@ -137,7 +130,6 @@ class App : public view::WindowContent {
     [[nodiscard]] LessonChoice lesson_choice() const;
     Result<LessonRequest> study_request();
     void count_study_lesson();
-    void follow_study();
     Status upload_lesson();
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
     [[nodiscard]] bool in_room() const { return room_ && room_->shown; }
@@ -175,7 +167,6 @@ class App : public view::WindowContent {
     Menu menu_;
     std::optional<SettingsScreen> settings_;  // while it is shown
     std::optional<StudyScreen> study_;        // with AppOptions::study
-    std::string study_step_;                  // id of the due step in the last frame
     bool interrupted_ = false;                // the program ends
     std::vector<DrawnWidget> drawn_widgets_;  // in the last frame
     ui::UiInput input_;

@@ -50,7 +50,7 @@ LessonChoice App::lesson_choice() const {
 Result<LessonRequest> App::study_request() {
     study::Participation& participation = study_->participation();
     const content::StudyLesson& lesson = participation.lesson();
-    const std::filesystem::path& study_folder = options_.study->folder;
+    const std::filesystem::path& study_folder = study_->folder();
     BOLT_TRY_ASSIGN(const auto assembly, study::load_lesson_assembly(lesson, study_folder));
     const session::LessonOptions settings = study::lesson_options(lesson, assembly.law);
     LessonRequest request{
@@ -213,14 +213,6 @@ void App::count_study_lesson() {
         study_->show_error(stored.error());
     else if (study_->participation().study().design.show_results)
         screen_ = ShownScreen::result;
-}
-
-// Reports when another step of the study is due.
-void App::follow_study() {
-    if (study_->has_withdrawn()) return;
-    const study::Step* due = study_->participation().due();
-    const std::string now = due == nullptr ? std::string() : due->id;
-    if (std::exchange(study_step_, now) != now && options_.study->on_step) options_.study->on_step();
 }
 
 }  // namespace bolt::trainer

@@ -9,7 +9,7 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr float study_page_width = 700.0F;           // points
+constexpr float study_page_width = 700.0F;     // points
 constexpr std::size_t most_full_labels = 7;    // answers that are drawn as a list with a label each
 constexpr std::size_t longest_comment = 4000;  // bytes
 
@@ -374,10 +374,12 @@ ScreenAction StudyScreen::draw(const ScreenContext& context) {
         action = draw_stop_dialog(context);
     } else if (participation_.due() == nullptr) {
         action = ScreenAction::quit;
+        if (on_step_) on_step_();
     } else {
         const study::Step step = *participation_.due();
         if (step.id != shown_step_) {
             shown_step_ = step.id;
+            if (on_step_) on_step_();
             item_ = step.kind == study::StepKind::form ? participation_.first_unanswered() : 0;
         }
         action = draw_step(context, step);

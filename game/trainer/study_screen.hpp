@@ -3,6 +3,7 @@
 // the name of a condition.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,16 +13,26 @@
 
 namespace bolt::trainer {
 
+// A study that the program leads a participant through.
+struct StudyRun {
+    study::Participation participation;
+    std::filesystem::path folder;     // of the study
+    std::function<void()> on_step{};  // called when another step is due
+};
+
 class StudyScreen {
   public:
-    explicit StudyScreen(study::Participation participation) : participation_(std::move(participation)) {}
+    explicit StudyScreen(StudyRun run)
+        : participation_(std::move(run.participation)),
+          folder_(std::move(run.folder)),
+          on_step_(std::move(run.on_step)) {}
 
     // Draws the page of the due step. Returns start_lesson, quit or none.
     ScreenAction draw(const ScreenContext& context);
 
     [[nodiscard]] study::Participation& participation() { return participation_; }
     [[nodiscard]] const study::Participation& participation() const { return participation_; }
-    [[nodiscard]] bool has_withdrawn() const { return stop_ == StopDialog::withdrawn; }
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
     // All texts that the pages can show, for the characters of the font.
     [[nodiscard]] std::string texts() const;
     // Shows on the page that something could not be stored, until something is stored.
@@ -54,6 +65,8 @@ class StudyScreen {
     bool store(const Status& stored);
 
     study::Participation participation_;
+    std::filesystem::path folder_;
+    std::function<void()> on_step_;
     std::string shown_step_;  // id
     std::size_t item_ = 0;    // of the form that is shown
     std::string comment_;

@@ -9,7 +9,7 @@ namespace bolt::test {
 
 using namespace trainer;
 
-HeadlessTrainer::HeadlessTrainer(AppOptions options, Display display)
+HeadlessTrainer::HeadlessTrainer(AppOptions options, Display display, std::optional<StudyRun> study)
     : folder_(options.out), display_(display) {
     if (folder_.empty()) folder_ = std::filesystem::path(BOLT_TRAINER_OUT) / options.choice.assembly;
     std::filesystem::create_directories(folder_);
@@ -25,7 +25,7 @@ HeadlessTrainer::HeadlessTrainer(AppOptions options, Display display)
     auto instance = gpu::Instance::create(validated);
     if (!instance) FAIL(instance.error().message());
     instance_.emplace(std::move(*instance));
-    app_ = std::make_unique<App>(std::move(options));
+    app_ = std::make_unique<App>(std::move(options), std::move(study));
     make_gpu();
 }
 

@@ -29,7 +29,8 @@ class HeadlessTrainer : public TrainerDriver {
   public:
     // Writes sessions to `options.out`; empty: to a folder named after the assembly in the tests' output
     // folder.
-    explicit HeadlessTrainer(trainer::AppOptions options, Display display = {});
+    explicit HeadlessTrainer(trainer::AppOptions options, Display display = {},
+                             std::optional<trainer::StudyRun> study = {});
     ~HeadlessTrainer() override;
     HeadlessTrainer(const HeadlessTrainer&) = delete;
     HeadlessTrainer& operator=(const HeadlessTrainer&) = delete;

@@ -1,0 +1,217 @@
+// A participant of a study in the trainer: pages, lessons, interruptions.
+#include "game/study_results/results.hpp"
+#include "tests/study/support.hpp"
+#include "tests/support/replaced.hpp"
+#include "tests/trainer_app/headless_trainer.hpp"
+#include "tests/trainer_app/simulated_user.hpp"
+
+namespace trainer_study_test {
+
+using namespace bolt;
+using namespace bolt::test;
+using study_test::required;
+using study_test::StudyFolder;
+
+namespace {
+
+// One condition, one lesson of one nut, and a form after it.
+void make_short(const StudyFolder& folder) {
+    folder.edit(R"("sessions": 2, "break_minutes": 2)", R"("sessions": 1)");
+    folder.edit(R"("training": { "minutes": 8 },)", "");
+    folder.edit(R"({ "id": "a", "title": { "en": "A" } },)", "");
+    folder.edit(R"("title": { "en": "B" }, "lesson": { "mode": "guided" })",
+                R"("title": { "en": "Secret B" }, "lesson": { "view_help": false })");
+    folder.edit(R"({ "form": "background", "when": ["before", "after_training"] },)", "");
+    folder.edit(R"(["after_session", "retention"])", R"(["after_condition"])");
+    folder.edit(R"("when": ["after_condition", "after"])", R"("when": ["after"])");
+    folder.edit(R"("retention": { "after_days": 7 },)", "");
+    folder.edit(
+        R"("comparisons": [{ "measure": "paper.stability" }, { "measure": "tlx.workload" }, { "measure": "duration_s" }])",
+        R"("comparisons": [])");
+}
+
+trainer::AppOptions options_of(const StudyFolder& folder) {
+    trainer::AppOptions o = options("first-nut", false);
+    o.choice.language = "en";
+    o.out = folder.path();
+    return o;
+}
+
+// The trainer that leads a participant.
+struct Led {
+    Led(study::Participation participation, const StudyFolder& folder)
+        : driver(options_of(folder), {{480, 270}, 0.45F, 0.1},
+                 trainer::StudyRun{std::move(participation), folder.path(), [this] { ++steps; }}) {
+        driver.frame();
+        driver.frame();
+    }
+    [[nodiscard]] const study::Participation& participation() const {
+        return driver.app().study()->participation();
+    }
+    [[nodiscard]] std::string due() const {
+        const study::Step* step = participation().due();
+        return step == nullptr ? std::string("none") : step->id;
+    }
+    void press(words::TextKey key) {
+        driver.press_button(key);
+        driver.frame();
+    }
+    // From the page of the language to that of the first lesson.
+    void go_to_lesson() {
+        press("study.next");  // the first of the languages
+        while (due() == "language") last_next();
+        press("study.next");
+        while (due() == "consent" && !participation().agreed(1)) agree();
+        press("study.next");
+        REQUIRE(due() == "part-1/lesson-1");
+    }
+    void answer_form(std::size_t items) {
+        for (std::size_t i = 0; i < items; ++i) press("study.item");
+        press("study.next");
+    }
+
+    int steps = 0;
+    HeadlessTrainer driver;
+
+  private:
+    // The page of the language has several widgets of this label; the last one goes on.
+    void last_next() {
+        glm::dvec2 at{};
+        for (const trainer::DrawnWidget& widget : driver.app().drawn_widgets())
+            if (widget.label == words::TextKey("study.next")) at = widget.middle;
+        driver.press(at);
+        driver.release(at);
+        driver.frame();
+    }
+    void agree() {
+        for (const trainer::DrawnWidget& widget : driver.app().drawn_widgets())
+            if (widget.label == words::TextKey("study.consent")) {
+                driver.press(glm::dvec2(widget.middle));
+                driver.release(glm::dvec2(widget.middle));
+            }
+        driver.frame();
+    }
+};
+
+study::Participation enrolled(const content::Study& study, const StudyFolder& folder) {
+    return required(study::Participation::enrol(study, folder.path(), "T-1", false));
+}
+
+}  // namespace
+
+TEST_CASE("Trainer: a participant clicks through a whole study, with its lesson") {
+    StudyFolder folder;
+    make_short(folder);
+    const content::Study study = folder.load();
+    Led led(enrolled(study, folder), folder);
+    CHECK(led.driver.app().screen() == trainer::ShownScreen::study);
+    CHECK(led.due() == "language");
+    led.go_to_lesson();
+    CHECK(led.participation().progress().language == "de");
+    CHECK(led.driver.app().choice().language == "de");
+
+    led.press("study.start");
+    REQUIRE(led.driver.app().screen() == trainer::ShownScreen::lesson);
+    const trainer::ActiveLesson& lesson = led.driver.lesson();
+    CHECK_FALSE(lesson.view.help);
+    CHECK(lesson.session->lesson().mode == lesson::Mode::practice);
+    SimulatedUser(led.driver).play(300.0);
+    led.driver.frame();
+    CHECK(led.driver.app().screen() == trainer::ShownScreen::study);
+    CHECK(led.due() == "part-1/paper");
+    const auto& measures = led.participation().progress().measures.at("part-1/lesson-1");
+    CHECK(measures.at("joints_ok") == 1.0);
+    CHECK(measures.at("duration_s") > 5.0);
+
+    led.answer_form(4);
+    CHECK(led.due() == "after/tlx");
+    CHECK(led.participation().progress().answers.at("part-1/paper").size() == 4);
+    led.press("study.no_answer");
+    led.answer_form(5);
+    CHECK(led.due() == "comment");
+    led.press("study.next");
+    CHECK(led.due() == "farewell");
+    led.press("study.finish");
+    CHECK(led.due() == "none");
+    CHECK(led.driver.app().closed());
+    CHECK(led.steps >= 7);
+
+    const study::StudyData data = required(study::collect(study, folder.path()));
+    CHECK(data.completed() == 1);
+    CHECK(std::isnan(study::participant_means(data, "tlx.workload", {}, false).front()));
+    // The lowest answer to every item.
+    CHECK(study::participant_means(data, "paper.stability", {0}, false).front() == 0.0);
+    CHECK(led.driver.app().study()->texts().find("Secret") == std::string::npos);
+}
+
+TEST_CASE("Trainer: a lesson of a study that the program's end interrupts begins again") {
+    StudyFolder folder;
+    make_short(folder);
+    const content::Study study = folder.load();
+    {
+        Led led(enrolled(study, folder), folder);
+        led.go_to_lesson();
+        led.press("study.start");
+        led.driver.wait(2.0);
+        REQUIRE(led.driver.app().end());
+    }
+    Led led(required(study::Participation::resume(study, folder.path(), "P01", false)), folder);
+    CHECK(led.driver.app().screen() == trainer::ShownScreen::study);
+    CHECK(led.due() == "part-1/lesson-1");
+    CHECK(led.driver.app().choice().language == "de");
+    led.press("study.start");
+    REQUIRE(led.driver.app().screen() == trainer::ShownScreen::lesson);
+    CHECK(led.participation().progress().interrupted.size() == 1);
+    // The participant ends the lesson early: that counts, and joints_ok tells it.
+    led.driver.key(platform::Key::escape);
+    led.press("menu.end");
+    CHECK(led.due() == "part-1/paper");
+    CHECK(led.participation().progress().measures.at("part-1/lesson-1").at("joints_ok") == 0.0);
+    for (const char* session : {"part-1-lesson-1", "part-1-lesson-1-2"})
+        CHECK(std::filesystem::exists(folder.path() / "participants/P01" / session / "session.boltwright"));
+}
+
+TEST_CASE("Trainer: a participant can leave, and can withdraw on any page") {
+    StudyFolder folder;
+    make_short(folder);
+    const content::Study study = folder.load();
+    {
+        Led led(enrolled(study, folder), folder);
+        led.press("study.stop");
+        led.press("study.continue");
+        led.press("study.stop");
+        led.press("study.leave");
+        CHECK(led.driver.app().closed());
+    }
+    Led led(required(study::Participation::resume(study, folder.path(), "P01", false)), folder);
+    led.go_to_lesson();
+    led.press("study.stop");
+    led.press("study.withdraw");
+    CHECK(std::filesystem::exists(folder.path() / "participants/P01" / study::journal_file_name));
+    led.press("study.delete");
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "participants/P01" / study::journal_file_name));
+    led.press("study.finish");
+    CHECK(led.driver.app().closed());
+}
+
+TEST_CASE("Trainer: an answer that cannot be stored is shown and asked again") {
+    StudyFolder folder;
+    make_short(folder);
+    const content::Study study = folder.load();
+    Led led(enrolled(study, folder), folder);
+    led.go_to_lesson();
+    led.press("study.start");
+    led.driver.key(platform::Key::escape);
+    led.press("menu.end");
+    REQUIRE(led.due() == "part-1/paper");
+    const auto own = folder.path() / "participants/P01";
+    // SQLite cannot make its journal of the transaction in place of a folder.
+    std::filesystem::create_directory(own / (std::string(study::journal_file_name) + "-journal"));
+    led.press("study.item");
+    CHECK_FALSE(led.participation().progress().answers.contains("part-1/paper"));
+    std::filesystem::remove(own / (std::string(study::journal_file_name) + "-journal"));
+    led.press("study.item");
+    CHECK(led.participation().progress().answers.at("part-1/paper").size() == 1);
+}
+
+}  // namespace trainer_study_test
