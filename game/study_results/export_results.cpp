@@ -70,7 +70,7 @@ ordered_json json_of(const ComparisonResult& result) {
 }  // namespace
 
 std::string results_csv(const content::Study& study, const StudyData& data) {
-    std::string out = "participant,person,simulated,condition,part,lesson,retention,measure,value\r\n";
+    std::string out = "participant,person,simulated,condition,part,lesson,time,measure,value\r\n";
     for (const Observation& o : data.observations) {
         const ParticipantState& state = data.participants[o.participant];
         const auto count = [](std::size_t index) {
@@ -79,7 +79,7 @@ std::string results_csv(const content::Study& study, const StudyData& data) {
         out += fmt::format("{},{},{},{},{},{},{},{},{}\r\n", state.participant,
                            csv_field(state.progress.person), state.progress.simulated ? 1 : 0,
                            o.condition == no_index ? "" : study.conditions[o.condition].id, count(o.part),
-                           count(o.lesson), o.retention ? 1 : 0, o.measure, o.value);
+                           count(o.lesson), name(o.time), o.measure, o.value);
     }
     return out;
 }
@@ -100,7 +100,7 @@ std::string results_json(const content::Study& study, const StudyData& data, con
     for (const MeasureResult& measure : results.measures) {
         ordered_json entry{{"id", measure.info.id}, {"title", measure.info.title}};
         for (const Sample& sample : measure.conditions) entry["conditions"].push_back(json_of(sample));
-        if (measure.retention) entry["retention"] = json_of(*measure.retention);
+        for (const Sample& sample : measure.other_times) entry["other_times"].push_back(json_of(sample));
         if (measure.published != nullptr)
             entry["published"] = {{"mean", measure.published->mean},
                                   {"n", measure.published->n},

@@ -35,6 +35,14 @@ void add_measures(const ParticipantState& state, const Step& step, Observation c
     }
 }
 
+ObservationTime time_of(const Step& step) {
+    if (step.kind == StepKind::retention || step.id.starts_with("retention/"))
+        return ObservationTime::retention;
+    if (step.condition != no_index) return ObservationTime::condition;
+    if (step.id.starts_with("before/")) return ObservationTime::before;
+    return step.id.starts_with("training/") ? ObservationTime::after_training : ObservationTime::after;
+}
+
 Sample sample_of(std::string name, const std::vector<double>& values,
                  const statistics::BootstrapOptions* bootstrap) {
     Sample sample;
@@ -135,16 +143,12 @@ StudyData collect(const content::Study& study, std::vector<ParticipantState> sta
         Observation common;
         common.participant = data.participants.size();
         for (const Step& step : state.steps) {
-            common.retention = step.kind == StepKind::retention || step.id.starts_with("retention/");
-            if (step.condition == no_index && !common.retention) {
-                // Between subjects a form at the end belongs to the participant's only condition.
-                if (step.kind != StepKind::form || study.design.subjects == content::StudySubjects::within ||
-                    !step.id.starts_with("after/"))
-                    continue;
-            }
-            common.condition = step.condition;
-            if (step.condition == no_index && study.design.subjects == content::StudySubjects::between)
-                common.condition = content::conditions_of(study, state.progress.place).front();
+            common.time = time_of(step);
+            const bool between = study.design.subjects == content::StudySubjects::between;
+            common.condition =
+                between ? content::conditions_of(study, state.progress.place).front() : step.condition;
+            // Between subjects a form at the end belongs to the participant's only condition.
+            if (between && common.time == ObservationTime::after) common.time = ObservationTime::condition;
             common.part = step.part;
             common.lesson = step.lesson;
             if (step.kind == StepKind::form) add_scores(study, state, step, common, data);
@@ -169,14 +173,19 @@ Result<StudyData> collect(const content::Study& study, const std::filesystem::pa
     return collect(study, std::move(states));
 }
 
-std::vector<double> participant_means(const StudyData& data, const std::string& measure,
-                                      const std::vector<std::size_t>& conditions, bool retention) {
+std::string_view name(ObservationTime time) {
+    constexpr std::string_view names[observation_times] = {"condition", "before", "after training", "after",
+                                                           "retention test"};
+    return names[static_cast<std::size_t>(time)];
+}
+
+std::vector<double> participant_means(const StudyData& data, const Selection& selection) {
+    const std::vector<std::size_t>& conditions = selection.conditions;
     std::vector<double> sums(data.participants.size(), 0.0);
     std::vector<std::size_t> counts(data.participants.size(), 0);
     for (const Observation& o : data.observations) {
-        if (o.measure != measure || o.retention != retention) continue;
-        const bool any_condition = conditions.empty();
-        if (!any_condition &&
+        if (o.measure != selection.measure || o.time != selection.time) continue;
+        if (!conditions.empty() &&
             std::find(conditions.begin(), conditions.end(), o.condition) == conditions.end())
             continue;
         sums[o.participant] += o.value;
@@ -198,7 +207,10 @@ std::vector<ComparisonResult> compare(const content::Study& study, const StudyDa
         result.info = info_of(infos, planned.measure);
         std::vector<std::vector<double>> groups;
         for (const content::ComparedGroup& group : planned.groups) {
-            groups.push_back(participant_means(data, planned.measure, group.conditions, planned.retention));
+            groups.push_back(participant_means(
+                data,
+                {planned.measure, planned.retention ? ObservationTime::retention : ObservationTime::condition,
+                 group.conditions}));
             std::string name = group.name;
             if (planned.factor.empty())
                 name = title_of(study.conditions[group.conditions.front()].titles);
@@ -227,13 +239,17 @@ Results analyse(const content::Study& study, const StudyData& data,
         measure.info = info;
         bool any = false;
         for (std::size_t i = 0; i < study.conditions.size(); ++i) {
-            measure.conditions.push_back(sample_of(title_of(study.conditions[i].titles),
-                                                   participant_means(data, info.id, {i}, false), &bootstrap));
+            measure.conditions.push_back(
+                sample_of(title_of(study.conditions[i].titles),
+                          participant_means(data, {info.id, ObservationTime::condition, {i}}), &bootstrap));
             any = any || !measure.conditions.back().values.empty();
         }
-        Sample retention =
-            sample_of("Retention test", participant_means(data, info.id, {}, true), &bootstrap);
-        if (study.retention && !retention.values.empty()) measure.retention = std::move(retention);
+        for (const ObservationTime time : {ObservationTime::before, ObservationTime::after_training,
+                                           ObservationTime::after, ObservationTime::retention}) {
+            Sample sample =
+                sample_of(std::string(name(time)), participant_means(data, {info.id, time}), &bootstrap);
+            if (!sample.values.empty()) measure.other_times.push_back(std::move(sample));
+        }
         for (const content::PublishedValue& published : study.published)
             if (published.measure == info.id) {
                 measure.published = &published;
@@ -242,7 +258,7 @@ Results analyse(const content::Study& study, const StudyData& data,
                     measure.published_is_possible =
                         statistics::is_possible_mean(published.mean, published.decimals, published.n, step);
             }
-        if (any || measure.retention || measure.published != nullptr)
+        if (any || !measure.other_times.empty() || measure.published != nullptr)
             results.measures.push_back(std::move(measure));
     }
     results.comparisons = compare(study, data);

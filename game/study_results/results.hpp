@@ -17,13 +17,18 @@
 
 namespace bolt::study {
 
+// When a value was taken.
+enum class ObservationTime : std::uint8_t { condition, before, after_training, after, retention };
+inline constexpr std::size_t observation_times = static_cast<std::size_t>(ObservationTime::retention) + 1;
+std::string_view name(ObservationTime time);
+
 // One value of one measure.
 struct Observation {
-    std::size_t participant = 0;       // index into StudyData::participants
-    std::size_t condition = no_index;  // none: a retention test within subjects
-    std::size_t part = no_index;       // in the order of the participant; none: retention
+    std::size_t participant = 0;  // index into StudyData::participants
+    ObservationTime time = ObservationTime::condition;
+    std::size_t condition = no_index;  // always at the time `condition`; at others only between subjects
+    std::size_t part = no_index;       // in the order of the participant; none at other times
     std::size_t lesson = no_index;     // of the part; none: a form after the whole part
-    bool retention = false;
     std::string measure;
     double value = 0.0;
 };
@@ -41,13 +46,18 @@ Result<StudyData> collect(const content::Study& study, const std::filesystem::pa
 // The observations of participants that are already listed.
 StudyData collect(const content::Study& study, std::vector<ParticipantState> states);
 
-// For each participant: the mean of the measure's values in these conditions; NaN without any.
-std::vector<double> participant_means(const StudyData& data, const std::string& measure,
-                                      const std::vector<std::size_t>& conditions, bool retention);
+// The values that participant_means() takes the mean of.
+struct Selection {
+    std::string measure;
+    ObservationTime time = ObservationTime::condition;
+    std::vector<std::size_t> conditions{};  // empty: all
+};
+// For each participant: the mean of the selected values; NaN without any.
+std::vector<double> participant_means(const StudyData& data, const Selection& selection);
 
 // The values of one measure in one condition, one for each participant who has any.
 struct Sample {
-    std::string name;  // title of the condition, or of the retention test
+    std::string name;  // title of the condition, or the time
     std::vector<double> values;
     statistics::Quartiles quartiles;
     double mean = 0.0, min = 0.0, max = 0.0;  // NaN without values
@@ -57,7 +67,7 @@ struct Sample {
 struct MeasureResult {
     MeasureInfo info;
     std::vector<Sample> conditions;   // in the order of the plan
-    std::optional<Sample> retention;  // if the plan has the test and the measure has values
+    std::vector<Sample> other_times;  // with values: before, after training, after, retention
     const content::PublishedValue* published = nullptr;
     bool published_is_possible = true;  // GRIM
 };
@@ -98,7 +108,7 @@ std::string progress_page(const content::Study& study, const std::vector<Partici
 std::string progress_text(const content::Study& study, const std::vector<ParticipantState>& states,
                           std::int64_t now);
 
-// A row for each observation: participant, person, simulated, condition, part, lesson, retention, measure,
+// A row for each observation: participant, person, simulated, condition, part, lesson, time, measure,
 // value (RFC 4180).
 std::string results_csv(const content::Study& study, const StudyData& data);
 // Everything that the page shows, as numbers.

@@ -110,11 +110,13 @@ std::string description_table(const Results& results, bool objective) {
     for (const MeasureResult& measure : results.measures) {
         if (measure.info.definition.empty() == objective) continue;
         bool first = true;
-        for (const Sample& sample : measure.conditions) {
-            put_row(rows, measure, sample, first);
-            first = false;
-        }
-        if (measure.retention) put_row(rows, measure, *measure.retention, first);
+        for (const std::vector<Sample>* samples : {&measure.conditions, &measure.other_times})
+            for (const Sample& sample : *samples) {
+                if (sample.values.empty() && samples == &measure.conditions && !measure.other_times.empty())
+                    continue;  // a form that is not presented in the conditions
+                put_row(rows, measure, sample, first);
+                first = false;
+            }
         if (measure.published != nullptr) put_published(rows, measure);
         impossible = impossible || !measure.published_is_possible;
     }
@@ -148,8 +150,9 @@ std::string box_plot(const MeasureResult& measure) {
     strips.unit = measure.info.unit;
     strips.left = 110.0;
     std::vector<const Sample*> samples;
-    for (const Sample& sample : measure.conditions) samples.push_back(&sample);
-    if (measure.retention) samples.push_back(&*measure.retention);
+    for (const std::vector<Sample>* all : {&measure.conditions, &measure.other_times})
+        for (const Sample& sample : *all)
+            if (!sample.values.empty()) samples.push_back(&sample);
     double low = 0.0, high = 0.0;
     for (const Sample* sample : samples) {
         plot::StripRow row;
@@ -163,7 +166,7 @@ std::string box_plot(const MeasureResult& measure) {
         row.low = sample->quartiles.low * scale;
         row.median = sample->quartiles.median * scale;
         row.high = sample->quartiles.high * scale;
-        if (sample == (measure.retention ? &*measure.retention : nullptr)) row.style = "mclamp";
+        if (sample->name == name(ObservationTime::retention)) row.style = "mclamp";
         strips.rows.push_back(std::move(row));
     }
     strips.ticks = plot::covering_ticks(low, high > low ? high : low + 1.0, 5);
@@ -175,7 +178,7 @@ std::string box_plots(const Results& results) {
     for (const MeasureResult& measure : results.measures) {
         const bool any = std::any_of(measure.conditions.begin(), measure.conditions.end(),
                                      [](const Sample& s) { return !s.values.empty(); });
-        if (any || measure.retention) out += box_plot(measure);
+        if (any || !measure.other_times.empty()) out += box_plot(measure);
     }
     return out +
            "</div>\n<p class=\"note\">A dot is a participant: the mean of its lessons in the condition. Box "
@@ -240,7 +243,8 @@ std::string learning_curve(const StudyData& data, const MeasureInfo& info) {
     for (std::size_t i = 0; i < data.participants.size(); ++i) {
         plot::PlotLine line{{}, "ln p1"};
         for (const Observation& o : data.observations)
-            if (o.participant == i && o.measure == info.id && !o.retention && o.lesson != no_index)
+            if (o.participant == i && o.measure == info.id && o.time == ObservationTime::condition &&
+                o.lesson != no_index)
                 line.points.push_back({static_cast<double>(line.points.size() + 1), o.value * info.scale});
         for (const plot::SvgPoint& point : line.points) {
             low = std::min(low, point.y);

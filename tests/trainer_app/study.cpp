@@ -138,9 +138,10 @@ TEST_CASE("Trainer: a participant clicks through a whole study, with its lesson"
 
     const study::StudyData data = required(study::collect(study, folder.path()));
     CHECK(data.completed() == 1);
-    CHECK(std::isnan(study::participant_means(data, "tlx.workload", {}, false).front()));
+    CHECK(
+        std::isnan(study::participant_means(data, {"tlx.workload", study::ObservationTime::after}).front()));
     // The lowest answer to every item.
-    CHECK(study::participant_means(data, "paper.stability", {0}, false).front() == 0.0);
+    CHECK(study::participant_means(data, {"paper.stability"}).front() == 0.0);
     CHECK(led.driver.app().study()->texts().find("Secret") == std::string::npos);
 }
 
