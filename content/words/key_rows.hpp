@@ -364,7 +364,6 @@ inline constexpr KeyRow key_rows[] = {
     {"study.stop", ""},
     {"study.start", ""},
     {"study.finish", ""},
-    {"study.information", ""},
     {"study.consent", ""},
     {"study.agree_to_all", ""},
     {"study.item", "item of"},

@@ -15,8 +15,8 @@
 #include "game/study/study_lesson.hpp"
 #include "game/study_results/results.hpp"
 #include "game/study_results/simulate.hpp"
+#include "game/trainees/trainee.hpp"
 #include "game/view/camera.hpp"
-
 namespace bolt::cli {
 
 namespace fs = std::filesystem;
@@ -178,6 +178,18 @@ Result<std::vector<double>> read_effects(const std::vector<std::string>& texts, 
     return effects;
 }
 
+// The kind of trainee is that of the person: each kind is as frequent as the others.
+Result<session::LessonOutcome> play_simulated(const study::SimulatedLesson& lesson) {
+    const std::vector<std::string> profiles = trainees::profile_names();
+    trainees::TrainOptions train;
+    train.lesson = lesson.options;
+    BOLT_TRY_ASSIGN(train.trainee, trainees::find_profile(profiles[lesson.person % profiles.size()]));
+    train.lesson.trainee_profile = train.trainee.name;
+    if (lesson.view_help) train.view_help = view::make_view_helper();
+    return trainees::train(lesson.assembly, train, lesson.file,
+                           [](const trainees::TrainingProgress&) { return !interrupted(); });
+}
+
 int run_simulate(const StudyArguments& options) {
     const Result<content::Study> study = load_study_folder(options.folder);
     if (!study) return print_error(study.error());
@@ -188,7 +200,7 @@ int run_simulate(const StudyArguments& options) {
     simulation.seed = options.seed;
     simulation.effects = *effects;
     simulation.threads = std::max(1U, std::thread::hardware_concurrency());
-    simulation.make_view_helper = view::make_view_helper;
+    simulation.play = play_simulated;
     catch_interruption();
     const auto progress = [&](const std::string& participant, const study::Step& step) {
         if (!options.quiet) (void)std::fputs(fmt::format("{} {}\n", participant, step.id).c_str(), stderr);

@@ -10,7 +10,6 @@
 #include "game/study/measures.hpp"
 #include "game/study/study_lesson.hpp"
 #include "game/study_results/results.hpp"
-#include "game/trainees/trainee.hpp"
 
 namespace bolt::study {
 
@@ -23,8 +22,8 @@ struct SimulatedPerson {
     Participation participation;
     std::shared_ptr<std::int64_t> now;
     Random random;
-    double trait;  // standard deviations, of all its answers
-    std::string profile;
+    double trait;      // standard deviations, of all its answers
+    std::size_t kind;  // SimulatedLesson::person
 };
 
 // All that the persons share.
@@ -53,18 +52,13 @@ Status answer_form(const Simulation& simulation, SimulatedPerson& person, const 
 Status play_lesson(const Simulation& simulation, SimulatedPerson& person, const Step& step) {
     const content::StudyLesson& lesson = person.participation.lesson();
     BOLT_TRY_ASSIGN(const auto assembly, load_lesson_assembly(lesson, simulation.folder));
-    trainees::TrainOptions train;
-    train.lesson = lesson_options(lesson, assembly.law);
-    train.lesson.seed = lesson_seed(simulation.study, person.participation.progress().place, step.id);
-    train.lesson.trainee = person.participation.progress().person;
-    BOLT_TRY_ASSIGN(train.trainee, trainees::find_profile(person.profile));
-    train.lesson.trainee_profile = train.trainee.name;
-    if (lesson.view_help && simulation.options.make_view_helper)
-        train.view_help = simulation.options.make_view_helper();
+    session::LessonOptions options = lesson_options(lesson, assembly.law);
+    options.seed = lesson_seed(simulation.study, person.participation.progress().place, step.id);
+    options.trainee = person.participation.progress().person;
     BOLT_TRY_ASSIGN(const auto out, person.participation.begin_lesson());
     const fs::path session = out / "session.boltwright";
-    BOLT_TRY_ASSIGN(const auto outcome,
-                    trainees::train(assembly, train, session, [](const auto&) { return true; }));
+    BOLT_TRY_ASSIGN(const auto outcome, simulation.options.play({assembly, std::move(options), person.kind,
+                                                                 lesson.view_help, session}));
     *person.now += static_cast<std::int64_t>(outcome.result.duration);
     BOLT_TRY_ASSIGN(const auto measures, measure_session(session));
     return person.participation.end_lesson(measures);
@@ -107,7 +101,6 @@ Status do_all_steps(Simulation& simulation, SimulatedPerson& person) {
 }
 
 Result<std::vector<SimulatedPerson>> enrol_persons(const Simulation& simulation) {
-    const std::vector<std::string> profiles = trainees::profile_names();
     std::vector<SimulatedPerson> persons;
     for (std::size_t i = 0; i < simulation.options.participants; ++i) {
         const auto now = std::make_shared<std::int64_t>(system_time());
@@ -116,8 +109,8 @@ Result<std::vector<SimulatedPerson>> enrol_persons(const Simulation& simulation)
                                                                  [now] { return *now; }));
         Random random(simulation.options.seed, i);
         const double trait = random.normal();
-        persons.push_back(
-            {std::move(participation), now, random, trait, profiles[random.bits() % profiles.size()]});
+        const std::size_t kind = random.bits();
+        persons.push_back({std::move(participation), now, random, trait, kind});
     }
     return persons;
 }

@@ -11,19 +11,29 @@
 
 #include "content/studies/study.hpp"
 #include "engine/base/result.hpp"
-#include "game/motion/visibility_model.hpp"
+#include "game/session/lesson_session.hpp"
 #include "game/study/participation.hpp"
 
 namespace bolt::study {
 
+// A lesson that a simulated trainee has to play.
+struct SimulatedLesson {
+    const content::Assembly& assembly;
+    session::LessonOptions options;  // without the trainee's profile
+    std::size_t person = 0;          // the same for all lessons of a participant
+    bool view_help = false;
+    std::filesystem::path file;  // receives the session
+};
+
 struct SimulationOptions {
     std::size_t participants = 20;
     std::uint64_t seed = 1;
-    std::vector<double> effects;                           // by condition, as PowerOptions::effects
-    std::size_t threads = 1;                               // lessons at once
-    std::function<motion::ViewHelper()> make_view_helper;  // for lessons with view help
+    std::vector<double> effects;  // by condition, as PowerOptions::effects
+    std::size_t threads = 1;      // lessons at once
+    // Plays a lesson to its end; called from several threads. It belongs to the program, because only
+    // programs know simulated trainees.
+    std::function<Result<session::LessonOutcome>(const SimulatedLesson&)> play;
 };
-
 // Called from several threads, one at a time, after each lesson. Returns false to stop after the lessons that
 // are being played.
 using SimulationProgress = std::function<bool(const std::string& participant, const Step& step)>;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "game/study_results/simulate.hpp"
+#include "game/trainees/trainee.hpp"
 #include "tests/study/support.hpp"
 
 namespace study_results_test {
@@ -53,6 +54,12 @@ SimulationOptions two_simulated() {
     options.participants = 2;
     options.seed = 3;
     options.threads = 2;
+    options.play = [](const SimulatedLesson& lesson) -> Result<session::LessonOutcome> {
+        trainees::TrainOptions train;
+        train.lesson = lesson.options;
+        train.trainee = required(trainees::find_profile(lesson.person % 2 == 0 ? "expert" : "novice"));
+        return trainees::train(lesson.assembly, train, lesson.file, [](const auto&) { return true; });
+    };
     return options;
 }
 
