@@ -400,7 +400,8 @@ LoadedStudy load_study(const std::filesystem::path& folder, const std::filesyste
 
 std::vector<std::string> complete_languages(const Study& study) {
     std::vector<std::string> languages;
-    for (const auto& [language, title] : study.titles) {
+    for (const auto& title : study.titles) {
+        const std::string& language = title.first;
         const bool reads = study.information.contains(language) && study.consent.contains(language);
         const bool forms = std::all_of(study.questionnaires.begin(), study.questionnaires.end(),
                                        [&](const Questionnaire& questionnaire) {
