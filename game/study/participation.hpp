@@ -74,6 +74,7 @@ std::optional<std::int64_t> retention_due(const content::Study& study, const Pro
 using Clock = std::function<std::int64_t()>;
 std::int64_t system_time();
 
+// The study that it is made with must outlive it.
 class Participation {
   public:
     // Enrols a person as the next participant: makes the folder PARTICIPANTS/Pnn and its journal. The place

@@ -226,7 +226,7 @@ void StudyScreen::draw_item(const ScreenContext& context, const content::Questio
         if (store(participation_.answer(item.id, *pressed))) ++item_;
     ImGui::Dummy({0.0F, 8.0F * context.scale});
     if (item_ >= form.items.size()) return;
-    if (ImGui::SmallButton(context.words["study.no_answer"].c_str()) &&
+    if (draw_choice_button(context.words["study.no_answer"], false) &&
         store(participation_.answer(item.id, std::nullopt)))
         ++item_;
     note_widget(context, "study.no_answer");
