@@ -38,7 +38,7 @@ install(FILES ${BOLT_PACKAGING}/boltwright.desktop ${BOLT_PACKAGING}/boltwright-
 install(FILES ${BOLT_PACKAGING}/boltwright.svg DESTINATION share/icons/hicolor/scalable/apps COMPONENT boltwright)
 install(FILES ${BOLT_PACKAGING}/boltwright.xml DESTINATION share/mime/packages COMPONENT boltwright)
 install(FILES ${BOLT_PACKAGING}/io.github.boltwright.metainfo.xml DESTINATION share/metainfo COMPONENT boltwright)
-install(DIRECTORY content/assemblies content/environments content/hands content/questionnaires content/schema content/tools
+install(DIRECTORY content/assemblies content/environments content/hands content/questionnaires content/schema content/studies content/tools
     DESTINATION ${content} COMPONENT content FILES_MATCHING REGEX "\\.(json|glb|step|hdr)$")
 install(FILES content/materials.json DESTINATION ${content} COMPONENT content)
 install(TARGETS bolt-author RUNTIME DESTINATION bin COMPONENT author)
