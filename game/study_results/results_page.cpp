@@ -201,6 +201,48 @@ std::string test_text(const ComparisonResult& result) {
                        plot::number(result.rank_sum->rank_biserial, 2));
 }
 
+// How often each answer was given to an item, with the answer's label.
+std::string answer_counts(const content::Questionnaire& form, const content::QuestionnaireItem& item,
+                          const std::string& step, const StudyData& data) {
+    const content::AnswerScale& scale = content::answer_scale_of(form, item);
+    const std::vector<std::string> labels = content::answer_labels(form, item, "en");
+    std::string text;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const double answer = scale.low + scale.step * static_cast<double>(i);
+        const auto n = std::count_if(data.participants.begin(), data.participants.end(),
+                                     [&](const ParticipantState& state) {
+                                         const auto answers = state.progress.answers.find(step);
+                                         if (answers == state.progress.answers.end()) return false;
+                                         const auto given = answers->second.find(item.id);
+                                         return given != answers->second.end() && given->second == answer;
+                                     });
+        if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", plot::escape(labels[i]), n);
+    }
+    return text;
+}
+
+// The answers to the forms before the lessons whose answers have a label each. Such answers are kinds, of
+// which a mean says nothing.
+std::string participants_table(const content::Study& study, const StudyData& data) {
+    std::string rows;
+    for (std::size_t i = 0; i < study.forms.size(); ++i) {
+        if (!study.forms[i].is_at(content::FormTime::before)) continue;
+        const content::Questionnaire& form = study.questionnaires[i];
+        for (const content::QuestionnaireItem& item : form.items) {
+            const std::size_t answers = content::answer_count(content::answer_scale_of(form, item));
+            if (content::answer_labels(form, item, "en").size() != answers) continue;
+            const std::string counts = answer_counts(form, item, "before/" + form.id, data);
+            if (!counts.empty())
+                put(rows, "<tr><td class=\"w\">{}</td><td class=\"w\">{}</td></tr>\n",
+                    plot::escape(english(item.texts)), counts);
+        }
+    }
+    if (rows.empty()) return {};
+    return "<h2>About the participants</h2>\n<table><thead><tr><th>question</th><th>answers and their "
+           "number</th></tr></thead><tbody>\n" +
+           rows + "</tbody></table>\n";
+}
+
 std::string comparisons_table(const Results& results) {
     if (results.comparisons.empty()) return {};
     std::string out =
@@ -346,7 +388,8 @@ std::string results_page(const content::Study& study, const StudyData& data, con
         plot::escape(english(study.titles)), plot::escape(design_text(study)));
     body += simulated_banner(data) + facts(study, data);
     if (data.participants.empty()) body += "<p class=\"banner\">Nobody has taken part yet.</p>\n";
-    body += description_table(results, false) + description_table(results, true) + definitions(results);
+    body += participants_table(study, data) + description_table(results, false) +
+            description_table(results, true) + definitions(results);
     if (!data.participants.empty()) {
         body += comparisons_table(results) + box_plots(results) + learning_curves(data);
         body += methods(study, data, results) + comments(data);

@@ -238,10 +238,10 @@ TEST_CASE("Questionnaires: an answer off the answer scale is an error that names
 
 TEST_CASE("Questionnaires: an item with its own answers accepts these only, and reverses within them") {
     Questionnaire background = shipped("background");
-    Answers answers{{"group", 3.0}, {"sight", 1.0}, {"age", 6.0}};
-    CHECK(scored(background, answers).front().score == 3.0);
+    background.scales = {{"hand", {{"en", "Hand"}}, {{1, false}}, {}}};
+    CHECK(scored(background, {{"hand", 3.0}}).front().score == 3.0);
     background.scales.front().items.front().reversed = true;
-    CHECK(scored(background, answers).front().score == 1.0);  // 1 + 3 − 3
+    CHECK(scored(background, {{"hand", 3.0}}).front().score == 1.0);  // 1 + 3 − 3
     for (const auto& [item, value] : {std::pair("group", 0.0), std::pair("sight", 2.0), std::pair("vr", 4.0)})
         CHECK_FALSE(score(background, {{item, value}}));
     CHECK(answer_labels(background, background.items[2], "de") == std::vector<std::string>{"Nein", "Ja"});

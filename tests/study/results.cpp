@@ -181,7 +181,8 @@ TEST_CASE("Study results: simulated participants do every step, are labelled, an
         CHECK(has(page, "<strong>Simulated participants.</strong> 2 of 2"));
         for (const char* external : {"href=", "<script", "src=", "@import", "url("})
             CHECK_FALSE(has(page, external));
-        for (const char* section : {"Judged by the participants", "Measured in the lessons", "Every value",
+        for (const char* section : {"About the participants", "How old are you?",
+                                    "Judged by the participants", "Measured in the lessons", "Every value",
                                     "Planned comparisons", "Over the lessons", "Methods", "retention test"})
             CHECK_MESSAGE(has(page, section), section);
         // A row for each observation and the header.
