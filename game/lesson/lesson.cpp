@@ -25,25 +25,6 @@ StepKind kind_of(content::PassKind kind) {
 
 }  // namespace
 
-content::Assembly apply_law(content::Assembly assembly, joint::Law law) {
-    assembly.law = law;
-    if (law == joint::Law::mechanistic) return assembly;
-    const double highest = 0.98 * assembly.published.T_max_Nm;
-    for (content::AssemblyJoint& joint : assembly.joints) {
-        joint.spec.strategy = content::Strategy::torque;
-        joint.spec.has_angle = false;
-        joint.spec.target_clamp = 0.0;
-        if (assembly.published_targets) {
-            joint.spec.torque = assembly.published_targets->torque;
-            joint.spec.snug_torque = assembly.published_targets->snug_torque;
-            continue;
-        }
-        joint.spec.torque.target = std::min(joint.spec.torque.target, highest);
-        joint.spec.torque.low = std::min(joint.spec.torque.low, 0.95 * joint.spec.torque.target);
-    }
-    return assembly;
-}
-
 std::vector<LessonStep> make_plan(const content::Assembly& assembly, Task task) {
     std::vector<LessonStep> steps;
     if (assembly.passes.empty()) return steps;

@@ -31,12 +31,23 @@ struct LessonStep {
     int pass = 0;
 };
 
+// How an assembly is adapted to the published law. Sessions before format 6 were recorded with the older way;
+// their replays and reports need it.
+enum class LawAdaptation : std::uint8_t { yield_end, before_format_6 };
+
 // Returns the assembly with `law` in force and its specifications adapted to it. The specifications of joint
-// types hold under the mechanistic law. Under the published law every joint ends at the same torque T_max
-// (haptics/joint/published.hpp), for any fastener: the assembly's own published targets replace the specified
-// ones. If it has none, targets above 98 % of T_max are lowered to 98 %. No angle is judged, and the target
-// clamp force follows from the target torque. Idempotent.
-content::Assembly apply_law(content::Assembly assembly, joint::Law law);
+// types hold under the mechanistic law. Under the published law a joint ends at its T_max
+// (haptics/joint/published.hpp) and the torque stays there, so these targets replace them:
+//   - the joint's own published targets, if the file has them
+//   - otherwise targets in the last third of the yield stage, and an angle window that also ends a third of
+//     the stage beyond it, because the torque cannot be too high
+// A torque wrench is set so low that it clicks before the end of the yield stage, whatever its deviation, and
+// the windows begin low enough for it. The target clamp force follows from the target torque. Where the file
+// gives no θ_max, it becomes that of a nut that starts at design.start_gap.
+// `before_format_6`: without own targets, torques above 98 % of T_max are lowered to 98 %; no angle is judged;
+// θ_max and the torque wrench are not adapted. Idempotent.
+content::Assembly apply_law(content::Assembly assembly, joint::Law law,
+                            LawAdaptation adaptation = LawAdaptation::yield_end);
 
 // Tightening: the assembly's passes in order. Loosening: every joint once, in the reverse order of the last
 // pass.

@@ -126,7 +126,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Published law: the whole curve from the tool's entry point prints the oracle's figures") {
-    const GroupParameters group = make_published_group(p);
+    const GroupParameters group = make_published_group({p});
     CurveOptions options;
     const std::vector<CurveSample> run = torque_angle_curve(group, options);
     REQUIRE(run.size() > 1000);
