@@ -297,6 +297,14 @@ bool requires_yield(const Lesson& lesson, const LessonStep& step) {
            spec_of(lesson, step.joint).strategy == content::Strategy::yield;
 }
 
+bool requires_click(const Lesson& lesson, const LessonStep& step) {
+    const content::Assembly& assembly = *lesson.assembly;
+    if (assembly.law != joint::Law::published || assembly.wrench.click_swing <= 0.0) return false;
+    const double greatest_click = step.torque * (1.0 + assembly.wrench.click_accuracy);
+    return step.kind == StepKind::tighten &&
+           greatest_click < assembly.joints[step.joint].published.law.T_max_Nm;
+}
+
 double wrench_set_torque(const Lesson& lesson) {
     const LessonStep* step = lesson.due();
     if (step == nullptr || lesson.assembly->wrench.click_swing <= 0.0) return 0.0;
@@ -313,6 +321,7 @@ bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world) {
             return joint.stage != joint::Stage::navigation;
         case StepKind::tighten:
             if (track.peak_torque < torque_window(lesson, *step).low) return false;
+            if (requires_click(lesson, *step)) return track.clicked;
             return !requires_yield(lesson, *step) || track.yielded || track.clicked ||
                    track.peak_torque > spec_of(lesson, step->joint).torque.high;
         case StepKind::recheck:

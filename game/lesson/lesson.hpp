@@ -44,8 +44,8 @@ enum class LawAdaptation : std::uint8_t { yield_end, before_format_6 };
 // A torque wrench is set so low that it clicks before the end of the yield stage, whatever its deviation, and
 // the windows begin low enough for it. The target clamp force follows from the target torque. Where the file
 // gives no θ_max, it becomes that of a nut that starts at design.start_gap.
-// `before_format_6`: without own targets, torques above 98 % of T_max are lowered to 98 %; no angle is judged;
-// θ_max and the torque wrench are not adapted. Idempotent.
+// `before_format_6`: without own targets, torques above 98 % of T_max are lowered to 98 %; no angle is
+// judged; θ_max and the torque wrench are not adapted. Idempotent.
 content::Assembly apply_law(content::Assembly assembly, joint::Law law,
                             LawAdaptation adaptation = LawAdaptation::yield_end);
 
@@ -109,6 +109,11 @@ content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& s
 // True if the step tightens to the whole target with strategy `yield`.
 bool requires_yield(const Lesson& lesson, const LessonStep& step);
 
+// True if the step ends with the click of the torque wrench: under the published law, where the torque grows
+// so slowly in the yield stage that a stroke can end within the window before the wrench clicks. False for a
+// set torque that some wrench would not reach (sessions before format 6).
+bool requires_click(const Lesson& lesson, const LessonStep& step);
+
 // Set torque of the torque wrench for the due step, N·m; 0 for other tools and for steps without a torque.
 double wrench_set_torque(const Lesson& lesson);
 
@@ -117,7 +122,7 @@ double wrench_set_torque(const Lesson& lesson);
 //   run down    the fingers have turned the nut onto its seat
 //   tighten     the torque reached the low edge of the step's window. A step to the whole target with
 //               strategy `yield` also needs one of: the joint yields, the torque exceeds its window, the
-//               torque wrench clicks
+//               torque wrench clicks. Some steps need the click (requires_click)
 //   re-check    the wrench turned the nut further, or reached the window without turning it
 //   loosen      the nut is free of clamp force
 // In assessment, work on the next step's joint ends the due step, fulfilled or not, once the due joint has
