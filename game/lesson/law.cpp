@@ -10,6 +10,7 @@ namespace {
 using joint::PublishedParameters;
 
 constexpr double tool_accuracy = 0.04;  // ISO 6789-1, hand torque tools above 10 N·m
+constexpr double click_margin = 0.99;
 
 // Torque at `share` of the yield stage before its end, N·m.
 double torque_before_end(const PublishedParameters& law, double share) {
@@ -37,12 +38,14 @@ content::Specification derived_targets(const PublishedParameters& law) {
     return s;
 }
 
-// Lowers the targets so that a click-type torque wrench within `accuracy` of them clicks in the yield stage.
+// Lowers the targets so that a click-type torque wrench within `accuracy` of them clicks before the end of
+// the yield stage. The recorded torque can be lower than that of the click by the growth within a tick.
 void fit_to_clicks(const PublishedParameters& law, double accuracy, content::Specification& s) {
     const double highest = torque_before_end(law, 0.1) / (1.0 + accuracy);
     if (s.torque.target <= highest) return;
     s.torque.target = highest;
-    s.torque.low = std::min(s.torque.low, (1.0 - accuracy) * highest);
+    s.torque.low = std::min(s.torque.low, click_margin * (1.0 - accuracy) * highest);
+    s.snug_torque = std::min(s.snug_torque, 0.9 * s.torque.low);
     if (!s.has_angle) return;
     s.angle.target = angle_from_snug(law, s.snug_torque, highest);
     const double least = std::min(s.torque.low, torque_before_end(law, 1.0));
