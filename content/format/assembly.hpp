@@ -42,16 +42,21 @@ struct Specification {
     RiskClass risk = RiskClass::C;
 };
 
-// Targets of all joints under the published law, whose torques do not depend on the fastener.
-struct PublishedTargets {
-    ToleranceWindow torque;    // N·m, at the wrench
-    double snug_torque = 0.0;  // N·m, from which the tightening angle is measured
+// A joint under the published law (haptics/joint/published.hpp).
+struct PublishedJoint {
+    joint::PublishedParameters law;
+    // The file gives θ_max. Otherwise lesson::apply_law derives it from the nut's start on the thread.
+    bool has_theta_max = false;
+    // Replaces the joint's specification, except its risk class. None: derived from the law
+    // (lesson::apply_law).
+    std::optional<Specification> targets;
 };
 
 struct AssemblyJoint {
     std::string type;  // name of its joint type
     joint::JointDesign design;
     Specification spec;
+    PublishedJoint published;
     std::string node;  // unique node name in the .glb; may be empty if there is none
 };
 
@@ -124,10 +129,8 @@ struct Assembly {
     std::map<std::string, std::string> instructions;  // by language; the file's key is "lesson"
     std::string sources;                              // source of the file's numbers; may be empty
     joint::Law law = joint::Law::mechanistic;
-    joint::PublishedParameters published;               // used by the published law only
-    std::optional<PublishedTargets> published_targets;  // none: derived from the joints' (lesson::apply_law)
-    std::string variant;                                // name of the chosen variant; empty: none
-    std::vector<AssemblyVariant> variants;              // all variants of the file
+    std::string variant;                    // name of the chosen variant; empty: none
+    std::vector<AssemblyVariant> variants;  // all variants of the file
     std::vector<AssemblyJoint> joints;
     std::vector<Pass> passes;
     std::vector<Tool> tools;  // available tools, the default one first

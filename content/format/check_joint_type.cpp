@@ -169,27 +169,6 @@ std::string pointer_of(const LayeredObject& spec, const char* key) {
     return node ? node.pointer : spec.objects().front().pointer;
 }
 
-void check_angles(const LayeredObject& spec, const Specification& s) {
-    JsonReader& reader = spec.reader();
-    if (s.has_angle) {
-        const double target = to_degrees(s.angle.target);
-        if (s.angle.low > s.angle.high)
-            reader.report(pointer_of(spec, "min_angle_deg"),
-                          fmt::format("{:g} degrees is above the largest angle", to_degrees(s.angle.low)),
-                          fmt::format("at most {:g}", to_degrees(s.angle.high)));
-        else if (target < to_degrees(s.angle.low) - 1e-9 || target > to_degrees(s.angle.high) + 1e-9)
-            reader.report(pointer_of(spec, "target_angle_deg"),
-                          fmt::format("{:g} degrees is outside its window", target),
-                          fmt::format("{:g} to {:g}", to_degrees(s.angle.low), to_degrees(s.angle.high)));
-    } else if (s.strategy == Strategy::torque_angle) {
-        reader.report(pointer_of(spec, "strategy"), "the strategy torque_angle needs an angle",
-                      "min_angle_deg and max_angle_deg, and target_angle_deg where it is not their middle");
-    } else if (const JsonNode target = spec.find("target_angle_deg")) {
-        reader.report(target.pointer, "a target angle without a window",
-                      "min_angle_deg and max_angle_deg too");
-    }
-}
-
 }  // namespace
 
 void check_limits(const LayeredObject& spec) {
@@ -231,6 +210,27 @@ void check_torques(const LayeredObject& spec, const ToleranceWindow& torque, dou
             fmt::format("a snug torque of {:g} N·m is not below the lowest torque that is judged OK",
                         snug_torque),
             fmt::format("less than {:g} N·m", torque.low));
+}
+
+void check_angles(const LayeredObject& spec, const Specification& s) {
+    JsonReader& reader = spec.reader();
+    if (s.has_angle) {
+        const double target = to_degrees(s.angle.target);
+        if (s.angle.low > s.angle.high)
+            reader.report(pointer_of(spec, "min_angle_deg"),
+                          fmt::format("{:g} degrees is above the largest angle", to_degrees(s.angle.low)),
+                          fmt::format("at most {:g}", to_degrees(s.angle.high)));
+        else if (target < to_degrees(s.angle.low) - 1e-9 || target > to_degrees(s.angle.high) + 1e-9)
+            reader.report(pointer_of(spec, "target_angle_deg"),
+                          fmt::format("{:g} degrees is outside its window", target),
+                          fmt::format("{:g} to {:g}", to_degrees(s.angle.low), to_degrees(s.angle.high)));
+    } else if (s.strategy == Strategy::torque_angle) {
+        reader.report(pointer_of(spec, "strategy"), "the strategy torque_angle needs an angle",
+                      "min_angle_deg and max_angle_deg, and target_angle_deg where it is not their middle");
+    } else if (const JsonNode target = spec.find("target_angle_deg")) {
+        reader.report(target.pointer, "a target angle without a window",
+                      "min_angle_deg and max_angle_deg too");
+    }
 }
 
 void check_joint_type(const LayeredObject& layers, const JointType& type, double smallest_pass_fraction) {

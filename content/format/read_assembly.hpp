@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string_view>
 
 #include "content/format/assembly.hpp"
@@ -24,10 +23,6 @@ std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& va
 // The smallest fraction of the target torque that a pass tightens to; 1 if unknown.
 double smallest_pass_fraction(JsonReader& reader);
 std::vector<Pass> read_passes(JsonReader& reader, const std::vector<AssemblyJoint>& joints);
-joint::PublishedParameters read_published(JsonReader& reader);
-// Empty if the file gives no targets.
-std::optional<PublishedTargets> read_published_targets(JsonReader& reader,
-                                                       const joint::PublishedParameters& law);
 ModelFiles read_model_files(JsonReader& reader, const ModelFolders& folders);
 std::string read_tool_model(JsonReader& reader, const JsonNode& tool, const ModelFolders& folders);
 

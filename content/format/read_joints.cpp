@@ -162,30 +162,6 @@ joint::JointDesign read_design(const LayeredObject& layers, const YoungsModuli& 
     return design;
 }
 
-Specification read_spec(const LayeredObject& spec) {
-    Specification result;
-    const std::string strategy = spec.text("strategy").value_or("torque");
-    result.strategy = strategy == "yield"          ? Strategy::yield
-                      : strategy == "torque_angle" ? Strategy::torque_angle
-                                                   : Strategy::torque;
-    result.torque = read_torque(spec);
-    result.snug_torque = read_snug_torque(spec, result.torque);
-    const auto low = spec.number("min_angle_deg"), high = spec.number("max_angle_deg");
-    const auto target = spec.number("target_angle_deg");
-    if (low && high) {
-        result.has_angle = true;
-        result.angle.low = to_radians(*low);
-        result.angle.high = to_radians(*high);
-        result.angle.target = target ? to_radians(*target) : 0.5 * (result.angle.low + result.angle.high);
-    }
-    result.target_clamp = spec.number("target_clamp_kN").value_or(0.0) * 1e3;
-    const std::string risk = spec.text("risk_class").value_or("C");
-    result.risk = risk == "A" ? RiskClass::A : risk == "B" ? RiskClass::B : RiskClass::C;
-    return result;
-}
-
-}  // namespace
-
 // Limits and a tolerance are alternatives; the topmost layer that has one of them decides.
 ToleranceWindow read_torque(const LayeredObject& spec) {
     ToleranceWindow torque;
@@ -212,6 +188,30 @@ double read_snug_torque(const LayeredObject& spec, const ToleranceWindow& torque
     return spec.number("snug_torque_Nm").value_or(default_snug * torque.target);
 }
 
+}  // namespace
+
+Specification read_spec(const LayeredObject& spec) {
+    Specification result;
+    const std::string strategy = spec.text("strategy").value_or("torque");
+    result.strategy = strategy == "yield"          ? Strategy::yield
+                      : strategy == "torque_angle" ? Strategy::torque_angle
+                                                   : Strategy::torque;
+    result.torque = read_torque(spec);
+    result.snug_torque = read_snug_torque(spec, result.torque);
+    const auto low = spec.number("min_angle_deg"), high = spec.number("max_angle_deg");
+    const auto target = spec.number("target_angle_deg");
+    if (low && high) {
+        result.has_angle = true;
+        result.angle.low = to_radians(*low);
+        result.angle.high = to_radians(*high);
+        result.angle.target = target ? to_radians(*target) : 0.5 * (result.angle.low + result.angle.high);
+    }
+    result.target_clamp = spec.number("target_clamp_kN").value_or(0.0) * 1e3;
+    const std::string risk = spec.text("risk_class").value_or("C");
+    result.risk = risk == "A" ? RiskClass::A : risk == "B" ? RiskClass::B : RiskClass::C;
+    return result;
+}
+
 YoungsModuli read_youngs_moduli(JsonReader& reader) {
     YoungsModuli moduli;
     moduli.E = {{"aluminium", 70e9},     {"bronze", 105e9},          {"cast_iron", 110e9},
@@ -226,7 +226,12 @@ YoungsModuli read_youngs_moduli(JsonReader& reader) {
 
 JointType read_joint_type(const LayeredObject& layers, const YoungsModuli& moduli,
                           double smallest_pass_fraction) {
-    const JointType type{read_design(layers, moduli), read_spec(layers.member_layers("spec"))};
+    JsonReader& reader = layers.reader();
+    std::vector<JsonNode> laws;
+    for (const JsonNode& layer : layers.objects()) laws.push_back(reader.member(layer, "published"));
+    laws.push_back(reader.member(reader.root(), "published"));
+    const JointType type{read_design(layers, moduli), read_spec(layers.member_layers("spec")),
+                         read_published(LayeredObject(reader, std::move(laws)))};
     check_joint_type(layers, type, smallest_pass_fraction);
     return type;
 }
@@ -290,6 +295,7 @@ AssemblyJoint read_joint(JointTypes& types, const JsonNode& node) {
         }
         joint.design = std::move(type.design);
         joint.spec = type.spec;
+        joint.published = type.published;
     }
     joint.design.id = reader.text(reader.member(node, "id")).value_or("");
     joint.design.axis = read_axis(reader, node);

@@ -28,6 +28,7 @@ YoungsModuli read_youngs_moduli(JsonReader& reader);
 struct JointType {
     joint::JointDesign design;
     Specification spec;
+    PublishedJoint published;
 };
 
 // Reads a joint type with its patches applied, and reports its errors, including inconsistent values. After
@@ -36,17 +37,23 @@ struct JointType {
 JointType read_joint_type(const LayeredObject& layers, const YoungsModuli& moduli,
                           double smallest_pass_fraction);
 
+// The torques and angles in `spec`: a joint's specification, or the targets of the published law.
+Specification read_spec(const LayeredObject& spec);
+
+// Reads a joint under the published law and reports its errors. `layers`: the objects "published", those of
+// the joint type above that of the file; each value is read from the first one that has it, and a value that
+// none has is that of Table 1.
+PublishedJoint read_published(const LayeredObject& layers);
+
 // Checks the consistency of a joint type: lengths, torques, windows. Checks that need an invalid or missing
 // value are skipped.
 void check_joint_type(const LayeredObject& layers, const JointType& type, double smallest_pass_fraction);
-
-// The torques in `spec`: a joint's specification, or the targets of the published law.
-ToleranceWindow read_torque(const LayeredObject& spec);
-double read_snug_torque(const LayeredObject& spec, const ToleranceWindow& torque);
 
 // Checks that limits come in pairs and are not combined with a tolerance.
 void check_limits(const LayeredObject& spec);
 // Checks snug torque < lowest torque ≤ target ≤ highest torque.
 void check_torques(const LayeredObject& spec, const ToleranceWindow& torque, double snug_torque);
+// Checks that the target angle is within its window, and that the strategy has the angles it needs.
+void check_angles(const LayeredObject& spec, const Specification& s);
 
 }  // namespace bolt::content

@@ -39,7 +39,8 @@ Result<content::Assembly> stored_assembly(const session::SessionReader& session)
         error.what = "the assembly stored in this session cannot be read: " + loaded.errors.front().message();
         return fail(std::move(error));
     }
-    return lesson::apply_law(std::move(loaded.assembly), header.law);
+    BOLT_TRY(content::choose_tool(loaded.assembly, header.tool));
+    return lesson::apply_law(std::move(loaded.assembly), header.law, header.law_adaptation);
 }
 
 std::vector<lesson::JointResult> results_by_joint(const content::Assembly& assembly,
@@ -98,7 +99,7 @@ double target_clamp(const content::Assembly& assembly, std::size_t joint) {
     const content::AssemblyJoint& j = assembly.joints[joint];
     if (j.spec.target_clamp > 0.0) return j.spec.target_clamp;
     if (assembly.law == joint::Law::published)
-        return j.spec.torque.target / joint::published_lever(assembly.published, joint::Direction::tighten);
+        return j.spec.torque.target / joint::published_lever(j.published.law, joint::Direction::tighten);
     const joint::FastenerSize& size = j.design.thread.size;
     const double hole = j.design.washer_under_nut ? size.washer_inner : size.hole;
     const joint::TorqueLevers levers =

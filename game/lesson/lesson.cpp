@@ -25,25 +25,6 @@ StepKind kind_of(content::PassKind kind) {
 
 }  // namespace
 
-content::Assembly apply_law(content::Assembly assembly, joint::Law law) {
-    assembly.law = law;
-    if (law == joint::Law::mechanistic) return assembly;
-    const double highest = 0.98 * assembly.published.T_max_Nm;
-    for (content::AssemblyJoint& joint : assembly.joints) {
-        joint.spec.strategy = content::Strategy::torque;
-        joint.spec.has_angle = false;
-        joint.spec.target_clamp = 0.0;
-        if (assembly.published_targets) {
-            joint.spec.torque = assembly.published_targets->torque;
-            joint.spec.snug_torque = assembly.published_targets->snug_torque;
-            continue;
-        }
-        joint.spec.torque.target = std::min(joint.spec.torque.target, highest);
-        joint.spec.torque.low = std::min(joint.spec.torque.low, 0.95 * joint.spec.torque.target);
-    }
-    return assembly;
-}
-
 std::vector<LessonStep> make_plan(const content::Assembly& assembly, Task task) {
     std::vector<LessonStep> steps;
     if (assembly.passes.empty()) return steps;
@@ -316,6 +297,14 @@ bool requires_yield(const Lesson& lesson, const LessonStep& step) {
            spec_of(lesson, step.joint).strategy == content::Strategy::yield;
 }
 
+bool requires_click(const Lesson& lesson, const LessonStep& step) {
+    const content::Assembly& assembly = *lesson.assembly;
+    if (assembly.law != joint::Law::published || assembly.wrench.click_swing <= 0.0) return false;
+    const double greatest_click = step.torque * (1.0 + assembly.wrench.click_accuracy);
+    return step.kind == StepKind::tighten &&
+           greatest_click < assembly.joints[step.joint].published.law.T_max_Nm;
+}
+
 double wrench_set_torque(const Lesson& lesson) {
     const LessonStep* step = lesson.due();
     if (step == nullptr || lesson.assembly->wrench.click_swing <= 0.0) return 0.0;
@@ -332,6 +321,7 @@ bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world) {
             return joint.stage != joint::Stage::navigation;
         case StepKind::tighten:
             if (track.peak_torque < torque_window(lesson, *step).low) return false;
+            if (requires_click(lesson, *step)) return track.clicked;
             return !requires_yield(lesson, *step) || track.yielded || track.clicked ||
                    track.peak_torque > spec_of(lesson, step->joint).torque.high;
         case StepKind::recheck:

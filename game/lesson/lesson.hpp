@@ -31,12 +31,23 @@ struct LessonStep {
     int pass = 0;
 };
 
+// How an assembly is adapted to the published law. Sessions before format 6 were recorded with the older way;
+// their replays and reports need it.
+enum class LawAdaptation : std::uint8_t { yield_end, before_format_6 };
+
 // Returns the assembly with `law` in force and its specifications adapted to it. The specifications of joint
-// types hold under the mechanistic law. Under the published law every joint ends at the same torque T_max
-// (haptics/joint/published.hpp), for any fastener: the assembly's own published targets replace the specified
-// ones. If it has none, targets above 98 % of T_max are lowered to 98 %. No angle is judged, and the target
-// clamp force follows from the target torque. Idempotent.
-content::Assembly apply_law(content::Assembly assembly, joint::Law law);
+// types hold under the mechanistic law. Under the published law a joint ends at its T_max
+// (haptics/joint/published.hpp) and the torque stays there, so these targets replace them:
+//   - the joint's own published targets, if the file has them
+//   - otherwise targets in the last third of the yield stage, and an angle window that also ends a third of
+//     the stage beyond it, because the torque cannot be too high
+// A torque wrench is set so low that it clicks before the end of the yield stage, whatever its deviation, and
+// the windows begin low enough for it. The target clamp force follows from the target torque. Where the file
+// gives no θ_max, it becomes that of a nut that starts at design.start_gap.
+// `before_format_6`: without own targets, torques above 98 % of T_max are lowered to 98 %; no angle is
+// judged; θ_max and the torque wrench are not adapted. Idempotent.
+content::Assembly apply_law(content::Assembly assembly, joint::Law law,
+                            LawAdaptation adaptation = LawAdaptation::yield_end);
 
 // Tightening: the assembly's passes in order. Loosening: every joint once, in the reverse order of the last
 // pass.
@@ -98,6 +109,11 @@ content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& s
 // True if the step tightens to the whole target with strategy `yield`.
 bool requires_yield(const Lesson& lesson, const LessonStep& step);
 
+// True if the step ends with the click of the torque wrench: under the published law, where the torque grows
+// so slowly in the yield stage that a stroke can end within the window before the wrench clicks. False for a
+// set torque that some wrench would not reach (sessions before format 6).
+bool requires_click(const Lesson& lesson, const LessonStep& step);
+
 // Set torque of the torque wrench for the due step, N·m; 0 for other tools and for steps without a torque.
 double wrench_set_torque(const Lesson& lesson);
 
@@ -106,7 +122,7 @@ double wrench_set_torque(const Lesson& lesson);
 //   run down    the fingers have turned the nut onto its seat
 //   tighten     the torque reached the low edge of the step's window. A step to the whole target with
 //               strategy `yield` also needs one of: the joint yields, the torque exceeds its window, the
-//               torque wrench clicks
+//               torque wrench clicks. Some steps need the click (requires_click)
 //   re-check    the wrench turned the nut further, or reached the window without turning it
 //   loosen      the nut is free of clamp force
 // In assessment, work on the next step's joint ends the due step, fulfilled or not, once the due joint has

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/result.hpp"
+#include "game/lesson/lesson.hpp"
 #include "game/lesson/result.hpp"
 #include "haptics/collision/contact.hpp"
 #include "haptics/force/output_limits.hpp"
@@ -34,6 +35,8 @@ struct Header {
     std::string assembly_text;  // the file's exact text, so that a session replays without the folder
     std::string variant;
     joint::Law law = joint::Law::mechanistic;
+    // Follows from the format of the file.
+    lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     // "person", or the simulated trainee's profile: "expert", … The key in the file is "operator".

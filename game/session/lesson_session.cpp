@@ -12,10 +12,12 @@ namespace bolt::session {
 
 servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const force::OutputLimits& limits,
                         std::uint64_t seed, double dt) {
+    servo::SetupDescription description;
     std::vector<joint::JointDesign> designs;
     double highest_torque = 0.0;
     for (const content::AssemblyJoint& joint : assembly.joints) {
         designs.push_back(joint.design);
+        description.published.push_back(joint.published.law);
         highest_torque = std::max(highest_torque, joint.spec.torque.high);
     }
     const content::FlangeDesign& f = assembly.flange;
@@ -23,10 +25,8 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
     if (f.joints_interact)
         plate = joint::FlangePlate::make(f.thickness, f.E, f.poisson, f.interface_stiffness);
 
-    servo::SetupDescription description;
     description.joints = designs;
     description.law = law;
-    description.published = assembly.published;
     description.flange = f.joints_interact ? &plate : nullptr;
     description.jaw = assembly.wrench.jaw;
     description.head_thickness = assembly.wrench.head_thickness;
@@ -144,7 +144,7 @@ LessonSession::~LessonSession() = default;
 
 Result<SessionSetup> prepare_session(const content::Assembly& given, const LessonOptions& options) {
     SessionSetup start;
-    start.assembly = lesson::apply_law(given, options.law);
+    start.assembly = lesson::apply_law(given, options.law, options.law_adaptation);
     start.setup = make_setup(start.assembly, options.law, options.device_limits, options.seed, options.dt);
     start.state = servo::initial_state(start.setup);
     if (options.task == lesson::Task::loosen) {

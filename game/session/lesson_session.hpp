@@ -39,6 +39,7 @@ struct LessonOptions {
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     joint::Law law = joint::Law::mechanistic;
+    lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;  // another one: replays only
     std::uint64_t seed = 1;
     double dt = 0.001;
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).

@@ -184,6 +184,7 @@ Result<SessionReader> SessionReader::open(const std::filesystem::path& path) {
         return file_error(file, "is damaged: it is marked complete but has no result",
                           "an unmodified session file");
     BOLT_TRY_ASSIGN(auto header, header_of(meta, file));
+    if (session.format < 6) header.law_adaptation = lesson::LawAdaptation::before_format_6;
     if (session.format >= 2) {
         BOLT_TRY(read_obstacles(database, file, header.obstacle_names));
     }

@@ -62,6 +62,7 @@ Result<SessionSetup> restore_setup(const SessionReader& session) {
     options.mode = header.mode;
     options.task = header.task;
     options.law = header.law;
+    options.law_adaptation = header.law_adaptation;
     options.seed = header.seed;
     options.dt = header.dt;
     options.device_limits = *header.device_limits;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numeric>
+#include <utility>
 
 namespace bolt::joint {
 
@@ -85,12 +86,12 @@ void update_clamps(const GroupParameters& group, std::span<JointState> joints, i
     }
 }
 
-void update_published(const GroupParameters& group, JointState& joint, double angle, double friction_share) {
+void update_published(const PublishedParameters& law, JointState& joint, double angle,
+                      double friction_share) {
     const double degrees = to_degrees(angle);
-    published_advance(group.published, joint.published, degrees);
+    published_advance(law, joint.published, degrees);
     const Direction direction = friction_share < 0.0 ? Direction::loosen : Direction::tighten;
-    const PublishedResponse reading =
-        evaluate_published(group.published, joint.published, degrees, direction);
+    const PublishedResponse reading = evaluate_published(law, joint.published, degrees, direction);
     joint.clamp = reading.clamp;
     joint.stage = reading.stage;
 }
@@ -110,10 +111,10 @@ GroupParameters make_group(std::span<const JointDesign> designs, const FlangePla
     return group;
 }
 
-GroupParameters make_published_group(const PublishedParameters& parameters) {
+GroupParameters make_published_group(std::vector<PublishedParameters> joints) {
     GroupParameters group;
     group.law = Law::published;
-    group.published = parameters;
+    group.published = std::move(joints);
     return group;
 }
 
@@ -125,22 +126,19 @@ std::vector<JointState> initial_state(const GroupParameters& group, std::size_t 
 
 Resistance resistance(const GroupParameters& group, std::size_t joint, const JointState& state) {
     if (group.law == Law::mechanistic) return resistance(group.joints[joint], state.mechanistic);
+    const PublishedParameters& law = group.published[joint];
     const double degrees = to_degrees(state.nut.angle);
-    const auto on = evaluate_published(group.published, state.published, degrees, Direction::tighten);
-    const auto off = evaluate_published(group.published, state.published, degrees, Direction::loosen);
+    const auto on = evaluate_published(law, state.published, degrees, Direction::tighten);
+    const auto off = evaluate_published(law, state.published, degrees, Direction::loosen);
     // The paper gives the torques of the stages different signs; the hand feels their magnitude, against the
     // motion.
     Resistance r;
     r.tighten = std::abs(on.torque);
     r.loosen = -std::abs(off.torque);
-    if (on.stage == Stage::yield)
-        r.loosen_slope = -to_degrees(published_lever(group.published, Direction::loosen) /
-                                     published_degrees_per_newton(group.published));
-    if (on.stage == Stage::linearity) {
-        r.tighten_slope = to_degrees(published_linear_slope(group.published));
-        r.loosen_slope = -to_degrees(published_lever(group.published, Direction::loosen) /
-                                     published_degrees_per_newton(group.published));
-    }
+    if (on.stage == Stage::linearity) r.tighten_slope = to_degrees(published_linear_slope(law));
+    if (on.stage == Stage::linearity || on.stage == Stage::yield)
+        r.loosen_slope =
+            -to_degrees(published_lever(law, Direction::loosen) / published_degrees_per_newton(law));
     return r;
 }
 
@@ -172,7 +170,8 @@ ClickStep step_group(const GroupParameters& group, std::span<JointState> joints,
     if (group.law == Law::mechanistic)
         update_clamps(group, joints, moved, angle, friction_share, dt);
     else if (moved >= 0)
-        update_published(group, joints[static_cast<std::size_t>(moved)], angle, friction_share);
+        update_published(group.published[static_cast<std::size_t>(moved)],
+                         joints[static_cast<std::size_t>(moved)], angle, friction_share);
     return click;
 }
 
@@ -183,7 +182,7 @@ void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::s
     if (group.law == Law::mechanistic)
         update_clamps(group, joints, static_cast<int>(joint), angle, friction_share, dt);
     else
-        update_published(group, j, angle, friction_share);
+        update_published(group.published[joint], j, angle, friction_share);
     const Resistance r = resistance(group, joint, j);
     j.torque = friction_share >= 0.0 ? r.tighten : r.loosen;
 }
@@ -194,7 +193,7 @@ constexpr std::size_t max_samples = 2'000'000;
 
 double signed_torque(const GroupParameters& group, const JointState& joint, Direction direction) {
     if (group.law == Law::mechanistic) return joint.torque;
-    return evaluate_published(group.published, joint.published, to_degrees(joint.nut.angle), direction)
+    return evaluate_published(group.published[0], joint.published, to_degrees(joint.nut.angle), direction)
         .torque;
 }
 

@@ -51,9 +51,9 @@ InteractionMatrix interaction_matrix(const FlangePlate& plate, std::span<const V
 
 struct GroupParameters {
     Law law = Law::mechanistic;
-    std::vector<MechanisticParameters> joints;  // mechanistic
-    PublishedParameters published;              // published: the same for all joints, without interaction
-    InteractionMatrix interaction;              // mechanistic; empty: none
+    std::vector<MechanisticParameters> joints;   // mechanistic
+    std::vector<PublishedParameters> published;  // published; without interaction
+    InteractionMatrix interaction;               // mechanistic; empty: none
 };
 
 struct JointState {
@@ -72,7 +72,8 @@ struct JointState {
 // if any.
 GroupParameters make_group(std::span<const JointDesign> designs, const FlangePlate* flange,
                            std::uint64_t seed);
-GroupParameters make_published_group(const PublishedParameters& parameters);
+// One set of parameters for each joint.
+GroupParameters make_published_group(std::vector<PublishedParameters> joints);
 
 std::vector<JointState> initial_state(const GroupParameters& group, std::size_t joints);
 

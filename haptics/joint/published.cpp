@@ -64,6 +64,13 @@ double published_yield_torque(const PublishedParameters& p, double theta_deg) {
     return p.T_max_Nm - p.kappa1 * square(std::min(theta_deg - p.theta_max_deg, 0.0));
 }
 
+double published_angle(const PublishedParameters& p, double torque) {
+    const double yield = p.theta_max_deg - p.yield_width_deg;
+    const double slope = published_linear_slope(p), yield_torque = published_yield_torque(p, yield);
+    if (torque < yield_torque) return yield - (yield_torque - std::max(torque, 0.0)) / slope;
+    return p.theta_max_deg - std::sqrt(std::max(p.T_max_Nm - torque, 0.0) / p.kappa1);
+}
+
 PublishedBoundaries published_boundaries(const PublishedParameters& p) {
     PublishedBoundaries b{};
     b.yield = p.theta_max_deg - p.yield_width_deg;

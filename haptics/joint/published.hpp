@@ -27,8 +27,9 @@ struct PublishedParameters {
     // 10⁶ N/mm, of the seven springs in series that the paper makes of bolt, nut and members.
     double spring_rates_1e6[7] = {1.47, 1.46, 1.51, 1.53, 1.40, 1.38, 1.42};
     double T_max_Nm = 72.126;
-    double kappa1 = 0.0015;         // N·m per square degree
-    double theta_max_deg = 7218.0;  // 40.1 π rad
+    double kappa1 = 0.0015;  // N·m per square degree
+    // 40.1 π rad: the end of the yield stage, measured from where the nut is started on its thread.
+    double theta_max_deg = 7218.0;
     double yield_width_deg = 90.0;
 
     // Ours, because the paper gives no A(θ): A·h' grows with the square of the angle, over
@@ -55,6 +56,10 @@ double published_linear_slope(const PublishedParameters& p);
 
 // Stage 4, N·m, at the nut angle in degrees: T_max − κ1 (θ − θ_max)²; constant beyond θ_max (ours).
 double published_yield_torque(const PublishedParameters& p, double theta_deg);
+
+// The nut angle, degrees, at which tightening a new joint reaches `torque`, N·m, in stage 3 or 4. The law
+// reaches at most T_max, so larger torques give θ_max, and negative ones the start of stage 3.
+double published_angle(const PublishedParameters& p, double torque);
 
 // Nut angle at which each stage begins, degrees from the start.
 struct PublishedBoundaries {

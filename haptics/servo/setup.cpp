@@ -48,8 +48,9 @@ Setup make_setup(const SetupDescription& d) {
         across_flats = std::max(across_flats, design.thread.size.across_flats);
     }
     if (d.law == joint::Law::published)
-        for (NutGeometry& nut : setup.nuts)
-            nut.start_gap = nut.lead * to_radians(joint::published_boundaries(d.published).linearity);
+        for (std::size_t i = 0; i < setup.nuts.size(); ++i)
+            setup.nuts[i].start_gap =
+                setup.nuts[i].lead * to_radians(joint::published_boundaries(d.published[i]).linearity);
 
     setup.wrench.head_angle = d.head_angle;
     setup.wrench.handle_length = d.handle_length;

@@ -65,7 +65,7 @@ struct Setup {
 struct SetupDescription {
     std::span<const joint::JointDesign> joints;
     joint::Law law = joint::Law::mechanistic;
-    joint::PublishedParameters published;
+    std::vector<joint::PublishedParameters> published;  // law `published`: one set for each joint
     const joint::FlangePlate* flange = nullptr;
     double jaw = 0.0;             // m, opening across the flats
     double head_thickness = 0.0;  // m; 0: the default proportion (haptics/collision/jaw.hpp)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <iterator>
 
 #include "haptics/joint/design.hpp"
 #include "haptics/joint/published.hpp"
@@ -123,13 +125,64 @@ TEST_CASE("Assemblies: the target of zq350 in carbon steel is at the onset of yi
 }
 
 TEST_CASE("Assemblies: under the published law the target of zq350 lies in the last degrees before T_max") {
-    const Assembly a = load("zq350");
-    REQUIRE(a.published_targets);
-    const joint::PublishedParameters& law = a.published;
-    CHECK(a.published_targets->torque.target < law.T_max_Nm);
-    CHECK(joint::published_yield_torque(law, law.theta_max_deg - 5.0) < a.published_targets->torque.target);
-    // Two thirds of the yield stage lie below the lowest torque that is judged OK.
-    CHECK(joint::published_yield_torque(law, law.theta_max_deg - 30.0) < a.published_targets->torque.low);
+    for (const char* variant : {"carbon_steel", "stainless"})
+        for (const AssemblyJoint& j : load("zq350", variant).joints) {
+            REQUIRE(j.published.targets);
+            const content::Specification& targets = *j.published.targets;
+            const joint::PublishedParameters& law = j.published.law;
+            CHECK(targets.torque.target < law.T_max_Nm);
+            CHECK(joint::published_yield_torque(law, law.theta_max_deg - 5.0) < targets.torque.target);
+            // Two thirds of the yield stage lie below the lowest torque that is judged OK.
+            CHECK(joint::published_yield_torque(law, law.theta_max_deg - 30.0) < targets.torque.low);
+            // The torque is constant beyond the stage, so the angle limits overtightening.
+            REQUIRE(targets.has_angle);
+            const auto angle = [&](double torque) {
+                return to_radians(joint::published_angle(law, torque) -
+                                  joint::published_angle(law, targets.snug_torque));
+            };
+            CHECK(targets.angle.low < angle(targets.torque.low));
+            CHECK(targets.angle.high > angle(law.T_max_Nm) + to_radians(20.0));
+            CHECK(targets.angle.high < angle(law.T_max_Nm) + to_radians(30.0));
+            CHECK(targets.angle.target == doctest::Approx(angle(targets.torque.target)).epsilon(0.02));
+            CHECK_FALSE(j.published.has_theta_max);
+        }
+}
+
+// docs/published-law.md derives the sets of zq350 from Table 1, the set of M16x180 in carbon steel: the shank
+// and the clamped parts of M16x75 are shorter, and stainless steel has another modulus.
+TEST_CASE("Assemblies: the sets of the published law of zq350 are those that table 1 leads to") {
+    const joint::PublishedParameters table;
+    const double shank = (180.0 - 44.0) / (75.0 - 38.0);  // ISO 4014: threads of 44 and 38 mm
+    const double members = (75.0 + 75.0) / (24.0 + 24.0);
+    CHECK(joint::thread_length(0.016, 0.180) == doctest::Approx(0.044));
+    CHECK(joint::thread_length(0.016, 0.075) == doctest::Approx(0.038));
+    for (const char* variant : {"carbon_steel", "stainless"})
+        for (const AssemblyJoint& j : load("zq350", variant).joints) {
+            CAPTURE(variant);
+            CAPTURE(j.type);
+            const bool is_short = j.type == "M16x75", stainless = variant[0] == 's';
+            const double E = j.design.bolt_class.E / 205e9;
+            CHECK(E == doctest::Approx(stainless ? 200.0 / 205.0 : 1.0));
+            const double length[] = {1, is_short ? shank : 1, 1, 1, 1, 1, is_short ? members : 1};
+            for (std::size_t i = 0; i < 7; ++i) {
+                // The clamped parts (the last spring) are cast iron in both variants. Three digits are given.
+                const double rate = table.spring_rates_1e6[i] * length[i] * (i == 6 ? 1.0 : E);
+                CHECK(j.published.law.spring_rates_1e6[i] == doctest::Approx(rate).epsilon(0.004));
+            }
+            CHECK(j.published.law.E1_GPa == std::round(table.E1_GPa * E));
+            CHECK(j.published.law.E2_GPa == std::round(table.E2_GPa * E));
+            joint::PublishedParameters rest = j.published.law;
+            std::copy(std::begin(table.spring_rates_1e6), std::end(table.spring_rates_1e6),
+                      rest.spring_rates_1e6);
+            rest.E1_GPa = table.E1_GPa;
+            rest.E2_GPa = table.E2_GPa;
+            CHECK(std::memcmp(&rest, &table, sizeof table) == 0);
+            if (!is_short && !stainless)
+                CHECK(joint::published_linear_slope(j.published.law) ==
+                      doctest::Approx(14.354).epsilon(1e-4));
+            if (is_short && !stainless)
+                CHECK(joint::published_linear_slope(j.published.law) == doctest::Approx(18.0).epsilon(1e-3));
+        }
 }
 
 TEST_CASE("Assemblies: zq350 in stainless steel stays elastic at the same torque") {
@@ -168,13 +221,27 @@ TEST_CASE("Assemblies: every value of a file is converted to SI") {
     CHECK(a.title.at("fr") == "Console");
     CHECK(a.sources == "Made up.");
     CHECK(a.law == joint::Law::published);
-    CHECK(a.published.theta_max_deg == doctest::Approx(7218.0));
-    CHECK(a.published.spring_rates_1e6[6] == 1.42);
-    REQUIRE(a.published_targets);
-    CHECK(a.published_targets->torque.target == 71.0);
-    CHECK(a.published_targets->torque.low == 68.0);
-    CHECK(a.published_targets->torque.high == 73.0);
-    CHECK(a.published_targets->snug_torque == 18.0);
+    // Of the file, replaced by the joint type, by the variant and by the joint's override.
+    for (const AssemblyJoint& j : a.joints) {
+        const content::PublishedJoint& published = j.published;
+        const bool overridden = j.design.id == "B";
+        CHECK(published.law.theta_max_deg == doctest::Approx(7218.0));
+        CHECK(published.has_theta_max);
+        CHECK(published.law.spring_rates_1e6[6] == 1.42);
+        CHECK(published.law.T_max_Nm == 75.0);
+        CHECK(published.law.E1_GPa == 114.0);
+        CHECK(published.law.E2_GPa == (overridden ? 120.0 : 117.0));
+        REQUIRE(published.targets);
+        CHECK(published.targets->torque.target == (overridden ? 74.0 : 71.0));
+        CHECK(published.targets->torque.low == 68.0);
+        CHECK(published.targets->torque.high == 76.0);
+        CHECK(published.targets->snug_torque == 18.0);
+        CHECK(published.targets->strategy == content::Strategy::torque_angle);
+        REQUIRE(published.targets->has_angle);
+        CHECK(published.targets->angle.target == doctest::Approx(to_radians(80.0)));
+        CHECK(published.targets->angle.low == doctest::Approx(to_radians(40.0)));
+        CHECK(published.targets->angle.high == doctest::Approx(to_radians(110.0)));
+    }
     CHECK(a.wrench.handle_length == doctest::Approx(0.18));
     CHECK(a.flange.thickness == doctest::Approx(0.02));
     CHECK(a.flange.E == doctest::Approx(70e9));

@@ -38,7 +38,7 @@ std::string_view everything() {
     "nu1": 0.25, "nu2": 0.25, "kappa": 2, "spring_rates_MN_per_mm": [1.47, 1.46, 1.51, 1.53, 1.40, 1.38, 1.42],
     "T_max_Nm": 72.126, "kappa1_Nm_per_deg2": 0.0015, "theta_max_turns": 20.05, "yield_width_deg": 90,
     "transition_width_deg": 30, "contact_end_mm2": 0.01,
-    "target_torque_Nm": 71, "min_torque_Nm": 68, "max_torque_Nm": 73, "snug_torque_Nm": 18
+    "target_torque_Nm": 71, "min_torque_Nm": 68, "max_torque_Nm": 76, "snug_torque_Nm": 18
   },
   "tool": {"kind": "open_end_wrench", "jaw_mm": 18.1, "head_thickness_mm": 9, "jaw_depth_mm": 11, "jaw_tip_mm": 12.5, "head_angle_deg": 15, "handle_length_mm": 180, "model": "wrench_18.glb"}, "more_tools": {"clicker": {"title": {"en": "Torque wrench"}, "kind": "click_torque_wrench", "jaw_mm": 18.1, "handle_length_mm": 400, "click_swing_deg": 5, "accuracy_percent": 3}},
   "flange": {"thickness_mm": 20, "E_GPa": 70, "poisson": 0.33, "interface_stiffness_GPa_per_m": 500},
@@ -66,6 +66,7 @@ std::string_view everything() {
       "running_torque_Nm": 0.05,
       "start_gap_mm": 20,
       "nut_mass_g": 17,
+      "published": {"T_max_Nm": 75, "target_angle_deg": 80, "min_angle_deg": 40, "max_angle_deg": 110},
       "spec": {
         "strategy": "torque_angle",
         "target_torque_Nm": 90,
@@ -105,6 +106,7 @@ std::string_view everything() {
        "running_torque_Nm": 0.03,
        "start_gap_mm": 15,
        "nut_mass_g": 16,
+       "published": {"E2_GPa": 120, "target_torque_Nm": 74},
        "spec": {
          "strategy": "torque",
          "target_torque_Nm": 70,
@@ -130,7 +132,7 @@ std::string_view everything() {
     "plain": {},
     "weak": {
       "title": {"en": "Weak"},
-      "every_joint_type": {"friction_thread": 0.11},
+      "every_joint_type": {"friction_thread": 0.11, "published": {"E1_GPa": 114}},
       "joint_types": {"M12x1.25": {"class": "8.8", "spec": {"min_torque_Nm": 78, "max_torque_Nm": 100}}}
     }
   },

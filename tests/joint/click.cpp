@@ -225,7 +225,7 @@ TEST_CASE("Torque wrench: under every law tightening stops at the click and is r
     PublishedParameters published;
     for (const double dt : {1e-3, 2.5e-4})
         for (const GroupParameters& group :
-             {test::single(test::m16_flange_joint()), make_published_group(published)}) {
+             {test::single(test::m16_flange_joint()), make_published_group({published})}) {
             const double trips = group.law == Law::published ? 0.6 * published.T_max_Nm : 60.0;
             CHECK(run(group, dt, trips) == run(group, dt, trips));
         }

@@ -267,7 +267,7 @@ TEST_CASE(
     "Derive: loosening in the yield stage of the published law takes the clamp force times the loosening "
     "lever") {
     const PublishedParameters p;
-    const GroupParameters group = make_published_group(p);
+    const GroupParameters group = make_published_group({p});
     const PublishedBoundaries b = published_boundaries(p);
     // The published friction levers minus the lead.
     const double lever = (-2.0 / (2.0 * pi) + 0.3 * 14.7 / (2.0 * std::cos(pi / 6.0)) + 0.4 * 24.0) * 1e-3;

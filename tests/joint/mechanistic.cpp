@@ -99,7 +99,7 @@ TEST_CASE("Mechanistic law: re-tightening past the previous peak has a continuou
 TEST_CASE("Mechanistic law: the refinement check detects the jumps of the published law") {
     PublishedParameters p;
     p.theta_max_deg = 360.0;
-    const GroupParameters group = make_published_group(p);
+    const GroupParameters group = make_published_group({p});
     const auto path = [](double t) { return to_radians(60.0) * t; };
     const Jumps coarse = jumps_of(group, path, 6.0, 1e-3, 0.1);
     const Jumps fine = jumps_of(group, path, 6.0, 2.5e-4, 0.1);

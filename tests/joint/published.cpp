@@ -98,6 +98,41 @@ TEST_CASE(
     CHECK((torque(b.yield + 1e-4) - torque(b.yield)) / 1e-4 == doctest::Approx(0.27).epsilon(1e-3));
 }
 
+TEST_CASE("Published law: the angle of a torque is the inverse of the tightening curve") {
+    const PublishedBoundaries b = published_boundaries(p);
+    CHECK(published_angle(p, 59.976) == doctest::Approx(7128.0).epsilon(1e-9));
+    CHECK(published_angle(p, 72.126) == 7218.0);
+    CHECK(published_angle(p, 80.0) == 7218.0);
+    CHECK(published_angle(p, 0.0) == doctest::Approx(b.linearity).epsilon(1e-12));
+    CHECK(published_angle(p, -1.0) == published_angle(p, 0.0));
+    for (double degrees = b.linearity; degrees <= p.theta_max_deg; degrees += 0.37)
+        CHECK(published_angle(p, evaluate_published(p, {}, degrees, on).torque) ==
+              doctest::Approx(degrees).epsilon(1e-9));
+}
+
+TEST_CASE("Published law: each joint of a group has its own parameters") {
+    PublishedParameters stiff = p, weak = p;
+    for (double& rate : stiff.spring_rates_1e6) rate *= 2.0;
+    weak.T_max_Nm = 60.0;
+    weak.theta_max_deg = 3600.0;
+    const GroupParameters group = make_published_group({p, stiff, weak});
+    std::vector<JointState> joints = initial_state(group, 3);
+    const auto torque = [&](std::size_t i, double before_end) {
+        turn_nut(group, joints, i, to_radians(group.published[i].theta_max_deg - before_end), 1.0, 1e-3);
+        return joints[i].torque;
+    };
+    for (std::size_t i = 0; i < 3; ++i)
+        CHECK(torque(i, 91.0) ==
+              doctest::Approx(
+                  published_yield_torque(group.published[i], group.published[i].theta_max_deg - 90.0) -
+                  published_linear_slope(group.published[i])));
+    CHECK(torque(0, 91.0) - torque(1, 91.0) == doctest::Approx(14.354).epsilon(1e-4));
+    CHECK(torque(1, 0.0) == doctest::Approx(72.126));
+    CHECK(torque(2, 0.0) == doctest::Approx(60.0));
+    CHECK(joints[0].published.peak_deg == 0.0);  // turning another nut leaves it alone
+    CHECK(resistance(group, 2, joints[2]).tighten == doctest::Approx(60.0));
+}
+
 TEST_CASE("Published law: the stages follow in order of the angle") {
     const PublishedBoundaries b = published_boundaries(p);
     const PublishedState s;
@@ -126,7 +161,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Published law: the whole curve from the tool's entry point prints the oracle's figures") {
-    const GroupParameters group = make_published_group(p);
+    const GroupParameters group = make_published_group({p});
     CurveOptions options;
     const std::vector<CurveSample> run = torque_angle_curve(group, options);
     REQUIRE(run.size() > 1000);

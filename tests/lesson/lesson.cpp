@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <string_view>
+#include <utility>
 
 #include "content/format/assembly.hpp"
 #include "game/session/export.hpp"
@@ -165,34 +167,175 @@ TEST_CASE("Lesson: events are in order: engage and release alternate, and every 
 }
 
 TEST_CASE("Plan: under the published law an assembly's own targets replace those of its joint types") {
-    const content::Assembly assembly = zq350();
-    REQUIRE(assembly.published_targets);
+    content::Assembly assembly = zq350();
+    assembly.joints[5].published.targets->torque.target = 72.05;  // a joint may differ from the others
     const content::Assembly published = apply_law(assembly, joint::Law::published);
     CHECK(published.law == joint::Law::published);
     for (const content::AssemblyJoint& joint : published.joints) {
-        CHECK(joint.spec.torque.target == 72.1);
-        CHECK(joint.spec.torque.low == assembly.published_targets->torque.low);
-        CHECK(joint.spec.snug_torque == assembly.published_targets->snug_torque);
-        CHECK_FALSE(joint.spec.has_angle);
+        const content::Specification& own = *joint.published.targets;
+        CHECK(joint.spec.torque.target == (joint.design.id == "B6" ? 72.05 : 72.1));
+        CHECK(joint.spec.torque.low == own.torque.low);
+        CHECK(joint.spec.snug_torque == own.snug_torque);
+        REQUIRE(joint.spec.has_angle);
+        CHECK(joint.spec.angle.high == own.angle.high);
+        CHECK(joint.spec.risk == content::RiskClass::B);  // of the joint type
     }
     for (const LessonStep& step : make_plan(published, Task::tighten))
-        if (step.kind == StepKind::tighten) CHECK(step.torque == doctest::Approx(72.1 * step.fraction));
-    const content::Assembly twice = apply_law(published, joint::Law::published);
-    CHECK(twice.joints[0].spec.torque.target == 72.1);
+        if (step.kind == StepKind::tighten && step.joint != 5)
+            CHECK(step.torque == doctest::Approx(72.1 * step.fraction));
     CHECK(apply_law(assembly, joint::Law::mechanistic).joints[0].spec.torque.target == 78.0);
 }
 
-TEST_CASE("Plan: without own targets no target exceeds the published law's end, and no angle is judged") {
-    content::Assembly assembly = zq350();
-    assembly.published_targets.reset();
-    assembly.joints[3].spec.torque = {200.0, 190.0, 210.0};
-    const content::Assembly published = apply_law(assembly, joint::Law::published);
-    for (const content::AssemblyJoint& joint : published.joints) {
-        CHECK(joint.spec.torque.target < 72.126);
-        CHECK(joint.spec.torque.low < joint.spec.torque.target);
-        CHECK_FALSE(joint.spec.has_angle);
+TEST_CASE("Plan: without own targets those of the published law lie in the last third of the yield stage") {
+    for (const double specified : {20.0, 78.0, 200.0}) {
+        content::Assembly assembly = zq350();
+        for (content::AssemblyJoint& joint : assembly.joints) {
+            joint.published.targets.reset();
+            joint.spec.torque = {specified, 0.9 * specified, 1.1 * specified};
+        }
+        for (const content::AssemblyJoint& joint : apply_law(assembly, joint::Law::published).joints) {
+            const content::Specification& spec = joint.spec;
+            const joint::PublishedParameters& law = joint.published.law;
+            CHECK(spec.torque.target == doctest::Approx(72.126 - 0.0015 * square(9.0)).epsilon(1e-9));
+            CHECK(spec.torque.low == doctest::Approx(72.126 - 0.0015 * square(30.0)).epsilon(1e-9));
+            CHECK(spec.torque.high > law.T_max_Nm);
+            CHECK(spec.snug_torque < spec.torque.low);
+            REQUIRE(spec.has_angle);
+            CHECK(spec.angle.low < spec.angle.target);
+            const double end = law.theta_max_deg - joint::published_angle(law, spec.snug_torque);
+            CHECK(to_degrees(spec.angle.high) == doctest::Approx(end + 30.0));
+        }
+        CHECK(apply_law(assembly, joint::Law::mechanistic).joints[3].spec.torque.target == specified);
     }
-    CHECK(apply_law(assembly, joint::Law::mechanistic).joints[3].spec.torque.target == 200.0);
+}
+
+TEST_CASE("Plan: adapting an assembly to the published law twice changes no bit") {
+    const content::LoadedAssembly cover = content::load_assembly("cover-m8");
+    REQUIRE(cover.ok());
+    for (const content::Assembly& given : {zq350(), cover.assembly})
+        for (const content::Tool& tool : given.tools) {
+            content::Assembly assembly = given;
+            REQUIRE(content::choose_tool(assembly, tool.name).has_value());
+            const content::Assembly once = apply_law(assembly, joint::Law::published);
+            const content::Assembly twice = apply_law(once, joint::Law::published);
+            for (std::size_t i = 0; i < once.joints.size(); ++i) {
+                const content::Specification &a = once.joints[i].spec, &b = twice.joints[i].spec;
+                CHECK(a.torque.target == b.torque.target);
+                CHECK(a.torque.low == b.torque.low);
+                CHECK(a.angle.low == b.angle.low);
+                CHECK(a.angle.high == b.angle.high);
+                CHECK(once.joints[i].published.law.theta_max_deg ==
+                      twice.joints[i].published.law.theta_max_deg);
+            }
+        }
+}
+
+TEST_CASE("Plan: under the published law a nut starts on its thread unless the file gives theta_max") {
+    const auto gap = [](const content::Assembly& assembly, std::size_t joint) {
+        return session::make_setup(assembly, joint::Law::published, {}, 1, 1e-3).nuts[joint].start_gap;
+    };
+    content::Assembly assembly = zq350();
+    const content::Assembly adapted = apply_law(assembly, joint::Law::published);
+    for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+        const joint::JointDesign& design = assembly.joints[i].design;
+        CHECK(gap(adapted, i) == doctest::Approx(design.start_gap).epsilon(1e-9));
+        CHECK(gap(adapted, i) < design.bolt_length - design.grip_length());
+    }
+    assembly.joints[0].published.has_theta_max = true;
+    CHECK(gap(apply_law(assembly, joint::Law::published), 0) == doctest::Approx(0.0396).epsilon(0.01));
+    assembly = zq350();
+    assembly.joints[0].design.start_gap = 0.0;  // the transition is still ahead of the nut
+    const joint::PublishedParameters law = apply_law(assembly, joint::Law::published).joints[0].published.law;
+    CHECK(joint::published_boundaries(law).transition > 60.0);
+}
+
+TEST_CASE("Plan: a torque wrench clicks before the end of the published law, whatever its deviation") {
+    content::Assembly assembly = zq350();
+    REQUIRE(content::choose_tool(assembly, "torque_wrench").has_value());
+    for (const bool own : {true, false}) {
+        if (!own)
+            for (content::AssemblyJoint& joint : assembly.joints) joint.published.targets.reset();
+        for (const content::AssemblyJoint& joint : apply_law(assembly, joint::Law::published).joints) {
+            const joint::PublishedParameters& law = joint.published.law;
+            const content::Specification& spec = joint.spec;
+            const double accuracy = assembly.wrench.click_accuracy;
+            CHECK(spec.torque.target * (1.0 + accuracy) < law.T_max_Nm);
+            // Every click is in the yield stage and in both windows.
+            const double least = spec.torque.target * (1.0 - accuracy);
+            CHECK(least > joint::published_yield_torque(law, law.theta_max_deg - law.yield_width_deg));
+            CHECK(spec.torque.low <= least);
+            CHECK(to_degrees(spec.angle.low) <=
+                  joint::published_angle(law, least) - joint::published_angle(law, spec.snug_torque));
+        }
+    }
+}
+
+TEST_CASE("Plan: sessions before format 6 keep their targets under the published law") {
+    content::Assembly assembly = zq350();
+    const auto old = [&] {
+        return apply_law(assembly, joint::Law::published, LawAdaptation::before_format_6).joints[0];
+    };
+    CHECK(old().spec.torque.target == 72.1);
+    CHECK_FALSE(old().spec.has_angle);
+    CHECK(old().published.law.theta_max_deg == 7218.0);
+    assembly.joints[0].published.targets.reset();
+    CHECK(old().spec.torque.target == 0.98 * 72.126);
+    CHECK(old().spec.torque.low == 60.0);
+    CHECK(old().spec.torque.high == 98.0);
+    CHECK(old().spec.strategy == content::Strategy::torque);
+}
+
+TEST_CASE("Lesson: under the published law every trainee tightens every joint into the yield stage") {
+    for (const char* variant : {"carbon_steel", "stainless"}) {
+        const content::LoadedAssembly loaded = content::load_assembly("zq350", variant);
+        REQUIRE(loaded.ok());
+        for (const bool own : {true, false})
+            for (const char* trainee : {"expert", "novice", "clumsy"}) {
+                CAPTURE(variant);
+                CAPTURE(own);
+                CAPTURE(trainee);
+                content::Assembly assembly = loaded.assembly;
+                if (!own)
+                    for (content::AssemblyJoint& joint : assembly.joints) joint.published.targets.reset();
+                const LessonRun run =
+                    play_through(assembly, trainee, 7, Mode::guided, Task::tighten, joint::Law::published);
+                CHECK(run.result.finished);
+                const bool expert = std::string_view(trainee) == "expert";
+                for (std::size_t i = 0; i < run.result.joints.size(); ++i) {
+                    const joint::PublishedParameters& law = assembly.joints[i].published.law;
+                    const double onset = law.T_max_Nm - law.kappa1 * square(law.yield_width_deg);
+                    CHECK(run.state.joints[i].published.peak_deg > 0.0);
+                    CHECK(run.result.joints[i].torque > onset);
+                    CHECK(run.result.joints[i].angle_verdict != Verdict::none);
+                    // The expert feels the end of the curve.
+                    if (expert) CHECK(run.result.joints[i].torque > 0.999 * law.T_max_Nm);
+                    if (expert) CHECK(run.result.joints[i].overall == Verdict::ok);
+                }
+            }
+    }
+}
+
+TEST_CASE("Lesson: turning far beyond the end of the published law is judged too much by its angle") {
+    const content::Assembly assembly = apply_law(zq350(), joint::Law::published);
+    const servo::Setup setup = session::make_setup(assembly, joint::Law::published, {}, 1, 1e-3);
+    servo::State state = servo::initial_state(setup);
+    const auto angle_at = [&](double further) {
+        return to_radians(assembly.joints[0].published.law.theta_max_deg + further);
+    };
+    for (const auto& [further, verdict] : {std::pair{0.0, Verdict::ok}, std::pair{40.0, Verdict::high}}) {
+        world::World world = test::make_world(state);
+        Lesson lesson = begin(assembly, Mode::guided, Task::tighten);
+        JointTrack& track = lesson.joints[0];
+        joint::turn_nut(setup.group, state.joints, 0, angle_at(further), 1.0, 1e-3);
+        track.turned_torque = state.joints[0].torque;
+        track.result.angle =
+            angle_at(further) - to_radians(joint::published_angle(assembly.joints[0].published.law, 20.0));
+        test::observe_tick(lesson, world, state, {});
+        const JointResult result = judge_joint(lesson, 0, world);
+        CHECK(result.torque == doctest::Approx(72.126));
+        CHECK(result.torque_verdict == Verdict::ok);
+        CHECK(result.overall == verdict);
+    }
 }
 
 TEST_CASE("Lesson: a recorded lesson replays from its inputs to the same bits") {

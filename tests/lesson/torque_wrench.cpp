@@ -124,6 +124,16 @@ TEST_CASE("Torque wrench: trainees stop at the click under both laws, and tighte
         CHECK(expert.clicks >= 8);
         CHECK(expert.worst_click <= 1e-9);
     }
+    const content::LoadedAssembly reducer = content::load_assembly("zq350");
+    REQUIRE(reducer.ok());
+    content::Assembly clicking = reducer.assembly;
+    REQUIRE(content::choose_tool(clicking, "torque_wrench").has_value());
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {  // wrenches that read too high and too low
+        const LessonRun expert = play_through(clicking, "expert", seed, joint::Law::published);
+        CHECK(expert.finished);
+        CHECK(expert.in_window == 12);
+        CHECK(expert.clicks >= 36);  // three rounds
+    }
     int with = 0, without = 0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         const LessonRun clicked = play_through(torque, "novice", seed);

@@ -61,7 +61,7 @@ TEST_CASE("Reader: a session of a newer version is refused with both numbers") {
     const Folder folder;
     const auto path = script_session(folder / "a.session", 5);
     run_sql(path, "PRAGMA user_version = 7");
-    CHECK(contains(refusal(path), "newer version: its format is 7; expected a format from 1 to 5"));
+    CHECK(contains(refusal(path), "newer version: its format is 7; expected a format from 1 to 6"));
     run_sql(path, "PRAGMA user_version = 0");
     CHECK(contains(refusal(path), "unknown format 0"));
 }

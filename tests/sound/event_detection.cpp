@@ -214,7 +214,7 @@ TEST_CASE("Event detection: an unloaded nut runs and a loaded one creeps, in bot
 
 TEST_CASE("Event detection: the published law's load is derived from its torque") {
     Script script;
-    script.setup.group = joint::make_published_group({});
+    script.setup.group = joint::make_published_group({{}, {}});
     script.output.joint = 0;
     script.tick();
     script.output.wrench_torque = -0.5 * joint::PublishedParameters{}.T_max_Nm;

@@ -13,6 +13,7 @@
 #include "engine/base/file.hpp"
 #include "engine/base/nearest.hpp"
 #include "engine/base/result.hpp"
+#include "game/lesson/lesson.hpp"
 #include "game/plot/html.hpp"
 #include "game/plot/plot.hpp"
 #include "game/plot/svg.hpp"
@@ -108,25 +109,26 @@ int run_curve(const CurveCommandOptions& options) {
     const content::LoadedAssembly loaded = content::load_assembly(options.assembly, options.variant);
     if (!loaded.ok()) return print_error(loaded.errors);
     const content::Assembly& assembly = loaded.assembly;
-    Result<std::size_t> joint = find_joint(assembly, options.joint);
-    if (!joint) return print_error(joint.error());
+    Result<std::size_t> index = find_joint(assembly, options.joint);
+    if (!index) return print_error(index.error());
 
     const joint::Law law = joint::law_named(options.law).value_or(assembly.law);
-    joint::JointDesign design = assembly.joints[*joint].design;
+    // The targets of a lesson, but the curve of the file: a lesson may start the nut later on its thread.
+    const content::AssemblyJoint target = lesson::apply_law(assembly, law).joints[*index];
+    joint::JointDesign design = target.design;
     design.friction.scatter = 0.0;  // the nominal joint
-    const joint::GroupParameters group = law == joint::Law::mechanistic
-                                             ? joint::make_group({&design, 1}, nullptr, 0)
-                                             : joint::make_published_group(assembly.published);
+    const joint::GroupParameters group =
+        law == joint::Law::mechanistic ? joint::make_group({&design, 1}, nullptr, 0)
+                                       : joint::make_published_group({assembly.joints[*index].published.law});
     joint::CurveOptions curve;
     curve.direction = options.direction == "loosen" ? joint::Direction::loosen : joint::Direction::tighten;
-    curve.torque = assembly.joints[*joint].spec.torque.target;
+    curve.torque = target.spec.torque.target;
 
     const std::vector<joint::CurveSample> run = joint::torque_angle_curve(group, curve);
     if (!options.svg.empty()) {
         const std::string title =
             fmt::format("{} {}, law {}, {}", assembly.name, options.joint, name(law), options.direction);
-        const Status written =
-            write_file(options.svg, curve_svg(assembly.joints[*joint], run, curve.direction, title));
+        const Status written = write_file(options.svg, curve_svg(target, run, curve.direction, title));
         if (!written) return print_error(written.error());
     }
     if (options.csv.empty()) return 0;

@@ -96,7 +96,7 @@ void yielding_tick(benchmark::State& state) {
 BENCHMARK(yielding_tick);
 
 void published_tick(benchmark::State& state) {
-    const GroupParameters group = make_published_group(PublishedParameters{});
+    const GroupParameters group = make_published_group({PublishedParameters{}});
     std::vector<JointState> joints = initial_state(group, 1);
     NutDrive drive;
     drive.engaged = true;
