@@ -68,14 +68,22 @@ std::string similar_code(const fs::path& folder, const std::string& code) {
 
 }  // namespace
 
+std::string trainee_of_file(const fs::path& path) {
+    const std::string file_name = path.filename().string();
+    const std::size_t end = std::min(file_name.find('.'), file_name.size());
+    const std::string_view rest = std::string_view(file_name).substr(end);
+    for (const std::string_view kind : {".settings.json", ".left.glove.json", ".right.glove.json"})
+        if (rest.starts_with(kind)) return trainee_of_file_name(file_name.substr(0, end));
+    return {};
+}
+
 std::vector<fs::path> files_of_trainee(const fs::path& folder, std::string_view trainee) {
     std::vector<fs::path> files;
     if (folder.empty() || trainee.empty()) return files;
-    const std::string prefix = file_name_of(trainee) + ".";
     std::error_code problem;
     for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end;
          entry.increment(problem))
-        if (entry->path().filename().string().starts_with(prefix) &&
+        if (trainee_of_file(entry->path()) == trainee &&
             entry->symlink_status(problem).type() == fs::file_type::regular)
             files.push_back(entry->path());
     std::sort(files.begin(), files.end());

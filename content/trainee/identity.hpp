@@ -36,8 +36,11 @@ IdentifiedPerson identify_person(const PersonFolders& folders, std::string_view 
 // suffix ".older". Returns the errors; such a file is unchanged.
 std::vector<Error> adopt_files(const PersonFolders& folders, const Person& person);
 
-// The regular files in a folder of settings or calibrations whose names begin with the file name of
-// `trainee`, sorted.
+// The trainee of a file of settings or a calibration, by its name: "T-7K3M9Q.settings.json",
+// "T-7K3M9Q.left.glove.json", or such a name with a suffix. Empty for other files.
+std::string trainee_of_file(const std::filesystem::path& path);
+
+// The regular files of a trainee in a folder of settings or calibrations, sorted.
 std::vector<std::filesystem::path> files_of_trainee(const std::filesystem::path& folder,
                                                     std::string_view trainee);
 

@@ -39,6 +39,7 @@ Status App::upload_lesson() {
 // The choice of the menu, or the tour with the same devices.
 LessonChoice App::lesson_choice() const {
     LessonChoice choice = options_.choice;
+    choice.trainee = menu_.trainee.identified.person.code;
     if (options_.menu) choice.assembly = content::assembly_folder(choice.assembly).string();
     return tour_requested_ ? tour_choice(std::move(choice)) : choice;
 }

@@ -224,8 +224,8 @@ TEST_CASE("People: programs that add names at the same time lose none, and agree
         std::ifstream in(folder / ("codes" + std::to_string(program)));
         for (std::string line; std::getline(in, line);) reported.insert(line);
     }
-    for (const Person& person : list_people(folder.path()).value())
-        saved.insert(person.name + " " + person.code);
+    const std::vector<Person> people = list_people(folder.path()).value();
+    for (const Person& person : people) saved.insert(person.name + " " + person.code);
     CHECK(saved.size() == names + programs * names);
     CHECK(saved == reported);
 }
