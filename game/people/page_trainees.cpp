@@ -3,9 +3,13 @@
 #include <array>
 #include <utility>
 
+#include "game/plot/html.hpp"
+
 namespace bolt::people {
 
 namespace {
+
+constexpr std::string_view entry_start = "<meta name=\"boltwright-person\" content=\"", entry_end = "\"/>";
 
 std::string unescaped(std::string_view html) {
     constexpr std::array<std::pair<std::string_view, char>, 6> entities{
@@ -31,6 +35,7 @@ std::vector<std::string> texts_between(std::string_view html, std::string_view b
         const std::size_t end = html.find(after, at);
         if (end == std::string_view::npos) break;
         texts.push_back(unescaped(html.substr(at, end - at)));
+        at = end;
     }
     return texts;
 }
@@ -41,10 +46,17 @@ bool is_simulated(std::string_view trainee) {
 
 }  // namespace
 
+std::string people_list(const std::set<std::string>& people) {
+    std::string out;
+    for (const std::string& person : people)
+        out.append(entry_start).append(plot::escape(person)).append(entry_end).append("\n");
+    return out;
+}
+
 std::optional<std::vector<std::string>> page_trainees(std::string_view html) {
     const std::string_view head = html.substr(0, html.find("</head>"));
     if (head.find("training report</title>") == std::string_view::npos) return std::nullopt;
-    auto trainees = texts_between(head, "<meta name=\"boltwright-person\" content=\"", "\"/>");
+    auto trainees = texts_between(head, entry_start, entry_end);
     if (!trainees.empty()) return trainees;
     trainees = texts_between(html, "<dt>trainee</dt><dd>", "</dd>");
     if (trainees.empty()) return std::nullopt;

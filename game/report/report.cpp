@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/base/math.hpp"
+#include "game/people/page_trainees.hpp"
 #include "game/plot/html.hpp"
 #include "game/report/attempts.hpp"
 #include "game/report/joint_map.hpp"
@@ -379,15 +380,11 @@ struct ReportBuilder {
                           attempts_section(attempts, extent == ReportExtent::overview) + sections,
                           people_of_page());
     }
-    // The list that people::page_trainees reads.
     [[nodiscard]] std::string people_of_page() const {
         std::set<std::string> people;
         for (const Attempt& attempt : attempts)
             if (attempt.trainee_kind == session::TraineeKind::person) people.insert(attempt.person);
-        std::string out;
-        for (const std::string& person : people)
-            put(out, "<meta name=\"boltwright-person\" content=\"{}\"/>\n", plot::escape(person));
-        return out;
+        return people::people_list(people);
     }
 };
 

@@ -155,6 +155,12 @@ TEST_CASE("Pages: the people of a report are read, also from pages of older prog
     CHECK(older("Ada (simulated novice)") == List{});
     CHECK(older("novice (simulated)") == List{});
     CHECK_FALSE(page_trainees(page_of({})));
+    // A text without an end is no fact, and a fact inside another is not counted twice.
+    CHECK(older("a<dt>trainee</dt><dd>b") == List{"a<dt>trainee</dt><dd>b"});
+    const std::set<std::string> people{"", "<b> & 'c' \"d\"", "张伟"};
+    const auto read = page_trainees("<title>a – training report</title>" + people_list(people));
+    REQUIRE(read);
+    CHECK(std::set<std::string>(read->begin(), read->end()) == people);
 }
 
 TEST_CASE("Export: everything about a person is copied, with an index that a program can read") {
