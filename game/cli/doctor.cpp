@@ -80,7 +80,7 @@ std::string station_remarks(const content::StationFile& file, const station_setu
 }
 
 // The person who wears the glove; empty texts if nobody is named.
-Result<content::Person> wearer_of(const TrialOptions& options) {
+Result<content::Person> wearer_of_trial(const TrialOptions& options) {
     if (options.trainee.empty()) return content::Person{};
     std::filesystem::path gloves = options.calibrations;
     if (gloves.empty()) {
@@ -112,7 +112,7 @@ Result<station_setup::StationRequest> request_of(const TrialOptions& options, co
 int try_station(const TrialOptions& options) {
     const content::LoadedAssembly loaded = content::load_assembly(options.assembly);
     if (!loaded.ok()) return print_error(loaded.errors);
-    const Result<content::Person> wearer = wearer_of(options);
+    const Result<content::Person> wearer = wearer_of_trial(options);
     if (!wearer) return print_error(wearer.error());
     Result<station_setup::StationRequest> request = request_of(options, *wearer);
     if (!request) return print_error(request.error());

@@ -35,14 +35,14 @@ void print_problems(const people::Inventory& inventory) {
     for (const Error& error : inventory.unknown_files) (void)print_error(error);
 }
 
-struct Found {
+struct FoundTrainee {
     people::DataFolders folders;
     people::Inventory inventory;
     people::PersonData data;
 };
 
-Result<Found> find(const TraineesArguments& options) {
-    Found found;
+Result<FoundTrainee> find_trainee(const TraineesArguments& options) {
+    FoundTrainee found;
     BOLT_TRY_ASSIGN(found.folders, people::user_folders(options.sessions));
     found.inventory = people::take_inventory(found.folders);
     print_problems(found.inventory);
@@ -58,7 +58,7 @@ std::size_t width_of(std::string_view text) {
     return width;
 }
 
-int list(const TraineesArguments& options) {
+int list_trainees(const TraineesArguments& options) {
     const auto folders = people::user_folders(options.sessions);
     if (!folders) return print_error(folders.error());
     const people::Inventory inventory = people::take_inventory(*folders);
@@ -89,8 +89,8 @@ int list(const TraineesArguments& options) {
     return printed ? 0 : print_error(printed.error());
 }
 
-int show(const TraineesArguments& options) {
-    const auto found = find(options);
+int show_trainee(const TraineesArguments& options) {
+    const auto found = find_trainee(options);
     if (!found) return print_error(found.error());
     std::string text = people::shown(found->data.person) + "\n";
     for (const people::PersonFile& file : found->data.files) {
@@ -106,8 +106,8 @@ int show(const TraineesArguments& options) {
     return printed ? 0 : print_error(printed.error());
 }
 
-int export_data(const TraineesArguments& options) {
-    const auto found = find(options);
+int export_trainee(const TraineesArguments& options) {
+    const auto found = find_trainee(options);
     if (!found) return print_error(found.error());
     const auto made = people::export_person(found->folders, found->data, options.out);
     if (!made) return print_error(made.error());
@@ -130,8 +130,8 @@ Result<bool> confirm(const TraineesArguments& options, const people::PersonData&
     return ask(question, options.yes);
 }
 
-int erase(const TraineesArguments& options) {
-    const auto found = find(options);
+int erase_trainee(const TraineesArguments& options) {
+    const auto found = find_trainee(options);
     if (!found) return print_error(found.error());
     const people::PersonData& data = found->data;
     if (options.name_only && (data.person.code.empty() || data.person.name.empty()))
@@ -203,18 +203,18 @@ void add_trainees(CLI::App& app, int& exit_code) {
                         "Folders to search for sessions; default: out, and the folder of lessons that were "
                         "started from the desktop");
     };
-    add_folders(add("list", "List all people with their codes", list));
+    add_folders(add("list", "List all people with their codes", list_trainees));
 
-    CLI::App* shown = add("show", "List the files of a person", show);
+    CLI::App* shown = add("show", "List the files of a person", show_trainee);
     add_who(shown);
     add_folders(shown);
 
-    CLI::App* exported = add("export", "Copy all files of a person, for the person", export_data);
+    CLI::App* exported = add("export", "Copy all files of a person, for the person", export_trainee);
     add_who(exported);
     exported->add_option("--out", options->out, "New folder for the copies and their index.json")->required();
     add_folders(exported);
 
-    CLI::App* erased = add("erase", "Delete all files of a person, and the name", erase);
+    CLI::App* erased = add("erase", "Delete all files of a person, and the name", erase_trainee);
     add_who(erased);
     add_folders(erased);
     erased->add_flag("--name-only", options->name_only,

@@ -59,7 +59,8 @@ void erase_session(const fs::path& path, const PersonData& data, Erasure& erasur
 
 // Removes the folder of a lesson and folders around it while they are empty, but never `root`.
 void remove_empty_folders(fs::path folder, const fs::path& root, Erasure& erasure) {
-    while (folder != root && folder.has_relative_path() && ::rmdir(folder.c_str()) == 0) {
+    std::error_code problem;
+    while (!fs::equivalent(folder, root, problem) && !problem && ::rmdir(folder.c_str()) == 0) {
         erasure.deleted.push_back(folder);
         folder = folder.parent_path();
     }

@@ -296,6 +296,20 @@ TEST_CASE("Erasure: a link in place of a file is deleted itself, and not what it
     CHECK(session::test::bytes_of(station.folder / "elsewhere") == "kept");
 }
 
+TEST_CASE("Erasure: the given folder stays, however it is written, also if it is empty now") {
+    for (const char* form : {"", "/", "/.", "/lesson/.."}) {
+        CAPTURE(form);
+        Station station;
+        put_session(station.out("lesson/session.boltwright"), station.ada);
+        station.folders.sessions = {station.folder.path().string() + "/out" + form};
+        const Erasure erasure =
+            erase_person(station.folders, people::find(take_inventory(station.folders), "Ada").value());
+        CHECK(erasure.kept.empty());
+        CHECK_FALSE(fs::exists(station.out("lesson")));
+        CHECK(fs::is_directory(station.out("")));
+    }
+}
+
 TEST_CASE("Erasure: files of a person whom only an older program knew are found by name") {
     Station station;
     put_session(station.out("session.boltwright"), "Cy");
