@@ -10,7 +10,7 @@
 namespace bolt::content {
 
 struct GloveCalibration {
-    std::string trainee;  // name
+    std::string trainee;  // the person's code; in files of older programs the typed name
     std::string glove;    // the persistent name of its port, or the owner's name for it; may be empty
     hand::Side hand = hand::Side::right;
     std::size_t sensors = 18;    // 18 or 22

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdlib>
 #include <set>
 
 #include "content/format/json_members.hpp"
+#include "content/trainee/people.hpp"
 #include "engine/base/file.hpp"
 
 namespace bolt::content {
@@ -13,12 +15,29 @@ namespace bolt::content {
 namespace fs = std::filesystem;
 
 std::string file_name_of(std::string_view trainee) {
+    if (is_person_code(trainee)) return std::string(trainee);  // has capitals, so it is no encoded name
     std::string name;
     for (const char c : trainee) {
         const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
         name += plain ? std::string(1, c) : fmt::format("_{:02x}", static_cast<unsigned char>(c));
     }
     return name;
+}
+
+std::string trainee_of_file_name(std::string_view file_name) {
+    if (is_person_code(file_name)) return std::string(file_name);
+    std::string name;
+    for (std::size_t i = 0; i < file_name.size(); ++i) {
+        unsigned byte = 0;
+        const char* digits = file_name.data() + i + 1;
+        if (file_name[i] != '_')
+            name += file_name[i];
+        else if (i + 2 < file_name.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2)
+            name += static_cast<char>(byte), i += 2;
+        else
+            return {};
+    }
+    return file_name_of(name) == file_name ? name : std::string();
 }
 
 namespace {

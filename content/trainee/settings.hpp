@@ -1,4 +1,4 @@
-// A trainee's settings, stored as a JSON file.
+// A trainee's settings, stored as a JSON file. `trainee` is the person's code (people.hpp).
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,20 @@
 
 namespace bolt::content {
 
-// A file name for a trainee's name: unique for each name, with characters that every file system accepts.
+// A file name for a trainee: the code itself. For a name, as files of older programs have it: unique for each
+// name, with characters that every file system accepts.
 std::string file_name_of(std::string_view trainee);
+// The inverse; empty if no trainee has this file name.
+std::string trainee_of_file_name(std::string_view file_name);
 
 // Limits of the files of a trainee.
 inline constexpr std::size_t max_trainee_file_size = 1U << 16U;  // bytes
-inline constexpr std::size_t max_trainee_name_size = 64;         // bytes; the name becomes a file name
+inline constexpr std::size_t max_trainee_name_size = 64;         // bytes
 
 // The settings file:
 //
-//   {"format": "boltwright settings 1", "trainee": "Ada", "language": "de", "volume": 0.8, "vibration": 0.5,
+//   {"format": "boltwright settings 1", "trainee": "T-7K3M9Q", "language": "de", "volume": 0.8, "vibration":
+//   0.5,
 //    "captions": true, "palette": "distinct", "left_handed": false, "force_scale": 0.5,
 //    "seated_height_m": 1.2, "force_arrow": false, "surroundings": true, "vignette": false,
 //    "law": "published",
@@ -38,7 +42,7 @@ inline constexpr double min_seated_eye_height = 0.9,
                         max_seated_eye_height = 1.5;  // m, of the eyes above the floor
 
 struct TraineeSettings {
-    std::string trainee;
+    std::string trainee;     // the person's code; in files of older programs the typed name
     std::string language;    // ISO 639; empty: the desktop's
     double volume = 1.0;     // 0 … 1
     double vibration = 1.0;  // 0 … 1, of hand controllers (servo::VibrationOptions::gain)

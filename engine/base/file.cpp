@@ -1,11 +1,13 @@
 #include "engine/base/file.hpp"
 
+#include <fcntl.h>
 #include <sys/stat.h>
-#include <cstdlib>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <system_error>
@@ -68,6 +70,49 @@ Status write_file(const std::filesystem::path& path, std::string_view text) {
     if (!status) return {};
     (void)std::remove(part.c_str());
     return file_error(path, ErrorCode::failed, "cannot be written: " + status.message());
+}
+
+namespace {
+
+// Writes the text to an open file and waits until it is on the disk. Returns the errno of a failure, else 0.
+int write_to_disk(int file, std::string_view text) {
+    while (!text.empty()) {
+        const ::ssize_t written = ::write(file, text.data(), text.size());
+        if (written < 0 && errno != EINTR) return errno;
+        if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return ::fsync(file) == 0 ? 0 : errno;
+}
+
+// Makes a rename in the folder permanent. File systems without this operation are ignored.
+void sync_folder(const std::filesystem::path& folder) {
+    const int handle = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (handle < 0) return;
+    (void)::fsync(handle);
+    (void)::close(handle);
+}
+
+}  // namespace
+
+Status write_private_file(const std::filesystem::path& path, std::string_view text) {
+    const auto failed = [&](int reason) {
+        return file_error(path, ErrorCode::failed,
+                          std::string("cannot be written: ") + std::strerror(reason));
+    };
+    std::filesystem::path part = path;
+    part += ".part";
+    (void)::unlink(part.c_str());  // one that a killed program left may have other permissions
+    const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (file < 0) return failed(errno);
+    int reason = write_to_disk(file, text);
+    if (::close(file) != 0 && reason == 0) reason = errno;
+    if (reason == 0 && ::rename(part.c_str(), path.c_str()) != 0) reason = errno;
+    if (reason != 0) {
+        (void)::unlink(part.c_str());
+        return failed(reason);
+    }
+    sync_folder(path.parent_path());
+    return {};
 }
 
 Status require_different_files(const std::filesystem::path& input, const std::filesystem::path& output) {

@@ -22,6 +22,10 @@ Result<std::string> read_file(const std::filesystem::path& path, std::size_t lim
 // text is written to it directly.
 Status write_file(const std::filesystem::path& path, std::string_view text);
 
+// As write_file, for personal data: only the user may read the file, and it is on the disk when this returns.
+// `path` must not be a device or a pipe.
+Status write_private_file(const std::filesystem::path& path, std::string_view text);
+
 // Fails if both paths name the same file, because writing the output would destroy the input.
 Status require_different_files(const std::filesystem::path& input, const std::filesystem::path& output);
 

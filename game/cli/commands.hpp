@@ -1,11 +1,14 @@
 // The subcommands of boltwright, and what they share.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "content/trainee/people.hpp"
 #include "engine/base/result.hpp"
 #include "haptics/device/connected_devices.hpp"
 #include "haptics/device/device_thread.hpp"
@@ -34,6 +37,15 @@ void add_devices(CLI::App& app, int& exit_code);
 void add_station(CLI::App& app, int& exit_code);
 void add_displays(CLI::App& app, int& exit_code);
 void add_study(CLI::App& app, int& exit_code);
+void add_trainees(CLI::App& app, int& exit_code);
+
+// What happens to a name that is not known yet: it gets a code, or not.
+enum class NewPerson : std::uint8_t { unchanged, added };
+// The person that --trainee names, for commands that use calibrations of gloves in the folder `gloves`: those
+// of older programs get the code. An unknown name stays without a code if it is not added. Prints what the
+// user should know to stderr. Fails if a name cannot be added.
+Result<content::Person> person_argument(const std::string& typed, const std::filesystem::path& gloves,
+                                        NewPerson new_person);
 
 // Adds the subcommand `register` to `station`.
 void add_station_register(CLI::App& station, int& exit_code);

@@ -79,13 +79,23 @@ std::string station_remarks(const content::StationFile& file, const station_setu
     return text.empty() ? text : "Station file:\n" + text;
 }
 
+// The person who wears the glove; empty texts if nobody is named.
+Result<content::Person> wearer_of_trial(const TrialOptions& options) {
+    if (options.trainee.empty()) return content::Person{};
+    std::filesystem::path gloves = options.calibrations;
+    if (gloves.empty()) {
+        BOLT_TRY_ASSIGN(gloves, station_setup::calibrations_folder());
+    }
+    return person_argument(options.trainee, gloves, NewPerson::unchanged);
+}
+
 // The request that the options describe. An option has precedence over the station file.
-Result<station_setup::StationRequest> request_of(const TrialOptions& options) {
+Result<station_setup::StationRequest> request_of(const TrialOptions& options, const content::Person& wearer) {
     station_setup::StationRequest request;
     request.devices = options.devices;
     request.wheel_config_file = options.wheel_config_file;
     request.glove = options.glove;
-    request.trainee = options.trainee;
+    request.trainee = wearer.code.empty() ? wearer.name : wearer.code;
     request.calibrations = options.calibrations;
     request.tightened = true;
     request.arm_dialog = terminal_dialog(options.yes);
@@ -102,7 +112,9 @@ Result<station_setup::StationRequest> request_of(const TrialOptions& options) {
 int try_station(const TrialOptions& options) {
     const content::LoadedAssembly loaded = content::load_assembly(options.assembly);
     if (!loaded.ok()) return print_error(loaded.errors);
-    Result<station_setup::StationRequest> request = request_of(options);
+    const Result<content::Person> wearer = wearer_of_trial(options);
+    if (!wearer) return print_error(wearer.error());
+    Result<station_setup::StationRequest> request = request_of(options, *wearer);
     if (!request) return print_error(request.error());
     const Status examined = check_devices(*request, std::min(options.seconds, 1.0), options.yes);
     if (!examined) return print_error(examined.error());
@@ -111,6 +123,8 @@ int try_station(const TrialOptions& options) {
 
     Result<station_setup::PlannedStation> planned = station_setup::plan_station(loaded.assembly, *request);
     if (!planned) return print_error(planned.error());
+    if (planned->calibration && !wearer->code.empty())
+        planned->calibration->trainee = content::name_and_code(*wearer);  // for the report
     if (!planned->devices.mover) planned->options.mover_buttons = {0, 0, 0, 0};
     Result<station::Station> station = station::Station::start(std::move(planned->options));
     if (!station) return print_error(station.error());

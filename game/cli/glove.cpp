@@ -81,17 +81,24 @@ Result<GloveReader> open(GloveArguments& options) {
                 report.open ? "a glove that is switched on and connected to its box" : "");
 }
 
+// The person who wears the glove. A new name gets a code.
+Result<content::Person> wearer_of(const GloveArguments& options) {
+    BOLT_TRY_ASSIGN(const auto folder, calibration_folder(options));
+    return person_argument(options.trainee, folder, NewPerson::added);
+}
+
 // Completes and saves the calibration. Returns a message with its path.
-Result<std::string> save(const GloveArguments& options, content::GloveCalibration calibration) {
-    calibration.trainee = options.trainee;
+Result<std::string> save(const GloveArguments& options, const content::Person& person,
+                         content::GloveCalibration calibration) {
+    BOLT_TRY_ASSIGN(const auto folder, calibration_folder(options));
+    calibration.trainee = person.code;
     calibration.date = today();
     calibration.hand_length = 1e-3 * options.hand_length_mm;
-    BOLT_TRY_ASSIGN(const auto folder, calibration_folder(options));
     std::error_code failed;
     fs::create_directories(folder, failed);  // writing the file reports a failure
-    const fs::path path = content::glove_calibration_path(folder, options.trainee, calibration.hand);
+    const fs::path path = content::glove_calibration_path(folder, person.code, calibration.hand);
     BOLT_TRY(content::save_glove_calibration(path, calibration));
-    return "Saved to " + path.string() + "\n";
+    return fmt::format("Saved to {} for {}\n", path.string(), content::name_and_code(person));
 }
 
 // Prompts for the postures until the calibration is done or has failed.
@@ -127,6 +134,7 @@ Status calibrate(GloveArguments options) {
                               identity.side == hand::Side::left ? "left" : "right", identity.sensors));
         !printed)
         return printed;
+    BOLT_TRY_ASSIGN(const auto person, wearer_of(options));  // before the work
     BOLT_TRY_ASSIGN(const auto made, record_postures(reader));
     std::string text = fmt::format("Quality {:.2f} (best: 1)\n", made.score);
     for (const std::string& remark : made.remarks) text += "  " + remark + "\n";
@@ -134,23 +142,25 @@ Status calibrate(GloveArguments options) {
     if (made.score == 0.0)
         return fail(ErrorCode::failed, "a sensor is unusable, so no calibration is saved",
                     "a new calibration");
-    const Result<std::string> saved = save(
-        options, {{}, options.port, identity.side, identity.sensors, {}, made.score, 0.0, made.calibration});
+    const Result<std::string> saved =
+        save(options, person,
+             {{}, options.port, identity.side, identity.sensors, {}, made.score, 0.0, made.calibration});
     return saved ? print(*saved) : fail(saved.error());
 }
 
 Status import_calibration(const GloveArguments& options) {
     BOLT_TRY_ASSIGN(const auto text, read_file(options.file, std::size_t{1} << 20U, ErrorCode::bad_content));
     BOLT_TRY_ASSIGN(const auto calibration, hand::parse_cal(text, options.file));
-    const Result<std::string> saved =
-        save(options, {{},
-                       {},
-                       options.hand == "left" ? hand::Side::left : hand::Side::right,
-                       options.sensors,
-                       {},
-                       0.0,
-                       0.0,
-                       calibration});
+    BOLT_TRY_ASSIGN(const auto person, wearer_of(options));
+    const Result<std::string> saved = save(options, person,
+                                           {{},
+                                            {},
+                                            options.hand == "left" ? hand::Side::left : hand::Side::right,
+                                            options.sensors,
+                                            {},
+                                            0.0,
+                                            0.0,
+                                            calibration});
     return saved ? print(*saved) : fail(saved.error());
 }
 
@@ -205,7 +215,7 @@ void add_glove(CLI::App& app, int& exit_code) {
         });
     };
     const auto add_wearer = [&](CLI::App* sub) {
-        sub->add_option("--trainee", options->trainee, "Name of the trainee")->required();
+        sub->add_option("--trainee", options->trainee, "Name or code of the trainee")->required();
         sub->add_option("--hand-length-mm", options->hand_length_mm,
                         "From the crease of the wrist to the tip of the middle finger")
             ->check(CLI::Range(100.0, 300.0))

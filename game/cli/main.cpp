@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
     bolt::cli::add_station(app, exit_code);
     bolt::cli::add_displays(app, exit_code);
     bolt::cli::add_study(app, exit_code);
+    bolt::cli::add_trainees(app, exit_code);
     app.callback([&] {
         if (!app.get_subcommands().empty()) return;
         const bolt::Status done = bolt::cli::train_from_desktop();

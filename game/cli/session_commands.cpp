@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "content/trainee/people.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
 #include "game/analysis/comparison.hpp"
@@ -20,7 +21,20 @@ namespace bolt::cli {
 
 namespace {
 
-int run_report(const std::vector<std::string>& files, const std::string& html, bool overview) {
+// The names of the people of this computer. If they cannot be read, sessions show what they recorded.
+report::TraineeNames trainee_names(bool show) {
+    report::TraineeNames names;
+    names.show = show;
+    const auto folder = content::people_folder();
+    if (!folder) return names;
+    if (auto people = content::list_people(*folder))
+        names.people = std::move(*people);
+    else
+        (void)print_error(people.error());
+    return names;
+}
+
+int run_report(const std::vector<std::string>& files, const std::string& html, bool overview, bool names) {
     std::vector<session::SessionReader> readers;
     for (const std::string& file : files) {
         if (Status different = require_different_files(file, html); !different)
@@ -38,7 +52,8 @@ int run_report(const std::vector<std::string>& files, const std::string& html, b
     sessions.reserve(readers.size());
     for (const session::SessionReader& reader : readers) sessions.push_back(&reader);
     Result<std::string> page = report::make_report(
-        sessions, overview ? report::ReportExtent::overview : report::ReportExtent::everything);
+        sessions, overview ? report::ReportExtent::overview : report::ReportExtent::everything,
+        trainee_names(names));
     if (!page) return print_error(page.error());
     if (Status written = write_file(html, *page); !written) return print_error(written.error());
     const Status printed = print(html + "\n");
@@ -81,7 +96,7 @@ void add_report(CLI::App& app, int& exit_code) {
     struct ReportOptions {
         std::vector<std::string> sessions;
         std::string html;
-        bool overview = false;
+        bool overview = false, names = false;
     };
     auto options = std::make_shared<ReportOptions>();
     CLI::App* report =
@@ -89,8 +104,11 @@ void add_report(CLI::App& app, int& exit_code) {
     report->add_option("session", options->sessions, "Session files, oldest first")->required();
     report->add_option("--html", options->html, "HTML page to write")->required();
     report->add_flag("--overview", options->overview, "Write only the comparison of several sessions");
+    report->add_flag("--names", options->names,
+                     "Show the names of this computer's trainees beside their codes; without it the page can "
+                     "be passed on");
     report->callback([options, &exit_code] {
-        exit_code = run_report(options->sessions, options->html, options->overview);
+        exit_code = run_report(options->sessions, options->html, options->overview, options->names);
     });
 }
 

@@ -28,16 +28,18 @@ Result<study::Participation> find_participation(const content::Study& study,
     if (!options.participant.empty())
         return study::Participation::resume(study, options.folder, options.participant,
                                             options.accept_change);
-    const std::string& person = options.window.trainee;
-    if (person.empty())
+    if (options.window.trainee.empty())
         return fail(ErrorCode::usage, "nobody takes part",
                     "--trainee NAME for a person, or --participant P03 for one who has begun");
+    BOLT_TRY_ASSIGN(const auto data, user_data_folder());
+    BOLT_TRY_ASSIGN(const auto person,
+                    person_argument(options.window.trainee, data / "gloves", NewPerson::added));
     BOLT_TRY_ASSIGN(const auto states, study::list_participants(study, options.folder));
     for (const study::ParticipantState& state : states)
-        if (!state.withdrawn && state.progress.person == person)
+        if (!state.withdrawn && state.progress.person == person.code)
             return study::Participation::resume(study, options.folder, state.participant,
                                                 options.accept_change);
-    return study::Participation::enrol(study, options.folder, person, false);
+    return study::Participation::enrol(study, options.folder, person.code, false);
 }
 
 // The page for the experimenter. A page that cannot be written must not stop the participant.

@@ -187,7 +187,11 @@ Status run_window(WindowRequest request, const Surroundings& surroundings, platf
     app_options.first_start = options.first_start;
     app_options.settings_file = options.settings;
     // Without a home folder no settings are kept.
-    if (const auto data = user_data_folder()) app_options.settings_folder = *data / "settings";
+    if (const auto data = user_data_folder()) {
+        app_options.settings_folder = *data / "settings";
+        app_options.people_folder = *data / "people";
+        app_options.gloves_folder = *data / "gloves";
+    }
     app_options.on_start = remove_stale_files;
     app_options.on_end = [](const content::Assembly& assembly, const session::LessonOptions& lesson,
                             const session::LessonOutcome& outcome, const std::filesystem::path& folder) {

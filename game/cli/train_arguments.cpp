@@ -104,8 +104,8 @@ void add_window_options(CLI::App& train, TrainArguments& options) {
     train.add_option("--size", options.size, "WIDTHxHEIGHT of the window")->capture_default_str();
     train.add_flag("--full-screen", options.full_screen, "Use the full screen");
     train.add_option("--trainee", options.trainee,
-                     "Name of the trainee; recorded in the session and selects the settings: keys, hand, "
-                     "captions, colours");
+                     "Name or code of the trainee. The code is recorded in the session and selects the "
+                     "settings: keys, hand, captions, colours");
     train.add_option("--settings", options.settings,
                      "Settings file to use instead of the trainee's; created if it does not exist");
     train.add_option(

@@ -191,12 +191,12 @@ h2,h3{break-after:avoid}.trainee{break-inside:avoid}section.session{break-before
 )css";
 }
 
-std::string page(std::string_view title, std::string_view body) {
+std::string page(std::string_view title, std::string_view body, std::string_view head) {
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-        "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-        escape(title), style_sheet(), body);
+        "<title>{}</title>\n{}<style>{}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
+        escape(title), head, style_sheet(), body);
 }
 
 std::string figure(std::string_view heading, std::string_view svg, std::string_view caption) {

@@ -31,8 +31,9 @@ std::string duration_text(double seconds);
 // The style sheet of all pages and drawings, for light and dark screens and for paper.
 std::string_view style_sheet();
 
-// A complete document without external resources or scripts. `body`: HTML.
-std::string page(std::string_view title, std::string_view body);
+// A complete document without external resources or scripts. `body`: HTML. `head`: HTML of further elements
+// of the head.
+std::string page(std::string_view title, std::string_view body, std::string_view head = {});
 
 // A drawing with heading and caption; both are HTML and may be empty.
 std::string figure(std::string_view heading, std::string_view svg, std::string_view caption);

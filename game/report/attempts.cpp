@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "game/analysis/session_data.hpp"
+#include "game/people/inventory.hpp"
 #include "game/plot/html.hpp"
 #include "game/plot/strips.hpp"
 #include "game/report/report.hpp"
@@ -82,11 +83,14 @@ std::vector<std::vector<std::size_t>> attempt_groups(std::span<const Attempt> at
     return groups;
 }
 
-std::string trainee_text(const session::Header& header) {
+std::string trainee_text(const session::Header& header, const TraineeNames& names) {
     const std::string name = session::trainee_name(header);
     switch (session::trainee_kind(header)) {
-        case session::TraineeKind::person:
-            return name.empty() ? std::string(unnamed_person) : name;
+        case session::TraineeKind::person: {
+            const content::Person person = people::person_of(header, names.people);
+            if (person == content::Person{}) return std::string(unnamed_person);
+            return names.show || person.code.empty() ? people::shown(person) : person.code;
+        }
         case session::TraineeKind::simulated:
             return name.empty() ? header.trainee_profile + " (simulated)"
                                 : fmt::format("{} (simulated {})", name, header.trainee_profile);
@@ -96,10 +100,12 @@ std::string trainee_text(const session::Header& header) {
     return name + " (person or simulated: not recorded)";
 }
 
-Attempt attempt_of(const analysis::SessionData& session) {
+Attempt attempt_of(const analysis::SessionData& session, const TraineeNames& names) {
     Attempt a;
     a.title = analysis::title_of(session.assembly);
-    a.trainee = trainee_text(session.header);
+    a.trainee = trainee_text(session.header, names);
+    const content::Person person = people::person_of(session.header, names.people);
+    a.person = person.code.empty() ? person.name : person.code;
     a.trainee_kind = session::trainee_kind(session.header);
     a.assembly = session.header.assembly;
     a.task = lesson::name(session.header.task);

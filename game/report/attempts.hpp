@@ -6,15 +6,23 @@
 #include <string>
 #include <vector>
 
+#include "content/trainee/people.hpp"
 #include "game/analysis/session_data.hpp"
 
 namespace bolt::report {
+
+// The people that a page may name.
+struct TraineeNames {
+    std::vector<content::Person> people;  // names.json; sessions under a typed name belong to its code
+    bool show = false;                    // false: the page has codes only, so that it can be passed on
+};
 
 // The values of a session that the overview needs, so that the session itself can be released.
 struct Attempt {
     std::string assembly, title, task, variant, law, mode;
     std::string trainee;  // result of trainee_text; identifies the trainee together with trainee_kind
     session::TraineeKind trainee_kind = session::TraineeKind::unrecorded;
+    std::string person;  // code, or the typed name of an older program; empty: no person, or unknown
     std::uint64_t seed = 0;
     bool complete = true, finished = false;
     double score = 0.0;
@@ -31,11 +39,12 @@ struct Attempt {
     double greatest_change = 0.0, p99_change = 0.0;
 };
 
-// "Ada", "novice (simulated)", "Ada (simulated novice)" or "person without a name". For a session that does
-// not record who held the tool: "novice (person or simulated: not recorded)".
-std::string trainee_text(const session::Header& header);
+// "T-7K3M9Q", "novice (simulated)", "Ada (simulated novice)" or "person without a name"; with names "Ada
+// (T-7K3M9Q)". A typed name of an older program stands for its code, if that is known. For a session that
+// does not record who held the tool: "novice (person or simulated: not recorded)".
+std::string trainee_text(const session::Header& header, const TraineeNames& names = {});
 
-Attempt attempt_of(const analysis::SessionData& session);
+Attempt attempt_of(const analysis::SessionData& session, const TraineeNames& names = {});
 
 // Groups attempts with the same assembly, title, task, variant and law. The indices of a group are ascending;
 // the groups are in the order of their first attempts.

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/base/math.hpp"
+#include "game/people/page_trainees.hpp"
 #include "game/plot/html.hpp"
 #include "game/report/attempts.hpp"
 #include "game/report/joint_map.hpp"
@@ -20,7 +21,8 @@ namespace {
 
 using plot::put;
 
-void put_heading(std::string& out, const analysis::SessionData& s, std::size_t index) {
+void put_heading(std::string& out, const analysis::SessionData& s, std::size_t index,
+                 const TraineeNames& names) {
     const analysis::Summary summary = analysis::summarise(s);
     put(out, "<div class=\"head\"><div><p class=\"over\">{}</p>\n<h1>{}</h1></div>\n",
         index == 0 ? "Boltwright training report" : fmt::format("Attempt {}", index),
@@ -41,7 +43,7 @@ void put_heading(std::string& out, const analysis::SessionData& s, std::size_t i
             "were never "
             "done.</div>\n");
     out += "<dl class=\"facts\">\n";
-    out += plot::fact("trainee", trainee_text(s.header));
+    out += plot::fact("trainee", trainee_text(s.header, names));
     if (s.header.hand == hand::Side::left) out += plot::fact("hand", "left");
     out += plot::fact("task", lesson::name(s.header.task));
     out += plot::fact("mode", lesson::name(s.header.mode));
@@ -341,10 +343,11 @@ std::string bolt_text(const content::AssemblyJoint& joint) {
                        plot::number(1e3 * d.bolt_length, 0), d.bolt_class.name);
 }
 
-std::string session_section(const analysis::SessionData& session, std::size_t number) {
+std::string session_section(const analysis::SessionData& session, std::size_t number,
+                            const TraineeNames& names) {
     std::string out = fmt::format("<section class=\"session{}\" id=\"session-{}\">\n",
                                   number == 0 ? " alone" : "", std::max<std::size_t>(1, number));
-    put_heading(out, session, number);
+    put_heading(out, session, number, names);
     put_score(out, session);
     put_joints(out, session);
     put_order(out, session);
@@ -359,30 +362,39 @@ namespace {
 
 // Collects the parts of a page.
 struct ReportBuilder {
-    std::vector<Attempt> attempts;
-    std::string sections;
+    const TraineeNames& names;
+    std::vector<Attempt> attempts{};
+    std::string sections{};
 
     void add(const analysis::SessionData& session, bool alone,
              ReportExtent extent = ReportExtent::everything) {
-        attempts.push_back(attempt_of(session));
+        attempts.push_back(attempt_of(session, names));
         if (alone || extent == ReportExtent::everything)
-            sections += session_section(session, alone ? 0 : attempts.size());
+            sections += session_section(session, alone ? 0 : attempts.size(), names);
     }
 
     [[nodiscard]] std::string finish(ReportExtent extent = ReportExtent::everything) const {
-        if (attempts.size() == 1) return plot::page(attempts.front().title + " – training report", sections);
+        if (attempts.size() == 1)
+            return plot::page(attempts.front().title + " – training report", sections, people_of_page());
         return plot::page(fmt::format("{} attempts – training report", attempts.size()),
-                          attempts_section(attempts, extent == ReportExtent::overview) + sections);
+                          attempts_section(attempts, extent == ReportExtent::overview) + sections,
+                          people_of_page());
+    }
+    [[nodiscard]] std::string people_of_page() const {
+        std::set<std::string> people;
+        for (const Attempt& attempt : attempts)
+            if (attempt.trainee_kind == session::TraineeKind::person) people.insert(attempt.person);
+        return people::people_list(people);
     }
 };
 
 }  // namespace
 
-Result<std::string> make_report(std::span<const session::SessionReader* const> sessions,
-                                ReportExtent extent) {
+Result<std::string> make_report(std::span<const session::SessionReader* const> sessions, ReportExtent extent,
+                                const TraineeNames& names) {
     if (sessions.empty())
         return fail(ErrorCode::usage, "no session was given to report", "one or more session files");
-    ReportBuilder builder;
+    ReportBuilder builder{names};
     for (const session::SessionReader* session : sessions) {
         BOLT_TRY_ASSIGN(const auto data, analysis::read_session(*session));
         builder.add(data, sessions.size() == 1, extent);
@@ -390,8 +402,8 @@ Result<std::string> make_report(std::span<const session::SessionReader* const> s
     return builder.finish(extent);
 }
 
-std::string make_report(std::span<const analysis::SessionData> sessions) {
-    ReportBuilder builder;
+std::string make_report(std::span<const analysis::SessionData> sessions, const TraineeNames& names) {
+    ReportBuilder builder{names};
     for (const analysis::SessionData& session : sessions) builder.add(session, sessions.size() == 1);
     return builder.finish();
 }

@@ -10,6 +10,7 @@
 #include "engine/base/result.hpp"
 #include "game/analysis/comparison.hpp"
 #include "game/analysis/session_data.hpp"
+#include "game/report/attempts.hpp"
 #include "game/session/session_file.hpp"
 
 namespace bolt::report {
@@ -22,7 +23,8 @@ std::string bolt_text(const content::AssemblyJoint& joint);
 std::string verdict_mark(const lesson::JointResult& result);
 
 // HTML of one session. `number` counts from 1 and is part of the anchor's name; 0: the only session.
-std::string session_section(const analysis::SessionData& session, std::size_t number);
+std::string session_section(const analysis::SessionData& session, std::size_t number,
+                            const TraineeNames& names = {});
 
 // HTML: the haptic metrics of a session: evenness of the force, contacts with obstacles, times to reach the
 // nuts, and timing of the servo. Empty if the session has neither forces nor arrivals.
@@ -31,13 +33,15 @@ std::string haptics_section(const analysis::SessionData& session);
 // `overview` omits the sections of the single sessions if there are several sessions.
 enum class ReportExtent : std::uint8_t { everything, overview };
 
-// Returns the page, a single file without external resources. Fails without sessions, or if one cannot be
-// read. Holds the curves of one session at a time.
+// Returns the page, a single file without external resources. Its head lists the people on it
+// (people::page_trainees). Fails without sessions, or if one cannot be read. Holds the curves of one session
+// at a time.
 Result<std::string> make_report(std::span<const session::SessionReader* const> sessions,
-                                ReportExtent extent = ReportExtent::everything);
+                                ReportExtent extent = ReportExtent::everything,
+                                const TraineeNames& names = {});
 
 // As above, for data that is already read.
-std::string make_report(std::span<const analysis::SessionData> sessions);
+std::string make_report(std::span<const analysis::SessionData> sessions, const TraineeNames& names = {});
 
 // A session beside a measured joint (comparison.cpp).
 

@@ -56,8 +56,8 @@ struct Header {
     std::string tool;                // name in the assembly; empty before format 4: the assembly's first tool
     std::optional<hand::Side> hand;  // the working hand; none if unknown
 
-    // The name given with --trainee, which may be empty. None in sessions of older programs, which stored a
-    // person's typed name in `trainee_profile`.
+    // A person's code (content/trainee/people.hpp), or the text of --trainee for a simulated trainee; may be
+    // empty. Older programs stored a person's typed name here, and still older ones in `trainee_profile`.
     std::optional<std::string> trainee;
 };
 
@@ -73,7 +73,8 @@ std::string servo_text(double rate);
 //   none of these                     unrecorded
 TraineeKind trainee_kind(const Header& header);
 
-// The trainee's name; empty if none is recorded. A simulated trainee has one only if --trainee gave it.
+// The person's code, in sessions of older programs the typed name; empty if neither is recorded. A simulated
+// trainee has the text of --trainee.
 std::string trainee_name(const Header& header);
 
 // Keys of table meta.

@@ -46,7 +46,7 @@ struct LessonOptions {
     Obstacles obstacles = Obstacles::none;
     bool guide = true;               // in guided mode a force guides the hand to the nut
     std::string trainee_profile;     // "person", or the simulated trainee's profile: "expert", …
-    std::string trainee;             // the name given with --trainee; may be empty
+    std::string trainee;             // as session::Header::trainee
     std::optional<hand::Side> hand;  // the working hand; none: unknown
 
     std::optional<bool> view_help;      // only of a simulated trainee

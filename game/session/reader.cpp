@@ -153,6 +153,13 @@ Result<OpenedFile> open_session(const std::filesystem::path& path, const std::st
 
 }  // namespace
 
+Result<Header> read_header(const std::filesystem::path& path) {
+    const std::string file = path.string();
+    BOLT_TRY_ASSIGN(auto session, open_session(path, file));
+    BOLT_TRY_ASSIGN(const auto meta, read_meta(session.database, file));
+    return header_of(meta, file);
+}
+
 struct SessionReader::State {
     Database database;
     std::int64_t format = 0;

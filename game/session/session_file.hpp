@@ -64,6 +64,10 @@ class SessionWriter {
     std::unique_ptr<State> state_;
 };
 
+// Reads only the header, without the names of obstacles: quick, and possible also if ticks or results are
+// damaged.
+Result<Header> read_header(const std::filesystem::path& path);
+
 class SessionReader {
   public:
     // Opens a complete or cut-short session; fails if the file is not a session.

@@ -57,8 +57,7 @@ App::App(AppOptions options, std::optional<StudyRun> study) : options_(std::move
     preferences_.folder = options_.settings_folder;
     preferences_.file = options_.settings_file;
     preferences_.known = settings_vocabulary(words::languages(words::words_folder()));
-    load_preferences(preferences_, options_.choice.trainee);
-    if (preferences_.file_error != Preferences::FileError::none) log(preferences_.file_error_message);
+    load_trainee();
     if (options_.choice.language.empty()) options_.choice.language = preferences_.settings.language;
 }
 
@@ -118,12 +117,31 @@ Status App::select_language(const std::string& code) {
     return {};
 }
 
+// Identifies the person of the text, shows the person's name instead of a code, and loads the settings.
+void App::load_trainee() {
+    std::string& text = options_.choice.trainee;
+    content::IdentifiedPerson identified = content::identify_person(
+        {options_.people_folder, options_.settings_folder, options_.gloves_folder}, text);
+    const content::Person& person = identified.person;
+    if (identified.names_error) log(identified.names_error->message());
+    if (!identified.similar_code.empty())
+        log(fmt::format("{} is new here; did you mean {}?", person.code, identified.similar_code));
+    for (const Error& error : identified.unadopted_files) log(error.message());
+    load_preferences(preferences_, person.code);
+    preferences_.shown = person.name;
+    if (preferences_.file_error != Preferences::FileError::none) log(preferences_.file_error_message);
+    if (!person.name.empty())
+        text = person.name;
+    else if (person.code.empty() || content::typed_person_code(text))
+        text = person.code;
+    menu_.trainee = {text, std::move(identified)};
+}
+
 // Loads the settings of the trainee whose name was entered, after saving those of the previous one.
 void App::select_trainee() {
-    if (options_.choice.trainee == preferences_.trainee) return;
+    if (options_.choice.trainee == menu_.trainee.text) return;
     save_preferences();
-    load_preferences(preferences_, options_.choice.trainee);
-    if (preferences_.file_error != Preferences::FileError::none) log(preferences_.file_error_message);
+    load_trainee();
     const std::string& language = preferences_.settings.language;
     if (!language.empty() && language != words_.language) selected_language_ = language;
     apply_preferences();

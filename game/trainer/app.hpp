@@ -25,7 +25,9 @@ struct AppOptions {
     std::filesystem::path out;                             // folder of the session
     bool folder_per_lesson = false;                        // each lesson gets a folder of its own in `out`
     std::filesystem::path settings_folder, settings_file;  // Preferences::folder and ::file
-    bool first_start = false;                              // the menu offers the tour first
+    // PersonFolders::people and ::gloves. Without a folder for names each typed name gets a new code.
+    std::filesystem::path people_folder, gloves_folder;
+    bool first_start = false;                                          // the menu offers the tour first
     ComputerCheck::GatherFacts gather_facts = computer::gather_facts;  // tests replace it
     StationFactory start_station = trainer::start_station;
 
@@ -151,6 +153,7 @@ class App : public view::WindowContent {
     void show_page(MenuPage page);
     void perform(ScreenAction action);
     void select_trainee();
+    void load_trainee();
     Status select_language(const std::string& code);
     void apply_preferences();
     void save_preferences();

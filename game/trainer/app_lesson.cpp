@@ -41,6 +41,7 @@ Status App::upload_lesson() {
 // The choice of the menu, or the tour with the same devices.
 LessonChoice App::lesson_choice() const {
     LessonChoice choice = options_.choice;
+    choice.trainee = menu_.trainee.identified.person.code;
     if (options_.menu) choice.assembly = content::assembly_folder(choice.assembly).string();
     return tour_requested_ ? tour_choice(std::move(choice)) : choice;
 }
@@ -56,6 +57,7 @@ Result<LessonRequest> App::study_request() {
     LessonRequest request{
         options_.choice, preferences_.settings, options_.lesson, {}, options_.start_station};
     LessonChoice& choice = request.choice;
+    choice.trainee = participation.progress().person;
     choice.assembly = study::assembly_of(lesson, study_folder);
     choice.variant = lesson.variant;
     choice.tool = lesson.tool;

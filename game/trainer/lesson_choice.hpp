@@ -7,6 +7,7 @@
 
 #include "content/format/assembly.hpp"
 #include "content/station/station_file.hpp"
+#include "content/trainee/identity.hpp"
 #include "content/trainee/settings.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/trainer/equipment.hpp"
@@ -19,11 +20,18 @@ struct LessonChoice {
     std::string variant;  // empty: the assembly's default
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
-    std::string trainee;   // empty: no name
+    // In the menu a typed name or code; in a LessonRequest the person's code. Empty: no name.
+    std::string trainee;
     std::string language;  // empty: the desktop's, if its texts exist
     std::string tool;      // empty: the assembly's first
     Equipment equipment;
     std::optional<joint::Law> law;  // from the command line; a choice in the menu resets it
+};
+
+// The person whom the text of the field means.
+struct SelectedTrainee {
+    std::string text;  // LessonChoice::trainee when the person was identified
+    content::IdentifiedPerson identified;
 };
 
 // The tool of the station's arm among those of an assembly, as LessonChoice::tool: empty if it is the first

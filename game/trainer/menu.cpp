@@ -212,7 +212,8 @@ WideMenu draw_wide(const ScreenContext& context, Menu& menu, const MenuPictures&
     draw_title(context, "Boltwright");
     draw_wrapped(context.words["menu.tagline"], muted_text, inner);
     ImGui::Dummy({0.0F, 0.5F * edge});
-    ScreenAction action = draw_choices(context, inner, {entry, menu.devices}, choice, preferences);
+    ScreenAction action =
+        draw_choices(context, inner, {entry, menu.devices, menu.trainee}, choice, preferences);
     const float spacing = ImGui::GetStyle().ItemSpacing.y;
     const float actions =
         3.5F * ImGui::GetFrameHeight() + 3.0F * spacing +
@@ -263,7 +264,8 @@ ScreenAction draw_narrow(const ScreenContext& context, const Menu& menu, const M
     if (!problem.empty()) draw_wrapped(problem, warning_text, width);
     draw_cards(context, width, menu, pictures, choice);
     const AssemblyEntry* entry = selected_entry(menu, choice);
-    action = first_of(action, draw_choices(context, width, {entry, menu.devices}, choice, preferences));
+    action = first_of(action,
+                      draw_choices(context, width, {entry, menu.devices, menu.trainee}, choice, preferences));
     if (entry != nullptr) {
         ImGui::Separator();
         draw_description(context, width, *entry);
@@ -283,6 +285,8 @@ void add_constant_characters(ui::Ui& ui, const Menu& menu) {
 void add_changing_characters(ui::Ui& ui, const words::Words& words, const Menu& menu,
                              const LessonChoice& choice) {
     ui.add_characters(choice.trainee);
+    const auto& names_error = menu.trainee.identified.names_error;
+    if (names_error) ui.add_characters(names_error->message());
     for (const DeviceOption& option : menu.devices) ui.add_characters(option.name);
     for (const computer::Finding& finding : menu.check.findings())
         ui.add_characters(words::format_text(words, finding.text, finding.arguments));

@@ -30,6 +30,7 @@ struct Menu {
     // scrolls.
     std::string too_tall;
     std::optional<Error> start_error;  // why the last lesson could not start
+    SelectedTrainee trainee;           // whom LessonChoice::trainee meant when it was last entered
 };
 
 // Pictures of the renderer for the interface; valid in this frame.

@@ -153,6 +153,38 @@ void draw_devices(const ScreenContext& context, float width, std::span<const Dev
     }
 }
 
+// The field for a name or a code, with the code of the person whom it means beside it in small letters.
+ScreenAction draw_trainee(const ScreenContext& context, float width, const SelectedTrainee& trainee,
+                          LessonChoice& choice) {
+    constexpr float small = 0.8F;
+    const content::IdentifiedPerson& identified = trainee.identified;
+    const std::string& code = identified.person.code;
+    const std::string shown_code =
+        words::format_text(context.words, "menu.trainee.code", {{"code", code.empty() ? "T-000000" : code}});
+    const float beside = small * ImGui::CalcTextSize(shown_code.c_str()).x + 8.0F * context.scale;
+    ChoiceRow row(context, context.words["menu.trainee"], width);
+    text_field("##trainee", width - label_width(context) - beside, choice.trainee);
+    note_widget(context, "menu.trainee");
+    const bool entered = ImGui::IsItemDeactivatedAfterEdit();
+    if (!code.empty() && choice.trainee == trainee.text) {
+        ImGui::SameLine();
+        ImGui::SetWindowFontScale(small);
+        ImGui::AlignTextToFramePadding();
+        draw_wrapped(shown_code, muted_text, beside);
+        ImGui::SetWindowFontScale(1.0F);
+        note_widget(context, "menu.trainee.code");
+        if (identified.names_error)
+            draw_wrapped(words::format_text(context.words, "menu.trainee.no_names",
+                                            {{"why", identified.names_error->message()}, {"code", code}}),
+                         warning_text, width);
+        if (!identified.similar_code.empty())
+            draw_wrapped(words::format_text(context.words, "menu.trainee.similar",
+                                            {{"code", code}, {"other", identified.similar_code}}),
+                         warning_text, width);
+    }
+    return entered ? ScreenAction::select_trainee : ScreenAction::none;
+}
+
 // Names each model that the lesson lacks, and says that no device with forces is connected.
 void draw_missing(const ScreenContext& context, float width, const ChoiceOptions& options,
                   const LessonChoice& choice) {
@@ -184,7 +216,6 @@ void choose_assembly(const AssemblyEntry& entry, LessonChoice& choice) {
 
 ScreenAction draw_choices(const ScreenContext& context, float width, const ChoiceOptions& options,
                           LessonChoice& choice, Preferences& preferences) {
-    ScreenAction action = ScreenAction::none;
     const AssemblyEntry* entry = options.entry;
     draw_task_and_mode(context, width, choice);
     if (entry != nullptr) {
@@ -192,10 +223,7 @@ ScreenAction draw_choices(const ScreenContext& context, float width, const Choic
         draw_laws(context, width, entry->law, choice, preferences.settings);
     }
     draw_devices(context, width, options.devices, choice.equipment);
-    ChoiceRow row(context, context.words["menu.trainee"], width);
-    text_field("##trainee", width - label_width(context), choice.trainee);
-    note_widget(context, "menu.trainee");
-    if (ImGui::IsItemDeactivatedAfterEdit()) action = ScreenAction::select_trainee;
+    const ScreenAction action = draw_trainee(context, width, options.trainee, choice);
     ImGui::Spacing();
     if (entry != nullptr) draw_missing(context, width, options, choice);
     if (preferences.file_error != Preferences::FileError::none) draw_settings_file(context, preferences);

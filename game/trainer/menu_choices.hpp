@@ -14,6 +14,7 @@ namespace bolt::trainer {
 struct ChoiceOptions {
     const AssemblyEntry* entry = nullptr;  // the chosen assembly; null: the menu does not list it
     std::span<const DeviceOption> devices;
+    const SelectedTrainee& trainee;
 };
 
 // Chooses another assembly, with its first variant and the tool of the station.

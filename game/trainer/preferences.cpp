@@ -43,6 +43,7 @@ void load_preferences(Preferences& p, const std::string& trainee) {
     }
     auto read = content::load_settings(path, p.known);
     use(p, read ? *read : defaults);
+    p.settings.trainee = trainee;  // a file for all trainees may have another's, or an older program's name
     p.file_text = content::settings_text(p.settings);
     if (read) return;
     p.file_error = Preferences::FileError::read_failed;

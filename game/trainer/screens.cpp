@@ -100,7 +100,9 @@ void draw_settings_file(const ScreenContext& context, const Preferences& prefere
     if (settings_file(preferences).empty())
         draw_wrapped(context.words["settings.not_kept"], muted_text);
     else if (!preferences.trainee.empty())
-        draw_wrapped(words::format_text(context.words, "settings.kept", {{"trainee", preferences.trainee}}),
+        draw_wrapped(words::format_text(
+                         context.words, "settings.kept",
+                         {{"trainee", preferences.shown.empty() ? preferences.trainee : preferences.shown}}),
                      muted_text);
 }
 

@@ -113,6 +113,25 @@ TEST_CASE("Files: written completely or not at all, and errors give the reason")
     CHECK(require_different_files(folder / "a", folder / "b").has_value());
 }
 
+TEST_CASE("Files: a private file is readable by its user alone, also if an earlier one was not") {
+    const test::Folder folder;
+    const auto mode = [](const std::filesystem::path& path) {
+        struct stat status {};
+        REQUIRE(::stat(path.c_str(), &status) == 0);
+        return status.st_mode & 0777U;
+    };
+    const std::filesystem::path path = folder / "names";
+    REQUIRE(write_file(path, "old"));
+    REQUIRE(write_file(folder / "names.part", "left by a killed program"));
+    REQUIRE(write_private_file(path, "new"));
+    CHECK(mode(path) == 0600);
+    CHECK(read_file(path, 100, ErrorCode::failed).value() == "new");
+    CHECK_FALSE(std::filesystem::exists(folder / "names.part"));
+    const Status failed = write_private_file(folder / "none" / "names", "x");
+    REQUIRE_FALSE(failed);
+    CHECK(failed.error().message().find("none/names: cannot be written: No such file") != std::string::npos);
+}
+
 TEST_CASE("Files: a failed rename leaves the target and no temporary file") {
     const test::Folder temporary;
     const std::filesystem::path target = temporary.path() / "a", part = temporary.path() / "a.part";

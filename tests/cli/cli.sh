@@ -257,12 +257,16 @@ expect 1 'cannot be created|Not a directory' "$bin/boltwright" train --no-pictur
 expect 1 'session' "$bin/boltwright" report ticks.csv --html never.html
 expect 1 'nowhere' "$bin/boltwright" report nowhere --html never.html
 
-# The calibration of a glove: the vendor's file is imported and stored for the trainee; errors have a position.
-expect 0 'Saved to gloves/' "$bin/boltwright" glove import "$sources/tests/fuzz/corpus/hand.cal" --trainee 'Ada L.' --sensors 22 --folder gloves
-check "the calibration is stored" test -s gloves/_41da_20_4c_2e.right.glove.json
+# The calibration of a glove: the vendor's file is imported and stored under the trainee's code; errors have a position.
+export XDG_DATA_HOME=$work/data
+code_of() { grep -B1 "\"name\": \"$1\"" "$XDG_DATA_HOME/boltwright/people/names.json" | grep -oE 'T-[0-9A-Z]{6}'; }
+expect 0 'Saved to gloves/T-[0-9A-Z]{6}.right.glove.json for Ada L. ' "$bin/boltwright" glove import "$sources/tests/fuzz/corpus/hand.cal" --trainee 'Ada L.' --sensors 22 --folder gloves
+ada_l=$(code_of 'Ada L.')
+check "the calibration is stored" test -s "gloves/$ada_l.right.glove.json"
+check "... without the name" bash -c "! grep -rq Ada gloves"
 head -8 "$sources/tests/fuzz/corpus/hand.cal" > short.cal
 expect 3 '^(boltwright: |error: )?short.cal:[0-9]+' "$bin/boltwright" glove import short.cal --trainee Ada --folder gloves
-sed 's/"gain": /"gian": /' gloves/_41da_20_4c_2e.right.glove.json > misspelt.json
+sed 's/"gain": /"gian": /' "gloves/$ada_l.right.glove.json" > misspelt.json
 expect 3 'misspelt.json:13:7: .*did you mean "gain"' "$bin/boltwright" glove show misspelt.json --port /dev/null
 expect 4 'not a serial port' "$bin/boltwright" glove calibrate --trainee Ada --port /dev/null --folder gloves
 expect 2 'trainee is required' "$bin/boltwright" glove calibrate --port /dev/null
@@ -277,8 +281,8 @@ for _ in $(seq 600); do [[ -L worn ]] && break; sleep 0.1; done
 done
 check "the quality of the calibration is printed" grep -qE '^Quality 0\.[5-9]' calibrated
 echo fist >&4
-expect 0 'middle  90 100  67' "$bin/boltwright" glove show gloves/_41da.right.glove.json --port worn --seconds 3
-expect 2 'for another glove' "$bin/boltwright" glove show gloves/_41da_20_4c_2e.right.glove.json --port worn
+expect 0 'middle  90 100  67' "$bin/boltwright" glove show "gloves/$(code_of Ada).right.glove.json" --port worn --seconds 3
+expect 2 'for another glove' "$bin/boltwright" glove show "gloves/$ada_l.right.glove.json" --port worn
 # The same gloved hand at a station, without a display and a GPU: it grasps the wrench; the glove is unplugged and plugged in again.
 tried=(env -u DISPLAY VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json
     "$bin/boltwright" doctor cover-m8 --glove worn)
@@ -302,7 +306,7 @@ check "... the hand is reported to work again" reports 'resolved: The glove is l
 kill -INT $doctor && wait $doctor
 check "... and the trial fails" test $? -eq 1
 check "the report describes the glove" grep -qE 'Glove on worn: CyberGlove, right hand, 18 sensors' tried
-check "... its calibration" grep -qE 'calibrated for Ada on 20[0-9-]+, quality 0\.' tried
+check "... its calibration" grep -qE "calibrated for Ada \\($(code_of Ada)\\) on 20[0-9-]+, quality 0\." tried
 check "... the verdict" grep -qE 'not good enough, because' tried
 check "... and the time of the disconnection" grep -qE 'adapter plugged in\? \(from [0-9.]+ to [0-9.]+ s\)' tried
 kill $emulated && wait $emulated

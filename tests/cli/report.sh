@@ -36,17 +36,21 @@ check "... a second one, without the guiding force" person person2 --trainee exp
 check "the summary names the trainee and who held the tool" \
     bash -c "grep -q '\"operator\": \"novice\"' anna1/summary.json && grep -q '\"trainee\": \"Anna\"' anna1/summary.json"
 
+code=$(grep -oE 'T-[0-9A-Z]{6}' boltwright/people/names.json)
+check "a person's session has the code, not the name" bash -c "grep -qa '$code' person2/session.boltwright && grep -q '\"trainee\": \"$code\"' person2/summary.json"
 sessions=()
 for seed in 1 2 3; do sessions+=("anna$seed/session.boltwright" "ben$seed/session.boltwright"); done
 sessions+=(expert{1,2}/session.boltwright)
 expect 0 'page.html' "$bin/boltwright" report "${sessions[@]}" person{1,2}/session.boltwright --html page.html
-check "a learning curve for each trainee: Anna, Ben, the simulated expert, the person called expert" \
+check "a learning curve for each trainee: Anna, Ben, the simulated expert, the person called expert (by code)" \
     test "$(count '<div class="trainee">' page.html)" -eq 4
 check "each learning curve has four plots" test "$(count '<h4>' page.html)" -eq 16
-for name in 'Anna (simulated novice)' 'Ben (simulated expert)' 'expert (simulated)' 'expert'; do
+for name in 'Anna (simulated novice)' 'Ben (simulated expert)' 'expert (simulated)' "$code"; do
     check "the curves of $name are labelled" grep -qF "<h3>$name <span" page.html
     check "$name has a row among the trainees" grep -qF "<td class=\"w\">$name</td>" page.html
 done
+expect 0 'named.html' env XDG_DATA_HOME="$work" "$bin/boltwright" report person{1,2}/session.boltwright --names --html named.html
+check "with --names the person's name is beside the code" grep -qF "<h3>expert ($code) <span" named.html
 check "Anna's curve has her attempts alone" \
     grep -qF '<h3>Anna (simulated novice) <span class="of">attempts <a href="#session-1">1</a>, <a href="#session-3">3</a>' page.html
 

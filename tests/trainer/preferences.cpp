@@ -190,4 +190,12 @@ TEST_CASE("Preferences: a named file is used for every trainee") {
     load_preferences(p, "Ada");
     CHECK(p.settings.volume == 0.25);
     CHECK(settings_file(p) == p.file);
+    p.settings.volume = 0.5;
+    CHECK(save_preferences(p));
+    load_preferences(p, "T-7K3M9Q");
+    CHECK(save_preferences(p));  // nothing was changed, so nothing is written
+    CHECK(content::load_settings(p.file, p.known)->trainee == "Ada");
+    p.settings.volume = 0.75;
+    CHECK(save_preferences(p));
+    CHECK(content::load_settings(p.file, p.known)->trainee == "T-7K3M9Q");
 }

@@ -1,6 +1,7 @@
 // The settings screen: changes by mouse and keyboard, saving, and the effect on a lesson.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 using platform::Key;
 
 const fs::path settings_folder = fs::path(BOLT_TRAINER_OUT) / "settings";
+const fs::path people_folder = fs::path(BOLT_TRAINER_OUT) / "names";
 
 AppOptions options(bool menu, const std::string& trainee = "Ada") {
     AppOptions o;
@@ -27,6 +29,7 @@ AppOptions options(bool menu, const std::string& trainee = "Ada") {
     o.choice.language = "en";
     o.menu = menu;
     o.settings_folder = settings_folder;
+    o.people_folder = people_folder;
     o.out = fs::path(BOLT_TRAINER_OUT) / "people";
     return o;
 }
@@ -42,8 +45,32 @@ class SettingsTrainer : public test::HeadlessTrainer {
 };
 
 struct EmptySettingsFolder {
-    EmptySettingsFolder() { fs::remove_all(settings_folder); }
+    EmptySettingsFolder() {
+        fs::remove_all(settings_folder);
+        fs::remove_all(people_folder);
+    }
 };
+
+std::string code_of(const std::string& name) {
+    return content::find_or_add_person(people_folder, name).value().code;
+}
+
+void type(SettingsTrainer& driver, const std::string& text) {
+    driver.press_button("menu.trainee");
+    driver.frame();
+    for (const char c : text)
+        driver.frame({platform::TextEvent{static_cast<char32_t>(static_cast<unsigned char>(c))}});
+    driver.frame();
+    driver.key(Key::enter);
+    driver.frame();
+}
+
+bool shows(const SettingsTrainer& driver, const words::TextKey& key) {
+    const auto widgets = driver.app().drawn_widgets();
+    return std::any_of(widgets.begin(), widgets.end(), [&](const DrawnWidget& w) { return w.label == key; });
+}
+
+std::string text_of(const fs::path& path) { return read_file(path, 64U << 20U, ErrorCode::failed).value(); }
 
 }  // namespace
 
@@ -70,7 +97,7 @@ TEST_CASE(
     }
     const SettingsTrainer later(options(true));
     const content::TraineeSettings& s = later.settings();
-    CHECK(s.trainee == "Ada");
+    CHECK(s.trainee == code_of("Ada"));
     CHECK(s.captions);
     CHECK(s.left_handed);
     CHECK(s.seated_eye_height == 1.2);
@@ -171,12 +198,12 @@ TEST_CASE("Settings: left hand, driver height, captions and force scale apply to
     const EmptySettingsFolder empty_folder;
     const auto lesson = [](bool left, double scale) {
         content::TraineeSettings s;
-        s.trainee = "Ada";
+        s.trainee = code_of("Ada");
         s.left_handed = left;
         s.force_scale = scale;
         s.captions = left;
         if (left) s.seated_eye_height = 0.9;
-        REQUIRE(content::save_settings(content::settings_path(settings_folder, "Ada"), s,
+        REQUIRE(content::save_settings(content::settings_path(settings_folder, s.trainee), s,
                                        settings_vocabulary({"en"})));
         AppOptions o = options(false);
         o.out /= left ? "left" : "right";
@@ -202,7 +229,7 @@ TEST_CASE("Settings: left hand, driver height, captions and force scale apply to
 TEST_CASE("Settings: an unreadable file is reported with its position, and lessons remain possible") {
     const EmptySettingsFolder empty_folder;
     fs::create_directories(settings_folder);
-    const fs::path path = content::settings_path(settings_folder, "Ada");
+    const fs::path path = content::settings_path(settings_folder, code_of("Ada"));
     REQUIRE(write_file(path, "{\n  \"format\": 7\n}\n"));
     SettingsTrainer driver(options(true));
     CHECK(driver.app().preferences().file_error == Preferences::FileError::read_failed);
@@ -211,6 +238,90 @@ TEST_CASE("Settings: an unreadable file is reported with its position, and lesso
     driver.press_button("menu.start");
     CHECK(driver.app().screen() == ShownScreen::lesson);
     CHECK(read_file(path, 100, ErrorCode::failed).value() == "{\n  \"format\": 7\n}\n");
+}
+
+TEST_CASE("Menu: a typed name gets a code, which is shown beside it and stands in every file") {
+    const EmptySettingsFolder empty_folder;
+    AppOptions chosen = options(true, "");
+    chosen.out /= "codes";
+    fs::remove_all(chosen.out);
+    SettingsTrainer driver(std::move(chosen));
+    CHECK_FALSE(shows(driver, "menu.trainee.code"));
+    CHECK_FALSE(fs::exists(people_folder));
+    type(driver, "Adalbert");
+    CHECK(driver.app().choice().trainee == "Adalbert");
+    CHECK(shows(driver, "menu.trainee.code"));
+    const auto person = content::find_person(people_folder, "Adalbert").value();
+    REQUIRE(person);
+    CHECK(driver.app().preferences().trainee == person->code);
+    CHECK(driver.app().preferences().shown == "Adalbert");
+    driver.press_button("menu.law.published");
+    driver.press_button("menu.start");
+    driver.frame();
+    REQUIRE(driver.app().screen() == ShownScreen::lesson);
+    const auto reader = session::SessionReader::open(driver.folder() / "session.boltwright");
+    REQUIRE(reader);
+    CHECK(reader->header().trainee == person->code);
+    for (const fs::path& folder : {driver.folder(), settings_folder, people_folder})
+        for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+            if (!entry.is_regular_file() || entry.path() == content::names_path(people_folder)) continue;
+            CAPTURE(entry.path());
+            CHECK(entry.path().string().find("dalbert") == std::string::npos);
+            CHECK(text_of(entry.path()).find("dalbert") == std::string::npos);
+        }
+}
+
+TEST_CASE("Menu: the code selects the same person as the name, and the name is shown") {
+    const EmptySettingsFolder empty_folder;
+    const std::string code = code_of("Ada");
+    content::TraineeSettings stored;
+    stored.trainee = code;
+    stored.captions = true;
+    REQUIRE(content::save_settings(content::settings_path(settings_folder, code), stored,
+                                   settings_vocabulary({"en"})));
+    SettingsTrainer driver(options(true, ""));
+    CHECK_FALSE(driver.settings().captions);
+    std::string small = code;
+    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    type(driver, small);
+    CHECK(driver.settings().captions);
+    CHECK(driver.app().choice().trainee == "Ada");
+    CHECK(shows(driver, "menu.trainee.code"));
+    CHECK(driver.log().empty());
+}
+
+TEST_CASE("Menu: settings that an older program stored under the typed name are taken over") {
+    const EmptySettingsFolder empty_folder;
+    content::TraineeSettings stored;
+    stored.trainee = "Ada";
+    stored.left_handed = true;
+    const fs::path old = content::settings_path(settings_folder, "Ada");
+    REQUIRE(content::save_settings(old, stored, settings_vocabulary({"en"})));
+    const SettingsTrainer driver(options(true));
+    CHECK(driver.settings().left_handed);
+    CHECK(driver.settings().trainee == code_of("Ada"));
+    CHECK_FALSE(fs::exists(old));
+}
+
+TEST_CASE(
+    "Menu: with a damaged file of names a lesson is possible under a new code, and the reason is shown") {
+    const EmptySettingsFolder empty_folder;
+    fs::create_directories(people_folder);
+    const fs::path names = content::names_path(people_folder);
+    const std::string broken = "{\n  \"format\": 7\n}\n";
+    REQUIRE(write_file(names, broken));
+    SettingsTrainer driver(options(true));
+    REQUIRE(driver.log().size() == 1);
+    CHECK(driver.log().front().find(names.string() + ":2:13: ") == 0);
+    CHECK(driver.app().choice().trainee == "Ada");
+    CHECK(shows(driver, "menu.trainee.code"));
+    const std::string code = driver.app().preferences().trainee;
+    CHECK(content::is_person_code(code));
+    driver.press_button("menu.start");
+    driver.frame();
+    REQUIRE(driver.app().screen() == ShownScreen::lesson);
+    CHECK(session::SessionReader::open(driver.folder() / "session.boltwright")->header().trainee == code);
+    CHECK(text_of(names) == broken);
 }
 
 }  // namespace trainer_app_settings_test

@@ -1,0 +1,74 @@
+// The files of each person: settings, calibrations of gloves, sessions, and the pages beside them.
+#pragma once
+
+#include <cstdint>
+#include <ctime>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "content/trainee/identity.hpp"
+#include "engine/base/result.hpp"
+#include "game/session/header.hpp"
+
+namespace bolt::people {
+
+struct DataFolders {
+    content::PersonFolders own;
+    std::vector<std::filesystem::path> sessions;  // searched with their subfolders
+};
+
+// The user's own folders. Sessions: `sessions`; if it is empty, out/ and sessions/ in user_data_folder(),
+// where lessons from the desktop go, as far as they exist.
+Result<DataFolders> user_folders(std::vector<std::filesystem::path> sessions = {});
+
+enum class FileKind : std::uint8_t {
+    settings,
+    calibration,
+    session,
+    summary,  // summary.json of a lesson
+    page,     // report of sessions
+};
+const char* name(FileKind kind);
+
+struct PersonFile {
+    std::filesystem::path path;
+    FileKind kind = FileKind::settings;
+    std::time_t modified = 0;
+    std::filesystem::path root;  // the folder in which it was found
+};
+
+struct PersonData {
+    content::Person person;         // without a code if only files of older programs name the person
+    std::vector<PersonFile> files;  // by kind, then oldest first
+    std::vector<std::filesystem::path> shared_pages;  // reports that show other people too
+
+    [[nodiscard]] std::optional<std::time_t> last_lesson() const;  // end of its newest session
+};
+
+// "Ada (T-7K3M9Q)", the code or the name alone.
+std::string shown(const content::Person& person);
+
+struct Inventory {
+    std::vector<PersonData> people;    // those with a name first, in the order of names.json; then by code
+    std::optional<Error> names_error;  // names.json is damaged: nobody has a name
+    std::vector<Error> unknown_files;  // whose person cannot be read, and folders that cannot be searched
+};
+
+// Symbolic links inside the folders are not followed. Files of a person under the typed name of an older
+// program are the person's if names.json has this name.
+Inventory take_inventory(const DataFolders& folders);
+
+// The person with this code or name. Fails with a suggestion if nothing is known about the person.
+Result<PersonData> find(const Inventory& inventory, std::string_view who);
+
+// The person of a session; empty texts if it has none (a simulated trainee, or a person without a name).
+content::Person person_of(const session::Header& header, std::span<const content::Person> registered);
+
+// The person whose code or typed name is recorded.
+content::Person person_of(std::string_view recorded, std::span<const content::Person> registered);
+
+}  // namespace bolt::people

@@ -1,0 +1,25 @@
+// The people that a report shows, as a list in the head of the page, so that an export or an erasure can tell
+// whose page it is:
+//
+//   <meta name="boltwright-person" content="T-7K3M9Q"/>
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bolt::people {
+
+// The elements of the head for the codes or typed names of these people; an empty text stands for a person
+// without a name.
+std::string people_list(const std::set<std::string>& people);
+
+// The inverse, for a page of `boltwright report` or `train`. Pages of older programs have no list: there the
+// facts of their sessions count, without simulated trainees; an empty text also stands for a trainee of whom
+// it is not recorded whether it was a person. None: this is no such page, or it lists nobody, as an overview
+// of an older program.
+std::optional<std::vector<std::string>> page_trainees(std::string_view html);
+
+}  // namespace bolt::people
