@@ -9,6 +9,7 @@
 #include "game/plot/html.hpp"
 #include "game/session/database.hpp"
 #include "game/session/session_file.hpp"
+#include "game/study_journal/journal.hpp"
 
 namespace bolt::people {
 
@@ -57,6 +58,21 @@ void erase_session(const fs::path& path, const PersonData& data, Erasure& erasur
     unlink_file(path, erasure);
 }
 
+// The journal of a participant, while no program leads the participant. The mark that stays tells the study
+// that the participant withdrew.
+void erase_answers(const fs::path& path, Erasure& erasure) {
+    const auto lock = session::FileLock::acquire(path, path.string());
+    if (!lock) {
+        erasure.kept.push_back(lock.error());
+        return;
+    }
+    if (const Status marked = study::mark_withdrawn(path.parent_path(), std::time(nullptr)); !marked) {
+        erasure.kept.push_back(marked.error());
+        return;
+    }
+    unlink_file(path, erasure);
+}
+
 // Removes the folder of a lesson and folders around it while they are empty, but never `root`.
 void remove_empty_folders(fs::path folder, const fs::path& root, Erasure& erasure) {
     std::error_code problem;
@@ -96,6 +112,8 @@ Erasure erase_person(const DataFolders& folders, const PersonData& data) {
     for (const PersonFile& file : data.files)
         if (file.kind == FileKind::session)
             erase_session(file.path, data, erasure);
+        else if (file.kind == FileKind::answers)
+            erase_answers(file.path, erasure);
         else
             unlink_file(file.path, erasure);
     for (const fs::path& page : data.shared_pages)

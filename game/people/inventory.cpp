@@ -14,6 +14,7 @@
 #include "engine/base/nearest.hpp"
 #include "game/people/page_trainees.hpp"
 #include "game/session/session_file.hpp"
+#include "game/study_journal/journal.hpp"
 
 namespace bolt::people {
 
@@ -130,6 +131,8 @@ class Collector {
             add_summary(path, root);
         else if (path.extension() == ".html")
             add_page(path, root);
+        else if (file_name == study::journal_file_name)
+            add_journal(path, root);
     }
     void add_session(const fs::path& path, const fs::path& root) {
         const auto header = session::read_header(path);
@@ -139,6 +142,12 @@ class Collector {
     void add_summary(const fs::path& path, const fs::path& root) {
         if (const auto text = read_file(path, max_summary_size, ErrorCode::failed))
             add(person_of_summary(*text, registered_), path, FileKind::summary, root);
+    }
+    void add_journal(const fs::path& path, const fs::path& root) {
+        const auto journal = study::read_journal(path);
+        if (journal)
+            return add(person_of(study::person_of(*journal), registered_), path, FileKind::answers, root);
+        inventory_.unknown_files.push_back(journal.error());
     }
     void add_page(const fs::path& path, const fs::path& root) {
         const auto text = read_file(path, max_html_size, ErrorCode::failed);
@@ -194,6 +203,8 @@ const char* name(FileKind kind) {
             return "session";
         case FileKind::summary:
             return "summary";
+        case FileKind::answers:
+            return "answers";
         case FileKind::page:
             break;
     }

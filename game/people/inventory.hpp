@@ -1,4 +1,5 @@
-// The files of each person: settings, calibrations of gloves, sessions, and the pages beside them.
+// The files of each person: settings, calibrations of gloves, sessions, the pages beside them, and answers in
+// studies.
 #pragma once
 
 #include <cstdint>
@@ -31,6 +32,7 @@ enum class FileKind : std::uint8_t {
     session,
     summary,  // summary.json of a lesson
     page,     // report of sessions
+    answers,  // journal of a participant of a study
 };
 const char* name(FileKind kind);
 

@@ -10,6 +10,7 @@
 
 #include "engine/base/file.hpp"
 #include "game/session/session_file.hpp"
+#include "game/study_journal/journal.hpp"
 
 namespace bolt::people {
 
@@ -53,15 +54,17 @@ class Layout {
             case FileKind::session:
             case FileKind::summary:
             case FileKind::page:
+            case FileKind::answers:
                 break;
         }
-        const auto [lesson, is_new] =
-            lessons_.emplace(file.path.parent_path(), fmt::format("{:03}", lessons_.size() + 1));
-        return fs::path("sessions") / lesson->second / file.path.filename();
+        const auto [folder, is_new] =
+            folders_.emplace(file.path.parent_path(), fmt::format("{:03}", folders_.size() + 1));
+        const char* kind = file.kind == FileKind::answers ? "studies" : "sessions";
+        return fs::path(kind) / folder->second / file.path.filename();
     }
 
   private:
-    std::map<fs::path, std::string> lessons_;  // by the folder of the lesson
+    std::map<fs::path, std::string> folders_;  // by the folder of the lesson or of the participant
 };
 
 Status copy_one(const fs::path& from, const fs::path& to) {
@@ -89,9 +92,24 @@ Status copy_with_log(const PersonFile& file, const fs::path& to) {
     return copied ? Status() : fail(copied.error());
 }
 
+// The entries of a participant's journal, readable without a program.
+void add_answers(const fs::path& file, ordered_json& entry) {
+    const auto journal = study::read_journal(file);
+    if (!journal) return;
+    for (const study::JournalEntry& one : journal->entries) {
+        ordered_json row{{"time", study::time_text(one.time)}, {"kind", study::name(one.kind)}};
+        for (const auto& [key, text] :
+             {std::pair("step", &one.step), std::pair("item", &one.item), std::pair("text", &one.text)})
+            if (!text->empty()) row[key] = *text;
+        if (one.value) row["value"] = *one.value;
+        entry["entries"].push_back(std::move(row));
+    }
+}
+
 ordered_json entry_of(const PersonFile& file, const fs::path& place) {
     ordered_json entry{
         {"file", place.generic_string()}, {"kind", name(file.kind)}, {"modified", utc_text(file.modified)}};
+    if (file.kind == FileKind::answers) add_answers(file.path, entry);
     if (file.kind != FileKind::session) return entry;
     const auto reader = session::SessionReader::open(file.path);
     if (!reader) return entry;

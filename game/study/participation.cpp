@@ -14,7 +14,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* withdrawn_file_name = "withdrawn.txt";
 constexpr double day = 86400.0;  // s
 
 void add_forms(const content::Study& study, content::FormTime time, const std::string& prefix,
@@ -380,10 +379,7 @@ double Participation::wait() const {
 }
 
 Status Participation::withdraw() {
-    const std::string date = time_text(clock_());
-    BOLT_TRY(write_file(folder_ / withdrawn_file_name,
-                        fmt::format("{} withdrew the consent on {}. Everything else was deleted.\n",
-                                    participant_, date.substr(0, 10))));
+    BOLT_TRY(mark_withdrawn(folder_, clock_()));
     std::vector<std::string> left;
     std::error_code problem;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_, problem)) {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "content/studies/study.hpp"
-#include "game/study/journal.hpp"
+#include "game/study_journal/journal.hpp"
 
 namespace bolt::study {
 
@@ -153,6 +153,4 @@ Result<std::vector<ParticipantState>> list_participants(const content::Study& st
                                                         const std::filesystem::path& folder);
 
 inline constexpr const char* participants_folder_name = "participants";
-inline constexpr const char* journal_file_name = "journal.db";
-
 }  // namespace bolt::study

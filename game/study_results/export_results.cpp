@@ -11,14 +11,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// RFC 4180.
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + "\"";
-}
-
 // JSON has no NaN.
 ordered_json number(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
@@ -70,14 +62,13 @@ ordered_json json_of(const ComparisonResult& result) {
 }  // namespace
 
 std::string results_csv(const content::Study& study, const StudyData& data) {
-    std::string out = "participant,person,simulated,condition,part,lesson,time,measure,value\r\n";
+    std::string out = "participant,simulated,condition,part,lesson,time,measure,value\r\n";
     for (const Observation& o : data.observations) {
         const ParticipantState& state = data.participants[o.participant];
         const auto count = [](std::size_t index) {
             return index == no_index ? std::string() : std::to_string(index + 1);
         };
-        out += fmt::format("{},{},{},{},{},{},{},{},{}\r\n", state.participant,
-                           csv_field(state.progress.person), state.progress.simulated ? 1 : 0,
+        out += fmt::format("{},{},{},{},{},{},{},{}\r\n", state.participant, state.progress.simulated ? 1 : 0,
                            o.condition == no_index ? "" : study.conditions[o.condition].id, count(o.part),
                            count(o.lesson), name(o.time), o.measure, o.value);
     }

@@ -108,7 +108,7 @@ std::string progress_page(const content::Study& study, const std::vector<Partici
 std::string progress_text(const content::Study& study, const std::vector<ParticipantState>& states,
                           std::int64_t now);
 
-// A row for each observation: participant, person, simulated, condition, part, lesson, time, measure,
+// A row for each observation: participant, simulated, condition, part, lesson, time, measure,
 // value (RFC 4180).
 std::string results_csv(const content::Study& study, const StudyData& data);
 // Everything that the page shows, as numbers.

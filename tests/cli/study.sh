@@ -47,7 +47,7 @@ check 'a blind study names no condition' bash -c '! "$@" | grep -qw force' - "${
 check 'nor does its page' bash -c '! grep -qw force progress.html'
 expect 0 '^small/results.html' "${study[@]}" results small
 check 'the page says that they are simulated' grep -q 'Simulated participants' small/results.html
-check 'the table has the four conditions' test "$(cut -d, -f4 small/results.csv | sort -u | grep -c .)" -eq 5
+check 'the table has the four conditions' test "$(cut -d, -f3 small/results.csv | sort -u | grep -c .)" -eq 5
 check 'the numbers can be read' python3 -c 'import json; r = json.load(open("small/results.json")); assert r["simulated"] and len(r["comparisons"]) == 6'
 expect 2 'everything that P01 answered and did is deleted; expected --yes' "${study[@]}" withdraw small P01
 expect 0 'P01 withdrew' "${study[@]}" withdraw small P01 --yes
@@ -79,5 +79,11 @@ kill -INT $player
 wait $player
 check 'an interruption ends it in order' test $? -eq 0
 player=
+expect 0 'answers .*guiding/participants/P01/journal.db' "$bin/boltwright" trainees show Ada guiding
+expect 0 . "$bin/boltwright" trainees export Ada --out mine guiding
+check 'a person can read what was stored' grep -q '"kind": "enrolled"' mine/index.json
 check 'nobody else was enrolled' test "$(ls -d guiding/participants/P* | wc -l)" -eq 1
+expect 0 . "$bin/boltwright" trainees erase Ada guiding --yes
+check 'an erased person leaves only the mark' test "$(ls guiding/participants/P01)" = withdrawn.txt
+expect 0 '^P01 .*withdrew' "${study[@]}" status guiding
 finish_checks

@@ -31,6 +31,8 @@ enum class JournalKind : std::uint8_t {
 };
 inline constexpr std::size_t journal_kinds = static_cast<std::size_t>(JournalKind::clock_set_back) + 1;
 
+std::string_view name(JournalKind kind);  // as in the file
+
 struct JournalEntry {
     JournalKind kind = JournalKind::step_begun;
     std::int64_t time = 0;  // s since 1970-01-01 UTC
@@ -76,4 +78,13 @@ struct ReadJournal {
 // Reads a journal that may be open in another program.
 Result<ReadJournal> read_journal(const std::filesystem::path& file);
 
+// The code of the person whose journal it is; empty if the participant is simulated.
+std::string person_of(const ReadJournal& journal);
+
+inline constexpr const char* journal_file_name = "journal.db";
+
+// The file in a participant's folder that is left of a participant who withdrew. While it exists, everything
+// else in the folder is to be deleted.
+inline constexpr const char* withdrawn_file_name = "withdrawn.txt";
+Status mark_withdrawn(const std::filesystem::path& participant_folder, std::int64_t time);
 }  // namespace bolt::study

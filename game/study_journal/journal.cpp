@@ -1,9 +1,11 @@
-#include "game/study/journal.hpp"
+#include "game/study_journal/journal.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <cmath>
+
+#include "engine/base/file.hpp"
 
 namespace bolt::study {
 
@@ -81,6 +83,8 @@ constexpr const char* durable = "PRAGMA journal_mode = DELETE; PRAGMA synchronou
 
 }  // namespace
 
+std::string_view name(JournalKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
+
 std::string time_text(std::int64_t time) {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(time)));
 }
@@ -145,6 +149,18 @@ Status Journal::append(std::span<const JournalEntry> entries) {
 Result<ReadJournal> read_journal(const std::filesystem::path& file) {
     BOLT_TRY_ASSIGN(auto database, session::Database::open_read_only(file, file.string()));
     return read_entries(database, file.string());
+}
+
+std::string person_of(const ReadJournal& journal) {
+    const bool person = !journal.simulated && !journal.entries.empty() &&
+                        journal.entries.front().kind == JournalKind::enrolled;
+    return person ? journal.entries.front().text : std::string();
+}
+
+Status mark_withdrawn(const std::filesystem::path& participant_folder, std::int64_t time) {
+    return write_file(participant_folder / withdrawn_file_name,
+                      fmt::format("{} withdrew the consent on {}. Everything else was deleted.\n",
+                                  participant_folder.filename().string(), time_text(time).substr(0, 10)));
 }
 
 }  // namespace bolt::study
