@@ -91,7 +91,7 @@ void read_design(StudyReader& reader) {
     design.show_results = boolean(json, node, "show_results", false);
 }
 
-// Reports a condition that another one before it equals, or that has other factors.
+// Reports a condition that repeats an earlier one, or whose factors differ from those of the first one.
 void check_condition(StudyReader& reader, const JsonNode& node) {
     const std::vector<StudyCondition>& all = reader.study.conditions;
     const StudyCondition& last = all.back();
@@ -266,8 +266,7 @@ void read_comparisons(StudyReader& reader) {
                         "two of them in each comparison, in \"conditions\"");
         if (comparison.retention && !between)
             json.report(node.pointer + "/retention",
-                        "every participant had every condition before the retention test, which cannot tell "
-                        "them apart",
+                        "the retention test cannot compare conditions: each participant had all of them",
                         R"("subjects": "between")");
         if (comparison.groups.size() < 2 && reader.conditions_valid && !factor && !conditions)
             json.report(node.pointer, "one condition cannot be compared", "two or more conditions");

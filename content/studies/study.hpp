@@ -93,7 +93,7 @@ inline constexpr std::string_view objective_measures[] = {
     "order_errors", "bumps",      "contact_time_s", "force_rate",   "time_to_nut_s", "nut_visible"};
 inline constexpr std::size_t objective_measure_count = std::size(objective_measures);
 
-// Two or more groups of conditions that one measure compares: single conditions, or the levels of a factor.
+// One group of a comparison: a single condition, or all conditions with one level of a factor.
 struct ComparedGroup {
     std::string name;                     // id of the condition, or the level
     std::vector<std::size_t> conditions;  // indices into Study::conditions
@@ -140,32 +140,35 @@ struct LoadedStudy {
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };
 
-// `file` is used in messages. `forms`: by id, for the scales that measures name; null: they are not checked.
+// `file` is used in messages. `forms`: the forms whose scales measures may name; null: scales are not
+// checked.
 LoadedStudy parse_study(std::string_view text, const std::string& file,
                         const std::vector<Questionnaire>* forms = nullptr);
-// Reads study.json of a folder, and the forms that it names. `forms`: folder of ID.json; empty: the folder
-// questionnaires of the study.
+// Reads study.json of a folder, and the forms that it names. `forms`: the folder that has ID.json of each
+// form; empty: `folder`/questionnaires.
 LoadedStudy load_study(const std::filesystem::path& folder, const std::filesystem::path& forms = {});
 
 inline constexpr const char* study_file_name = "study.json";
 inline constexpr const char* forms_folder_name = "questionnaires";
 
 // Languages in which a participant can read everything: the title, the information, the consent, and every
-// item of every form. A form without a text of its own licence has none until the laboratory adds them.
+// item of every form. A form that ships without texts is complete in no language until the laboratory adds
+// them.
 std::vector<std::string> complete_languages(const Study& study);
 
 // Orders of conditions (order.cpp).
 
-// A Williams square of `n` conditions: rows in which each condition follows each other one equally often and
-// is in each position equally often. n rows, or 2 n if n is odd (E. J. Williams, Aust. J. Sci. Res. A 2
-// (1949) 149; construction: 0, 1, n − 1, 2, n − 2, ..., each next row plus 1 modulo n, odd n also mirrored).
+// A Williams square of `n` conditions: rows in which every condition comes directly after every other
+// condition equally often and is in each position equally often. n rows, or 2 n if n is odd (E. J. Williams,
+// Aust. J. Sci. Res. A 2 (1949) 149; construction: 0, 1, n − 1, 2, n − 2, ..., each next row plus 1 modulo n,
+// odd n also mirrored).
 std::vector<std::vector<std::size_t>> williams_square(std::size_t n);
 
-// The conditions of a participant, in order, as indices into Study::conditions; one between subjects.
-// `place` counts from 0 and is unique among the participants who have not withdrawn.
-//   williams        the rows of the square in turn, in an order drawn for each repetition of the square
-//   random          each block of n places gets a Latin square with drawn rows and conditions
-//   between         each block of n places gets each condition once, in drawn order
+// Returns the conditions of a participant in their order, as indices into Study::conditions. Between subjects
+// there is one. `place` counts from 0 and is unique among the participants who have not withdrawn.
+//   williams        the rows of the square in turn, in a random order for each repetition of the square
+//   random          each block of n places gets a Latin square with randomly permuted rows and conditions
+//   between         each block of n places gets each condition once, in a random order
 // Deterministic in design.seed.
 std::vector<std::size_t> conditions_of(const Study& study, std::size_t place);
 

@@ -1,5 +1,5 @@
 // A small seeded random number generator, and random rotations. Its sequence is the same on every platform
-// and with every standard library (that of std::normal_distribution is not). PCG32: M. E. O'Neill,
+// and with every standard library (std::normal_distribution does not guarantee this). PCG32: M. E. O'Neill,
 // HMC-CS-2014-0905.
 #pragma once
 

@@ -29,7 +29,7 @@ content::Specification derived_targets(const PublishedParameters& law) {
     s.strategy = content::Strategy::torque_angle;
     s.torque = {torque_before_end(law, 0.1), torque_before_end(law, 1.0 / 3.0),
                 (1.0 + tool_accuracy) * law.T_max_Nm};
-    // In the elastic stage, also if the yield stage begins at a low torque.
+    // Keeps the snug torque in the elastic stage, even if the yield stage begins at a low torque.
     s.snug_torque = std::min(0.25 * s.torque.target, 0.5 * torque_before_end(law, 1.0));
     s.has_angle = true;
     const double end = angle_from_snug(law, s.snug_torque, law.T_max_Nm);

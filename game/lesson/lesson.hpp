@@ -42,10 +42,10 @@ enum class LawAdaptation : std::uint8_t { yield_end, before_format_6 };
 //   - otherwise targets in the last third of the yield stage, and an angle window that also ends a third of
 //     the stage beyond it, because the torque cannot be too high
 // A torque wrench is set so low that it clicks before the end of the yield stage, whatever its deviation, and
-// the windows begin low enough for it. The target clamp force follows from the target torque. Where the file
-// gives no θ_max, it becomes that of a nut that starts at design.start_gap.
-// `before_format_6`: without own targets, torques above 98 % of T_max are lowered to 98 %; no angle is
-// judged; θ_max and the torque wrench are not adapted. Idempotent.
+// the lower limits are at most at the lowest click. The target clamp force follows from the target torque.
+// Where the file gives no θ_max, it becomes that of a nut that starts at design.start_gap. `before_format_6`:
+// without own targets, torques above 98 % of T_max are lowered to 98 %; no angle is judged; θ_max and the
+// torque wrench are not adapted. Idempotent.
 content::Assembly apply_law(content::Assembly assembly, joint::Law law,
                             LawAdaptation adaptation = LawAdaptation::yield_end);
 
@@ -58,7 +58,7 @@ std::vector<LessonStep> make_plan(const content::Assembly& assembly, Task task);
 bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, double finger_torque);
 
 // The record of one joint between ticks. A hold lasts from the tick in which the hand engages the nut until
-// it releases it; an analysis::Visit may have several. Members of a hold are reset when it begins, except
+// it releases it; an analysis::Visit may have several. The members whose comment names "this hold" are reset when a hold begins, except
 // `worked` if fingers grip the same nut again within a second.
 struct JointTrack {
     JointResult result;

@@ -35,7 +35,7 @@ void unlink_file(const fs::path& path, Erasure& erasure) {
         erasure.kept.push_back(kept_file(path, std::string("cannot be deleted: ") + std::strerror(errno)));
 }
 
-// A session with its logs, while no program can record into it.
+// Deletes a session with its logs. Holds the file's lock meanwhile, so that no program can record into it.
 void erase_session(const fs::path& path, const PersonData& data, Erasure& erasure) {
     const auto lock = session::FileLock::acquire(path, path.string());
     if (!lock) {
@@ -58,8 +58,8 @@ void erase_session(const fs::path& path, const PersonData& data, Erasure& erasur
     unlink_file(path, erasure);
 }
 
-// The journal of a participant, while no program leads the participant. The mark that stays tells the study
-// that the participant withdrew.
+// Deletes the journal of a participant. Holds its lock meanwhile, so that no program leads the participant.
+// Leaves a mark that tells the study of the withdrawal.
 void erase_answers(const fs::path& path, Erasure& erasure) {
     const auto lock = session::FileLock::acquire(path, path.string());
     if (!lock) {

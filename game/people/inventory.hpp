@@ -22,8 +22,8 @@ struct DataFolders {
     std::vector<std::filesystem::path> sessions;  // searched with their subfolders
 };
 
-// The user's own folders. Sessions: `sessions`; if it is empty, out/ and sessions/ in user_data_folder(),
-// where lessons from the desktop go, as far as they exist.
+// The user's own folders. Searches `sessions` for sessions. If it is empty, searches out/ and
+// user_data_folder()/sessions, where lessons from the desktop go, if they exist.
 Result<DataFolders> user_folders(std::vector<std::filesystem::path> sessions = {});
 
 enum class FileKind : std::uint8_t {
@@ -57,11 +57,12 @@ std::string shown(const content::Person& person);
 struct Inventory {
     std::vector<PersonData> people;    // those with a name first, in the order of names.json; then by code
     std::optional<Error> names_error;  // names.json is damaged: nobody has a name
-    std::vector<Error> unknown_files;  // whose person cannot be read, and folders that cannot be searched
+    std::vector<Error>
+        unknown_files;  // files whose owner cannot be determined, and folders that cannot be searched
 };
 
-// Symbolic links inside the folders are not followed. Files of a person under the typed name of an older
-// program are the person's if names.json has this name.
+// Symbolic links inside the folders are not followed. A file that an older program stored under a typed name
+// belongs to the person with that name in names.json.
 Inventory take_inventory(const DataFolders& folders);
 
 // The person with this code or name. Fails with a suggestion if nothing is known about the person.

@@ -48,7 +48,7 @@ struct SkinnedHand {
     std::shared_ptr<const render::Deformation> deformation;
     float effort = 0.0F;          // 0 … 1: pallor of the skin
     float nearness = 0.0F;        // 0 … 1: fades an arm near to the eye
-    hand::Skeleton posture = {};  // before the departure that keeps the hand out of solids
+    hand::Skeleton posture = {};  // before the correction that keeps the hand out of solids
     std::shared_ptr<const std::vector<SkinPoint>> skin = nullptr;
     HandClearance clearance = {};
 };

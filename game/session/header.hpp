@@ -45,7 +45,7 @@ struct Header {
     double dt = 0.001;    // s
     std::string program;  // name and version of the writing program
 
-    // Further inputs of the ticks; none in format 1, which does not store them.
+    // Further inputs of the ticks; none in format 1, which lacks them.
     std::optional<bool> guide;                  // the guiding force towards the due joint
     std::optional<std::string> contact_models;  // their files with size and checksum; empty: no obstacles
     std::optional<force::OutputLimits> device_limits;

@@ -9,7 +9,7 @@ namespace bolt::study {
 
 namespace {
 
-// Joints that were tightened beyond their window, or damaged by it.
+// Counts the joints that were tightened beyond their window, or damaged.
 double over_torqued_joints(const analysis::SessionData& session) {
     const auto is_high = [](const lesson::JointResult& joint) {
         return joint.torque_verdict == lesson::Verdict::high ||
@@ -41,13 +41,14 @@ std::span<const MeasureInfo> objective_measure_infos() {
          "holds of a nut before its step was due or after it was done"},
         {"bumps", "Contacts with obstacles", "contacts", 1.0, 1,
          "contacts of the free wrench with anything but the due nut"},
-        {"contact_time_s", "Time in contact", "s", 1.0, 2, "sum of the times of these contacts"},
+        {"contact_time_s", "Time in contact", "s", 1.0, 2, "total duration of the contacts with obstacles"},
         {"force_rate", "Force rate", "% of maximum in 1 ms", 100.0, 2,
          "99th percentile of the change of the rendered force in a millisecond, over the device's maximum"},
         {"time_to_nut_s", "Time to the nut", "s", 1.0, 2,
-         "median over the steps with the wrench, until it holds the nut"},
+         "time from the beginning of a step with the wrench until the wrench holds the nut; median over the "
+         "steps"},
         {"nut_visible", "Nut in sight", "% of time near it", 100.0, 0,
-         "share of the time near the due nut in which 60 % of it or more is visible"}};
+         "share of the time near the due nut during which at least 60 % of the nut is visible"}};
     return infos;
 }
 

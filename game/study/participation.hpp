@@ -77,8 +77,8 @@ std::int64_t system_time();
 // The study that it is made with must outlive it.
 class Participation {
   public:
-    // Enrols a person as the next participant: makes the folder PARTICIPANTS/Pnn and its journal. The place
-    // is the smallest that no participant has who has not withdrawn. Two programs may enrol at once.
+    // Enrols a person as the next participant: makes the folder PARTICIPANTS/Pnn and its journal. Takes the
+    // smallest place that no active participant has. Two programs may enrol at once.
     static Result<Participation> enrol(const content::Study& study, const std::filesystem::path& folder,
                                        const std::string& person, bool simulated, Clock clock = system_time);
     // Continues at the step reached. `participant`: "P03". Fails if the plan was changed since the
@@ -109,19 +109,19 @@ class Participation {
     // the rest of the break or of the days until the retention test.
     Status complete();
 
-    // The settings of the due step, which has a lesson.
+    // The settings of the lesson. The due step must have one.
     [[nodiscard]] const content::StudyLesson& lesson() const;
     // Returns the folder for the session of the due step's lesson.
     Result<std::filesystem::path> begin_lesson();
     // Records the measures of the lesson, which has ended, and completes the step, or in the training
-    // counts the lesson's time. A lesson that was ended before its last step counts too; its measure
-    // `joints_ok` tells.
+    // counts the lesson's time. A lesson that was ended before its last step counts too; a low `joints_ok`
+    // shows it.
     Status end_lesson(const std::map<std::string, double>& measures);
 
     // s until the due step can be completed: of a break, or of the days until the retention test; 0: now.
     [[nodiscard]] double wait() const;
 
-    // Deletes everything that is stored about the participant except that there was one. The object must
+    // Deletes the participant's data. The number and the date of the withdrawal stay. The object must
     // not be used afterwards.
     Status withdraw();
 

@@ -62,8 +62,8 @@ void check_design(const content::Study& study, StudyCheck& check) {
             "no comparison is planned; a comparison that is chosen after seeing the data proves nothing");
     if (!study.training)
         check.weaknesses.push_back(
-            "there is no training, so the first lessons show mostly how the program is "
-            "learned");
+            "there is no training, so the first lessons differ mostly because people still learn the "
+            "program");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The lessons of a study: what they need, and their settings as the rest of the program has them.
+// Loads the assemblies of a study's lessons, converts their settings to session::LessonOptions, and checks a
+// study beyond its files.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,8 @@
 
 namespace bolt::study {
 
-// A folder or file in the study's folder, if there is one of this name; otherwise as the user would give it
-// on the command line.
+// Returns the path in the study's folder if it exists; otherwise the text unchanged, as an argument of the
+// command line.
 std::string assembly_of(const content::StudyLesson& lesson, const std::filesystem::path& study_folder);
 
 // The options that a session records, without the trainee. `assembly_law`: of the assembly.
@@ -28,7 +29,7 @@ Result<content::Assembly> load_lesson_assembly(const content::StudyLesson& lesso
 // The same seed for the same lesson of a participant on every machine.
 std::uint64_t lesson_seed(const content::Study& study, std::size_t place, std::string_view step);
 
-// What prevents the study, or makes it weaker, beyond the mistakes of its files.
+// Problems of a study whose files are valid.
 struct StudyCheck {
     std::vector<Error> errors;            // assemblies, variants and tools that do not exist
     std::vector<std::string> additions;   // texts that the laboratory has to add before the first person

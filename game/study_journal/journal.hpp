@@ -83,8 +83,7 @@ std::string person_of(const ReadJournal& journal);
 
 inline constexpr const char* journal_file_name = "journal.db";
 
-// The file in a participant's folder that is left of a participant who withdrew. While it exists, everything
-// else in the folder is to be deleted.
+// Marks the folder of a participant who withdrew. Any other file in the folder is a leftover to delete.
 inline constexpr const char* withdrawn_file_name = "withdrawn.txt";
 Status mark_withdrawn(const std::filesystem::path& participant_folder, std::int64_t time);
 }  // namespace bolt::study

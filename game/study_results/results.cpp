@@ -69,7 +69,7 @@ std::string title_of(const std::map<std::string, std::string>& titles) {
     return english != titles.end() ? english->second : titles.begin()->second;
 }
 
-// The step between the means of so many answers that one person gives.
+// The smallest difference between two scores of one person; 0: unknown.
 double answer_step(const content::Study& study, const std::string& measure) {
     const content::Questionnaire* form = study.form_of(measure);
     if (form == nullptr) return 0.0;

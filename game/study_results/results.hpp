@@ -26,7 +26,7 @@ std::string_view name(ObservationTime time);
 struct Observation {
     std::size_t participant = 0;  // index into StudyData::participants
     ObservationTime time = ObservationTime::condition;
-    std::size_t condition = no_index;  // always at the time `condition`; at others only between subjects
+    std::size_t condition = no_index;  // set for values in a condition; at other times only between subjects
     std::size_t part = no_index;       // in the order of the participant; none at other times
     std::size_t lesson = no_index;     // of the part; none: a form after the whole part
     std::string measure;
@@ -119,7 +119,8 @@ std::string results_json(const content::Study& study, const StudyData& data, con
 struct PowerOptions {
     std::size_t participants = 20, studies = 500;
     std::uint64_t seed = 1;
-    // By condition: shift of the answers in standard deviations of a participant's answers about its mean.
+    // By condition: shift of the answers, in standard deviations of one participant's answers about that
+    // participant's mean.
     std::vector<double> effects;
     double significance = 0.05;
 };
@@ -127,13 +128,12 @@ struct Power {
     const content::PlannedComparison* planned = nullptr;
     double rate = 0.0;  // share of the simulated studies in which Holm's p is below the significance
 };
-// An answer is, in units of a third of the scale's half width: a trait of the person + the effect of the
-// condition + an error, both of standard deviation 1, added to the middle of the scale, rounded to its step
-// and limited to it. Comparisons of objective measures and of retention are left out.
+// answer = middle of the scale + (trait + effect + error) · half of its width / 3, rounded to its step and
+// limited to it. The trait of the person and the error have a standard deviation of 1. Comparisons of
+// objective measures and of retention are left out.
 std::vector<Power> simulate_power(const content::Study& study, const PowerOptions& options);
 
-// The answer to an item for a latent value, as above; reversed items of the form are not turned, because
-// both ends of a scale are only names here.
+// The answer to an item for a latent value, as above. Ignores whether an item is reversed.
 double simulated_answer(const content::AnswerScale& scale, double latent);
 
 }  // namespace bolt::study

@@ -130,8 +130,9 @@ std::string description_table(const Results& results, bool objective) {
         objective ? "Measured in the lessons" : "Judged by the participants", rows);
     if (impossible)
         out +=
-            "<p class=\"note\">Impossible mean: no answers of so many people in steps of this scale have a "
-            "mean that is printed so (GRIM test, Brown and Heathers 2017). The printed value rests on other "
+            "<p class=\"note\">Impossible mean: no set of that many answers on this scale has this mean "
+            "(GRIM test, Brown and "
+            "Heathers 2017). The printed value rests on other "
             "data than the publication says.</p>\n";
     return out;
 }
@@ -221,8 +222,7 @@ std::string answer_counts(const content::Questionnaire& form, const content::Que
     return text;
 }
 
-// The answers to the forms before the lessons whose answers have a label each. Such answers are kinds, of
-// which a mean says nothing.
+// Counts of the answers to categorical items, with a label for each answer, of the forms before the lessons.
 std::string participants_table(const content::Study& study, const StudyData& data) {
     std::string rows;
     for (std::size_t i = 0; i < study.forms.size(); ++i) {

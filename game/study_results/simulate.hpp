@@ -1,6 +1,6 @@
 // Simulated participants: programs that go through every step of a study, so that its design, its data and
-// its pages can be tried before people come. Their lessons are those of simulated trainees; their answers are
-// random numbers about a stated effect of each condition. Every page that shows them says so.
+// its pages can be tried before people come. Simulated trainees play their lessons; their answers are random,
+// with a stated effect of each condition. Every page that shows them says so.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ struct SimulationOptions {
     std::uint64_t seed = 1;
     std::vector<double> effects;  // by condition, as PowerOptions::effects
     std::size_t threads = 1;      // lessons at once
-    // Plays a lesson to its end; called from several threads. It belongs to the program, because only
-    // programs know simulated trainees.
+    // Plays a lesson to its end; called from several threads. The caller supplies it, because this library
+    // does not link game/trainees.
     std::function<Result<session::LessonOutcome>(const SimulatedLesson&)> play;
 };
 // Called from several threads, one at a time, after each lesson. Returns false to stop after the lessons that

@@ -73,7 +73,7 @@ class App : public view::WindowContent {
 
     // Ends the lesson, if one runs, as it stands. Its session and the files beside it are written.
     Status end_lesson();
-    // The lesson of a study that the program's end interrupts does not count: it begins again.
+    // If the program ends during a lesson of a study, that lesson does not count: it begins again.
     Status end() override {
         interrupted_ = true;
         return end_lesson();

@@ -46,8 +46,8 @@ LessonChoice App::lesson_choice() const {
     return tour_requested_ ? tour_choice(std::move(choice)) : choice;
 }
 
-// The lesson of the study's due step. Its settings precede those of the participant, which differ from one to
-// the other.
+// The lesson of the study's due step. Its settings override those of the participant, which differ between
+// participants.
 Result<LessonRequest> App::study_request() {
     study::Participation& participation = study_->participation();
     const content::StudyLesson& lesson = participation.lesson();
@@ -132,7 +132,7 @@ Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
     return {};
 }
 
-// An error of a start is shown in the menu if there is one.
+// Shows an error of a start in the menu; without a menu it is returned.
 Status App::report_start(Status begun) {
     if (begun) return {};
     if (study_ && !begun.error().lost) {

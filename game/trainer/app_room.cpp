@@ -197,7 +197,7 @@ Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& imme
     BOLT_TRY(draw_in_room(*gpu_->context->renderer, frame, scene, place, immersive));
     if (!room_) return {};
     room_->drawn_scene = place;
-    // The real room stands still, and on walls the head is not alone.
+    // Neither the real room behind a transparent picture nor the surroundings of a wall move with the scene.
     const bool darkens = preferences_.settings.vignette && immersive.tracks_hands && !scene.transparent;
     return darkens ? draw_vignette(*gpu_->context->renderer, frame, room_->vignette, immersive) : Status{};
 }

@@ -34,8 +34,8 @@ struct Equipment {
     bool operator==(const Equipment&) const = default;
 };
 
-// The equipment of a study's lesson: `devices` in place of those of `base`, unless it is empty. The words are
-// those of --device except "auto". `free`: as --hand free.
+// The equipment of a study's lesson: `base`, with its devices replaced by `devices`, if there are any.
+// Accepts the values of --device except "auto". `free`: as --hand free.
 Equipment equipment_for(const std::vector<std::string>& devices, bool free, Equipment base);
 
 // An entry in the menu of devices.

@@ -31,8 +31,6 @@ struct PanelPointer {
     bool pressed = false;
 };
 
-// The state of a room from frame to frame. It is kept while the display is lost for a short time, so that
-// workpiece and panel stay where they are.
 // Darkens the edge of the view while the scene moves although the head does not: motion at the edge of the
 // view makes people sick.
 struct Vignette {
@@ -40,6 +38,7 @@ struct Vignette {
     double strength = 0.0;      // 0 open … 1 closed
 };
 
+// The state of a room from frame to frame. It is kept while the display is lost for a short time, so that workpiece and panel stay where they are.
 struct RoomState {
     std::optional<Pose> workpiece;  // pose of the assembly's frame; none: not placed yet
     std::optional<Pose> panel;  // pose of its centre: x right, y up, z towards the user; none: not placed yet
@@ -88,7 +87,7 @@ inline Pose registered_scene(const Pose& room_from_arm, const Pose& arm_in_scene
 // Where a ray along −z of `aim` meets the panel, px; none: it does not.
 std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim);
 
-// The keys that the buttons of the controllers stand for.
+// The keys that controller buttons trigger.
 struct HandKeys {
     platform::Key pause = platform::Key::escape, tool = platform::Key::unknown;
 };
@@ -100,7 +99,7 @@ std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& 
 // The position of an event of the pointer, px; null for other events.
 glm::dvec2* pointer_position(platform::InputEvent& event);
 
-// Changes the pointer's positions from a window, where the panel's picture covers `shown`, to the panel.
+// Converts the pointer's positions from window pixels to panel pixels. `shown`: the area of the window that shows the panel.
 void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown);
 
 // Draws the scene for each group of eyes. `scene_in_room`: the pose of the scene's frame.

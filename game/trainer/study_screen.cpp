@@ -10,6 +10,7 @@ namespace bolt::trainer {
 namespace {
 
 constexpr float study_page_width = 700.0F;     // points
+constexpr float lowest_buttons = 330.0F;       // points below the top of the page
 constexpr std::size_t most_full_labels = 7;    // answers that are drawn as a list with a label each
 constexpr std::size_t longest_comment = 4000;  // bytes
 
@@ -141,6 +142,8 @@ StudyScreen::Pressed StudyScreen::draw_buttons(const ScreenContext& context, con
     const float width = 150.0F * context.scale, room = ImGui::GetContentRegionAvail().x;
     const float left = ImGui::GetCursorPosX();
     ImGui::Dummy({0.0F, 10.0F * context.scale});
+    // On most pages the buttons are then at the same place.
+    ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), lowest_buttons * context.scale));
     if (error_)
         draw_wrapped(words::format_text(context.words, "study.not_stored", {{"why", error_->message()}}),
                      warning_text);

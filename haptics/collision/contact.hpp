@@ -80,7 +80,7 @@ struct ContactQueryResult {
 // `first_merge_distance` and doubles up to `last_merge_distance` until the kept contacts fit the output. The
 // permitted angle grows with the difference of the two distances.
 //
-// Error bound: let a motion move no point by more than `merge_stride` and be permitted by the kept contacts.
+// Error bound for a motion that the kept contacts permit and that moves no point by more than `merge_stride`:
 // A merged contact can then penetrate more than the kept one, by at most merge_angle × merge_stride plus the
 // merge distance times the angle of the motion.
 inline constexpr double merge_angle = 4.0 * pi / 180.0;  // rad

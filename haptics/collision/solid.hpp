@@ -45,8 +45,7 @@ struct Solid {
     double origin_radius = 0.0;  // m, of the sphere about the origin that contains all vertices
 };
 
-// Joins closed surfaces in the order given. Parts may touch but must not overlap: in an overlap the
-// nearest surface of one part lies inside the other part and does not lead out.
+// Joins closed surfaces in the order given. Parts may touch but must not overlap: in an overlap the normal of the nearest surface does not point out of the solid.
 Result<Solid> make_solid(std::span<const ContactMesh> parts);
 
 // The tangent plane at the closest point of a surface. As a constraint it keeps the query point on its outer

@@ -99,7 +99,7 @@ struct MechanisticState {
     JointCondition condition = JointCondition::intact;
 };
 
-// Torque that turns the nut on or off from the present state, and its slope over the angle.
+// Torque that tightens or loosens the nut from the present state, and its slope over the angle.
 struct Resistance {
     double tighten = 0.0;        // N·m
     double loosen = 0.0;         // N·m, negative if the nut holds by itself

@@ -22,7 +22,7 @@ constexpr std::string_view name(Stage stage) {
     return names[static_cast<int>(stage)];
 }
 
-// As session files store it; the name of `intact` is older.
+// The name in session files. They store `intact` as "sound", for compatibility.
 constexpr std::string_view name(JointCondition condition) {
     constexpr std::string_view names[] = {"sound", "stripped", "broken"};
     return names[static_cast<int>(condition)];

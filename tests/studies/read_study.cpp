@@ -144,7 +144,7 @@ TEST_CASE("Studies: every contradiction has its line and column") {
                   "form \"tlx\" is not presented in the conditions");
     check_mistake(R"({ "measure": "paper.stability" })",
                   R"({ "measure": "paper.stability", "retention": true })",
-                  "true },\n    { \"measure\": \"bumps\"", "which cannot tell them apart");
+                  "true },\n    { \"measure\": \"bumps\"", "the retention test cannot compare conditions");
     check_mistake(R"("mean": "6.684")", R"("mean": "6,684")", R"("6,684")", "no number");
     check_mistake(R"("id": "help")", R"("id": "he lp")", R"("he lp")", "characters that are not allowed");
     check_mistake(R"("participants": 12)", R"("participants": 0)", "0, \"sessions\"", "expected");
