@@ -1,4 +1,4 @@
-// The people who train at this station. Data about a person holds a code; the real name is in one file,
+// The people who train on this computer. Data about a person holds a code; the real name is in one file,
 // names.json, and deleting that file leaves all data usable under the codes.
 //
 //   {"format": "boltwright names 1", "people": [{"code": "T-7K3M9Q", "name": "Ada"}]}

@@ -57,7 +57,8 @@ struct RigidAlignment {
 // The rigid pose with the least sum of squared residuals, in closed form: the quaternion is the eigenvector
 // of the largest eigenvalue of a symmetric matrix (B. K. P. Horn, J. Opt. Soc. Am. A 4 (1987) 629). The scale
 // is that of S. Umeyama (IEEE Trans. PAMI 13 (1991) 376, eq. 42). Noise of standard deviation s on each axis
-// of one set changes the scale by about s / (√n · spread): 2 mm of noise on the eight corners of a box of 0.25 m by 0.35 %. Noise in `from` also lowers the scale by a factor of 1 + 3 s²/spread². Fails with an
+// of one set changes the scale by about s / (√n · spread): 2 mm of noise on the eight corners of a box of
+// 0.25 m by 0.35 %. Noise in `from` also lowers the scale by a factor of 1 + 3 s²/spread². Fails with an
 // AlignmentFaultDetail.
 Result<RigidAlignment> align_points(std::span<const PointPair> pairs, const AlignmentLimits& limits = {});
 

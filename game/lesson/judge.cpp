@@ -40,8 +40,8 @@ JointResult judge_joint(const Lesson& lesson, std::size_t index, const world::Re
         result.torque_verdict = result.torque > 0.0 ? Verdict::ok : Verdict::none;
         result.overall = result.torque_verdict;
     } else {
-        // The highest torque at which the nut turned counts even outside the joint's own step. A joint without a full tightening step
-        // is judged by its peak torque.
+        // The highest torque at which the nut turned counts even outside the joint's own step. A joint
+        // without a full tightening step is judged by its peak torque.
         result.torque = std::max(result.torque, track.turned_torque);
         if (result.torque == 0.0) result.torque = track.peak_torque;
         result.torque_verdict = within(result.torque, spec.torque);

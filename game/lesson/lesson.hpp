@@ -58,8 +58,8 @@ std::vector<LessonStep> make_plan(const content::Assembly& assembly, Task task);
 bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, double finger_torque);
 
 // The record of one joint between ticks. A hold lasts from the tick in which the hand engages the nut until
-// it releases it; an analysis::Visit may have several. The members whose comment names "this hold" are reset when a hold begins, except
-// `worked` if fingers grip the same nut again within a second.
+// it releases it; an analysis::Visit may have several. The members whose comment names "this hold" are reset
+// when a hold begins, except `worked` if fingers grip the same nut again within a second.
 struct JointTrack {
     JointResult result;
     bool snug = false;           // the snug torque has been reached

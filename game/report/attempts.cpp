@@ -290,7 +290,8 @@ std::string study_table(const AttemptList& with, const AttemptList& without, con
             p_text(adjusted[i]));
     }
     return out +
-           "</tbody></table></div>\n<p class=\"note\">Difference: the median difference over all pairs of " "one lesson with the aid and one without it (Hodges and Lehmann), and its interval from the exact "
+           "</tbody></table></div>\n<p class=\"note\">Difference: the median difference over all pairs of "
+           "one lesson with the aid and one without it (Hodges and Lehmann), and its interval from the exact "
            "distribution. p: two-sided rank sum test, exact below 100 lessons, after Holm's correction for "
            "the rows of this table. Both take the lessons as independent.</p>\n";
 }

@@ -22,7 +22,8 @@ enum class HandMode : std::uint8_t {
 // The input of a lesson: mouse and keyboard, or a station with devices.
 struct Equipment {
     std::vector<std::string> devices;  // ids, as boltwright devices lists them
-    content::StationFile station;      // settings of its devices that are in `devices`; its glove is not used
+    content::StationFile
+        station;  // applies to those of its devices that `devices` lists; the glove comes from `glove`
     std::filesystem::path wheel_config_file;  // empty: the station's, or the defaults of device::WheelConfig
     std::filesystem::path glove;              // serial port; empty: no glove
     double force_scale = 1.0;                 // 0 … 1 of the devices' maximum force

@@ -17,7 +17,8 @@ constexpr double panel_below_eyes = 0.02, panel_least_height = 0.9;  // m
 constexpr float stick_turns = 0.7F, stick_rests = 0.3F;
 constexpr double stick_raise = 0.2, max_raise = 0.4;          // m/s; m
 constexpr float pressed_above = 0.6F, released_below = 0.4F;  // of the trigger
-// Design choices. The angles are from the direction of the head, rad: the vignette is clear inside its edge and black from `vignette_blur` outside it. When it is fully open, its edge is outside the view.
+// Design choices. The angles are from the direction of the head, rad: the vignette is clear inside its edge
+// and black from `vignette_blur` outside it. When it is fully open, its edge is outside the view.
 constexpr double vignette_closed = to_radians(25.0), vignette_open = to_radians(70.0),
                  vignette_blur = to_radians(15.0);
 constexpr double vignette_closing = 0.1, vignette_opening = 0.4;         // s

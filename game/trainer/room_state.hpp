@@ -38,7 +38,9 @@ struct Vignette {
     double strength = 0.0;      // 0 open … 1 closed
 };
 
-// The state of a room from frame to frame. It is kept while the display is lost for a short time, so that workpiece and panel stay where they are.
+// The state of a room from frame to frame. It is kept while the display is lost for a short time, so that
+// workpiece and panel stay where they are. The state of a room from frame to frame. It is kept while the
+// display is lost for a short time, so that workpiece and panel stay where they are.
 struct RoomState {
     std::optional<Pose> workpiece;  // pose of the assembly's frame; none: not placed yet
     std::optional<Pose> panel;  // pose of its centre: x right, y up, z towards the user; none: not placed yet
@@ -99,7 +101,8 @@ std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& 
 // The position of an event of the pointer, px; null for other events.
 glm::dvec2* pointer_position(platform::InputEvent& event);
 
-// Converts the pointer's positions from window pixels to panel pixels. `shown`: the area of the window that shows the panel.
+// Converts the pointer's positions from window pixels to panel pixels. `shown`: the area of the window that
+// shows the panel.
 void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown);
 
 // Draws the scene for each group of eyes. `scene_in_room`: the pose of the scene's frame.

@@ -45,7 +45,8 @@ struct Solid {
     double origin_radius = 0.0;  // m, of the sphere about the origin that contains all vertices
 };
 
-// Joins closed surfaces in the order given. Parts may touch but must not overlap: in an overlap the normal of the nearest surface does not point out of the solid.
+// Joins closed surfaces in the order given. Parts may touch but must not overlap: in an overlap the normal of
+// the nearest surface does not point out of the solid.
 Result<Solid> make_solid(std::span<const ContactMesh> parts);
 
 // The tangent plane at the closest point of a surface. As a constraint it keeps the query point on its outer

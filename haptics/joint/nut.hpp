@@ -95,8 +95,8 @@ inline double drive_inertia(double stiffness, double dt) { return stiffness * dt
 // 2k = 2/√3 of the flow stress, which is a third of the hardness (D. Tabor, The Hardness of Metals, 1951).
 // The hardness is the minimum that ISO 898-2 requires for the nut's class.
 //
-// Modelling assumptions: rigid and ideally plastic, the jaw harder than the nut, no friction; a tilted face
-// bears over the length on which its gap is less than the clearance to one side.
+// Modelling assumptions: rigid and ideally plastic, the jaw harder than the nut, no friction; if the jaw is
+// tilted, the length of contact is the part where the gap is smaller than the clearance on one side.
 
 // Pa, minimum Vickers hardness of the nut that matches a bolt of this class (ISO 898-2, table of classes 5
 // to 12: a nut's class is the first number of the bolt's). For stainless nuts, which have no such table,

@@ -11,7 +11,8 @@ class ShadowPass {
   public:
     static Result<ShadowPass> create(const PassSetup& setup, std::uint32_t size);
 
-    // If light 0 casts a shadow, sets the shadow view in `frame`; returns false if it casts none. The view is fitted to the static objects, or to the moving ones if there are no static objects.
+    // If light 0 casts a shadow, sets the shadow view in `frame`; returns false if it casts none. The view is
+    // fitted to the static objects, or to the moving ones if there are no static objects.
     static bool set_shadow_view(const Scene& scene, shared::FrameData& frame);
 
     Status draw(PassContext& context);

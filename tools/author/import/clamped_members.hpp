@@ -31,8 +31,8 @@ struct InstalledBolt {
 inline constexpr double coaxial_distance = 0.1 * mm;
 inline constexpr double touching = 0.06 * mm;  // largest gap of faces that count as in contact
 
-// Returns true if the lines through p along a and through q along b agree within 0.1 mm, measured at q, and
-// 0.5°.
+// Returns true if the lines through p along a and through q along b differ by at most 0.1 mm at q and 0.5° in
+// direction.
 bool coaxial(const Vec3& p, const Vec3& a, const Vec3& q, const Vec3& b);
 
 // Returns the members from head to nut. `parts` and `poses` are indexed by node; a null part is ignored. A
