@@ -91,7 +91,6 @@ struct StudyRetention {
 inline constexpr std::string_view objective_measures[] = {
     "score",        "duration_s", "joints_ok",      "torque_error", "clamp_scatter", "over_torque",
     "order_errors", "bumps",      "contact_time_s", "force_rate",   "time_to_nut_s", "nut_visible"};
-inline constexpr std::size_t objective_measure_count = std::size(objective_measures);
 
 // One group of a comparison: a single condition, or all conditions with one level of a factor.
 struct ComparedGroup {

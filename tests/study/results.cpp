@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "content/format/embedded.hpp"
 #include "game/study_results/simulate.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/study/support.hpp"
@@ -212,6 +213,19 @@ TEST_CASE("Study results: the progress of a blind study names no condition") {
         CHECK_FALSE(has(text, "ecret"));
         CHECK(has(text, "P01"));
         CHECK(has(text, "break-1"));
+    }
+}
+
+TEST_CASE("Study results: every objective measure has a definition, a value, and its name in the schema") {
+    const auto infos = objective_measure_infos();
+    REQUIRE(infos.size() == std::size(content::objective_measures));
+    const auto values = measures_of(analysis::SessionData{});
+    CHECK(values.size() == infos.size());
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+        CHECK(infos[i].id == content::objective_measures[i]);
+        CHECK_FALSE(infos[i].definition.empty());
+        CHECK(values.contains(infos[i].id));
+        CHECK(has(std::string(content::study_schema_text()), infos[i].id));
     }
 }
 
