@@ -115,6 +115,7 @@ namespace {
 
 struct CompareOptions {
     std::string session, measured, joint, html = "out/compare.html";
+    bool same_joint = false;
 };
 
 int run_compare(const CompareOptions& options) {
@@ -125,7 +126,9 @@ int run_compare(const CompareOptions& options) {
     if (!reader) return print_error(reader.error());
     Result<analysis::MeasuredRecord> measured = analysis::read_measured(options.measured);
     if (!measured) return print_error(measured.error());
-    Result<analysis::Comparison> comparison = analysis::compare(*reader, *measured, options.joint);
+    analysis::ComparisonOptions comparing;
+    comparing.same_joint = options.same_joint;
+    Result<analysis::Comparison> comparison = analysis::compare(*reader, *measured, options.joint, comparing);
     if (!comparison) return print_error(comparison.error());
     if (Status printed = print(report::console_text(*comparison)); !printed)
         return print_error(printed.error());
@@ -150,6 +153,8 @@ void add_compare(CLI::App& app, int& exit_code) {
         ->required();
     compare->add_option("--joint", options->joint,
                         "Id of one joint; default: all joints turned in the measured direction");
+    compare->add_flag("--same-joint", options->same_joint,
+                      "Compare although the peak torques say that the record is of another joint");
     compare->add_option("--html", options->html, "HTML page to write")->capture_default_str();
     compare->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }
