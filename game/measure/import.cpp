@@ -299,6 +299,17 @@ void note_clipping(const Table& table, const Rows& rows, RigRun& run) {
             longest));
 }
 
+// Standard deviation of what the low pass removed, from the median of its magnitude: the steps where a hand
+// lets go of the wrench are not noise.
+double noise_of(const Rig& rig, const Table& table, const Rows& rows, const std::vector<double>& filtered) {
+    std::vector<double> removed;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        removed.push_back(std::abs(rig.torque.channel.value(table.columns[0][rows[i]]) - filtered[i]));
+    const auto middle = removed.begin() + static_cast<std::ptrdiff_t>(removed.size() / 2);
+    std::nth_element(removed.begin(), middle, removed.end());
+    return 1.4826 * *middle;  // of a normal distribution
+}
+
 Result<RigRun> import_run(const Rig& rig, const Table& table, const Rows& rows, std::size_t time_column,
                           const std::string& name, const AngleTrack& second) {
     RigRun run;
@@ -312,12 +323,7 @@ Result<RigRun> import_run(const Rig& rig, const Table& table, const Rows& rows, 
     const double factor = rig.torque.factor();
     BOLT_TRY_ASSIGN(auto torque, channel_values(rig, table, rows, 0, rig.torque.channel, s));
     run.torque = std::move(torque);
-    if (rig.torque.channel.low_pass > 0.0) {
-        double removed = 0.0;
-        for (std::size_t i = 0; i < rows.size(); ++i)
-            removed += square(rig.torque.channel.value(table.columns[0][rows[i]]) - run.torque[i]);
-        run.noise = factor * std::sqrt(removed / static_cast<double>(rows.size()));
-    }
+    if (rig.torque.channel.low_pass > 0.0) run.noise = factor * noise_of(rig, table, rows, run.torque);
     for (double& value : run.torque) value *= factor;
     run.time = s.time;
     BOLT_TRY(subtract_tare(rig, table, rows, s, run));

@@ -31,7 +31,7 @@ struct RigRun {
     std::vector<double> torque;      // N·m, tightening positive
     std::vector<double> u_torque;    // N·m, combined standard uncertainty
     double rate = 0.0;               // Hz
-    double noise = 0.0;              // N·m, standard deviation of what the low pass removed; 0 without one
+    double noise = 0.0;              // N·m, standard deviation, of what the low pass removed; 0 without one
     double zero = 0.0;               // N·m that the tare subtracted
     double u_angle = 0.0;            // rad, standard
     std::size_t unjoined = 0;        // samples dropped: the angle's source does not cover their time

@@ -260,6 +260,12 @@ std::string source_line(const analysis::Comparison& c) {
 
 }  // namespace
 
+std::string joint_sections(const analysis::Comparison& c) {
+    std::string out;
+    for (std::size_t j = 0; j < c.joints.size(); ++j) out += joint_section(c, j);
+    return out;
+}
+
 std::string comparison_page(const analysis::Comparison& c) {
     std::string body =
         fmt::format("<p class=\"over\">Virtual against measured torque</p>\n<h1>{}</h1>\n", escape(c.title));
@@ -272,7 +278,7 @@ std::string comparison_page(const analysis::Comparison& c) {
             "</dl>\n<p class=\"note\">";
     for (const std::string& text : remarks(c)) body += escape(text) + " ";
     body += "</p>\n";
-    for (std::size_t j = 0; j < c.joints.size(); ++j) body += joint_section(c, j);
+    body += joint_sections(c);
     if (c.joints.size() > 1 && compared_joints(c) > 0)
         body += "<h2>All joints</h2>\n" + error_table(c.errors, nullptr);
     body += fmt::format("<footer>{}</footer>\n", escape(method_text(c)));
