@@ -70,16 +70,22 @@ std::vector<SensorRow> simulate_run(const joint::JointDesign& design, double tor
     std::vector<SensorRow> rows;
     const auto every = static_cast<std::size_t>(std::max(1.0, std::round(1.0 / (model.rate * tick))));
     double after_end = 0.0;  // s since the torque was reached
-    for (std::size_t i = 0; static_cast<double>(i) * tick < longest_run && after_end < model.pause; ++i) {
+    double release = 0.0;    // rad in a tick by which the hand gives way at the end of a stroke
+    for (std::size_t i = 0;
+         static_cast<double>(i) * tick < longest_run && after_end < model.release + model.pause; ++i) {
         const double time = static_cast<double>(i) * tick;
         const bool done = after_end > 0.0 || joints[0].condition != joint::JointCondition::intact;
         Operator::Pull pull;
         if (time >= model.rest && !done) pull = hand.advance();
         if (pull.begins || !drive.engaged) drive.angle = joints[0].nut.angle;
-        drive.engaged = pull.engaged;
+        if (pull.engaged)
+            release = (drive.angle - joints[0].nut.angle) * tick / model.release;
+        else
+            drive.angle = std::max(joints[0].nut.angle, drive.angle - release);
+        drive.engaged = pull.engaged || drive.angle > joints[0].nut.angle;
         drive.angle += pull.turned;
-        joint::step_group(group, joints, pull.engaged ? 0 : -1, drive, tick);
-        const double applied = pull.engaged ? joints[0].torque : 0.0;
+        joint::step_group(group, joints, drive.engaged ? 0 : -1, drive, tick);
+        const double applied = drive.engaged ? joints[0].torque : 0.0;
         if (done || applied >= torque) after_end += tick;
         if (i % every != 0) continue;
         const double force = gain * applied / model.lever + model.force_offset + model.force_drift * time +

@@ -31,7 +31,8 @@ struct SensorModel {
     double arm_stiffness = 20000.0;    // N·m/rad, of the encoder's arm
     double stroke = to_radians(60.0);  // of the hand; varies by 15 %
     double speed = to_radians(40.0);   // rad/s, in the middle of a stroke; unsteady by 10 %
-    double pause = 0.4;                // s between strokes
+    double pause = 0.4;                // s between strokes, with the release
+    double release = 0.2;              // s in which the hand gives way at the end of a stroke
 };
 
 struct SensorRow {
