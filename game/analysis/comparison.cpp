@@ -9,6 +9,7 @@
 #include "engine/base/math.hpp"
 #include "engine/base/nearest.hpp"
 #include "game/analysis/session_data.hpp"
+#include "game/statistics/summary.hpp"
 
 namespace bolt::analysis {
 
@@ -188,14 +189,22 @@ CurveValue value_at(const TorqueCurve& curve, double angle) {
             curve.stage[part < 1.0 ? i - 1 : i]};
 }
 
-// Until finish_error(), mape holds the sum.
-void add_error(StageError& error, double relative) {
+// Until finish_error(), mape and rmse hold sums. `above`: the measured torque is not below the floor.
+void add_error(StageError& error, double difference, double actual, bool above) {
+    error.rmse += difference * difference;
+    if (!above) {
+        ++error.below;
+        return;
+    }
+    const double relative = std::abs(difference) / std::abs(actual);
     ++error.count;
     error.mre = std::max(error.mre, relative);
     error.mape += relative;
 }
 
 void finish_error(StageError& error) {
+    const std::size_t samples = error.count + error.below;
+    error.rmse = samples > 0 ? std::sqrt(error.rmse / static_cast<double>(samples)) : nan;
     error.mape = error.count > 0 ? error.mape / static_cast<double>(error.count) : nan;
     if (error.count == 0) error.mre = nan;
 }
@@ -204,6 +213,7 @@ StageError pool(const StageError& a, const StageError& b) {
     StageError sum;
     sum.below = a.below + b.below;
     for (const StageError& e : {a, b}) {
+        if (e.count + e.below > 0) sum.rmse += square(e.rmse) * static_cast<double>(e.count + e.below);
         if (e.count == 0) continue;
         sum.count += e.count;
         sum.mre = std::max(sum.mre, e.mre);
@@ -229,19 +239,50 @@ TorqueErrors torque_errors(const TorqueCurve& simulated, const TorqueCurve& meas
         }
         const CurveValue value = value_at(simulated, angle);
         const double actual = measured.torque[i];
-        StageError& stage = errors.stage[static_cast<std::size_t>(value.stage)];
-        if (std::abs(actual) < floor || actual == 0.0) {
-            ++stage.below;
-            ++errors.all.below;
-            continue;
-        }
-        const double relative = std::abs(value.torque - actual) / std::abs(actual);
-        add_error(stage, relative);
-        add_error(errors.all, relative);
+        const bool above = std::abs(actual) >= floor && actual != 0.0;
+        for (StageError* error : {&errors.stage[static_cast<std::size_t>(value.stage)], &errors.all})
+            add_error(*error, value.torque - actual, actual, above);
     }
     for (StageError& stage : errors.stage) finish_error(stage);
     finish_error(errors.all);
     return errors;
+}
+
+double slope_error(const TorqueCurve& simulated, const TorqueCurve& measured, double shift) {
+    // Sums of the angle x, the measured torque y and the simulated torque v, from the first sample on.
+    double n = 0.0, sx = 0.0, sy = 0.0, sv = 0.0, sxx = 0.0, sxy = 0.0, sxv = 0.0;
+    double x0 = 0.0;
+    for (std::size_t i = 0; i < measured.size() && simulated.size() > 1; ++i) {
+        const double angle = measured.angle[i] + shift;
+        if (angle < simulated.angle.front() || angle > simulated.angle.back()) continue;
+        const CurveValue value = value_at(simulated, angle);
+        if (value.stage != joint::Stage::linearity) continue;
+        if (n == 0.0) x0 = angle;
+        const double x = angle - x0, y = measured.torque[i], v = value.torque;
+        n += 1.0;
+        sx += x;
+        sy += y;
+        sv += v;
+        sxx += x * x;
+        sxy += x * y;
+        sxv += x * v;
+    }
+    const double rise = n * sxy - sx * sy;
+    if (n < 4.0 || !(n * sxx - sx * sx > 0.0) || !(rise > 0.0)) return nan;
+    return (n * sxv - sx * sv) / rise - 1.0;
+}
+
+std::string different_peaks(const TorqueCurve& simulated, const std::vector<MeasuredCurve>& measured) {
+    std::vector<double> peaks;
+    for (const MeasuredCurve& cycle : measured) peaks.push_back(torque_floor(cycle.curve, 1.0));
+    const double median = statistics::quartiles(peaks).median, own = torque_floor(simulated, 1.0);
+    const double ratio = std::max(own / median, median / own);
+    if (ratio <= largest_peak_ratio) return {};
+    return fmt::format(
+        "the peak torques differ by a factor of {:.2f} (virtual {:.4g} N·m, measured {:.4g} N·m); expected "
+        "at "
+        "most {:g} for one joint",
+        ratio, own, median, largest_peak_ratio);
 }
 
 TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b) {
@@ -287,18 +328,60 @@ std::vector<MeasuredCurve> measured_curves(const MeasuredRecord& measured) {
     return curves;
 }
 
+namespace {
+
+void add_errors(const TorqueCurve& simulated, const TorqueCurve& measured, const ComparisonOptions& options,
+                CycleComparison& cycle) {
+    const double shift = cycle.alignment.shift;
+    cycle.errors = torque_errors(simulated, measured, shift, torque_floor(measured, options.floor_share));
+    if (measured.direction == joint::Direction::loosen)
+        cycle.breakaway_error =
+            simulated.torque[breakaway_index(simulated)] / measured.torque[breakaway_index(measured)] - 1.0;
+    else
+        cycle.slope_error = slope_error(simulated, measured, shift);
+}
+
+// The thread of the record; none if the record does not name it.
+Result<std::optional<joint::ThreadSize>> thread_of(const MeasuredRecord& measured) {
+    if (measured.thread.empty()) return std::nullopt;
+    auto thread = joint::parse_thread(measured.thread);
+    if (thread) return *thread;
+    Error error = thread.error();
+    error.file = measured.file;
+    error.what = "the line \"# thread:\" is wrong: " + error.what;
+    return fail(std::move(error));
+}
+
+// Removes the errors of a joint that is another one.
+void drop_errors(JointComparison& joint, const std::string& why) {
+    joint.other_joint = why;
+    joint.errors = {};
+    for (CycleComparison& cycle : joint.cycles) {
+        cycle.errors = {};
+        cycle.slope_error = cycle.breakaway_error = nan;
+    }
+}
+
+std::string different_thread(const joint::ThreadSize& joint, const joint::ThreadSize& record) {
+    if (joint.thread.d == record.thread.d && joint.thread.pitch == record.thread.pitch) return {};
+    return fmt::format("the measured thread is {}×{:g}, the joint's {}×{:g}", record.size.name,
+                       record.thread.pitch * 1e3, joint.size.name, joint.thread.pitch * 1e3);
+}
+
+}  // namespace
+
 Result<JointComparison> compare_joint(std::string joint, TorqueCurve simulated,
                                       const std::vector<MeasuredCurve>& measured,
                                       const ComparisonOptions& options) {
     JointComparison result;
     result.joint = std::move(joint);
     result.simulated = std::move(simulated);
+    if (!options.same_joint) result.other_joint = different_peaks(result.simulated, measured);
     for (const MeasuredCurve& cycle : measured) {
         CycleComparison one;
         BOLT_TRY_ASSIGN(const auto alignment, align(result.simulated, cycle.curve, options.share));
         one.alignment = alignment;
-        one.errors = torque_errors(result.simulated, cycle.curve, one.alignment.shift,
-                                   torque_floor(cycle.curve, options.floor_share));
+        if (result.other_joint.empty()) add_errors(result.simulated, cycle.curve, options, one);
         result.errors = pool(result.errors, one.errors);
         result.cycles.push_back(one);
     }
@@ -312,6 +395,7 @@ Result<Comparison> compare(const session::SessionReader& session, const Measured
     if (!joint.empty() && std::find(ids.begin(), ids.end(), joint) == ids.end())
         return unknown_joint(joint, ids);
 
+    BOLT_TRY_ASSIGN(const auto thread, thread_of(measured));
     BOLT_TRY_ASSIGN(auto simulated, torque_curves(session, ids.size(), measured.direction));
 
     Comparison result;
@@ -321,12 +405,15 @@ Result<Comparison> compare(const session::SessionReader& session, const Measured
     result.variant = session.header().variant;
     result.measured_file = measured.file;
     result.source = measured.source;
+    result.thread = measured.thread;
     result.direction = measured.direction;
     result.measured = measured_curves(measured);
     result.options = options;
     for (std::size_t j = 0; j < ids.size(); ++j) {
         if (!simulated[j] || (!joint.empty() && ids[j] != joint)) continue;
+        const std::string other = thread ? different_thread(assembly.joints[j].design.thread, *thread) : "";
         BOLT_TRY_ASSIGN(auto one, compare_joint(ids[j], std::move(*simulated[j]), result.measured, options));
+        if (!other.empty()) drop_errors(one, other);
         result.errors = pool(result.errors, one.errors);
         result.joints.push_back(std::move(one));
     }

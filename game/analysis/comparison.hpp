@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
 #include "game/analysis/measured.hpp"
 #include "game/session/session_file.hpp"
@@ -85,10 +86,11 @@ Result<Alignment> align(const TorqueCurve& simulated, const TorqueCurve& measure
 // Error of the simulated torque T_v against the measured torque T_a in one stage, as in the paper of 2018:
 // relative error |T_v − T_a| / T_a, MRE its maximum and MAPE its mean.
 struct StageError {
-    std::size_t count = 0;  // samples used
-    std::size_t below = 0;  // samples excluded: |T_a| is below the floor, so a relative error is meaningless
+    std::size_t count = 0;  // samples used for the relative errors
+    std::size_t below = 0;  // samples without one: |T_a| is below the floor, so it is meaningless
     double mre = 0.0;       // NaN without samples
     double mape = 0.0;
+    double rmse = 0.0;  // N·m, root of the mean of (T_v − T_a)² of all samples, below the floor too
 };
 
 struct TorqueErrors {
@@ -113,22 +115,38 @@ TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b);
 // max |T| · share, N·m.
 double torque_floor(const TorqueCurve& measured, double share = default_floor_share);
 
+// The peaks of one joint may differ by this factor. VDI 2230 table A1: at the same use of the bolt's
+// strength, friction from 0.08 to 0.24 changes the torque by a factor of 2.1, the class from 8.8 to 12.9
+// by 1.7; two coarse sizes further (M8, M12) it is 3.4. One cause alone does not reach 3.
+inline constexpr double largest_peak_ratio = 3.0;
+
 struct ComparisonOptions {
     double share = default_alignment_share;
     double floor_share = default_floor_share;
+    bool same_joint = false;  // the user asserts that the record is of this joint: no test by its peak
 };
 
-// One run of the measured file compared with one joint.
+// One run of the measured file compared with one joint. Errors relative to the measured value, with sign;
+// NaN where there is none.
 struct CycleComparison {
     Alignment alignment;
     TorqueErrors errors;
+    double slope_error = nan;      // of the regression lines over the angles of the linear stage
+    double breakaway_error = nan;  // of the highest loosening torque
 };
+
+// The slope error of a run: both regression lines over the measured samples at which the simulated joint is
+// in its linear stage. NaN with fewer than 4 samples or without a rise.
+double slope_error(const TorqueCurve& simulated, const TorqueCurve& measured, double shift);
 
 struct JointComparison {
     std::string joint;
     TorqueCurve simulated;
     std::vector<CycleComparison> cycles;  // one for each measured curve
     TorqueErrors errors;                  // over all cycles
+    // Why the record is of another joint; its errors are then not computed, because they would have no
+    // meaning. Empty: it may be this joint.
+    std::string other_joint;
 };
 
 struct MeasuredCurve {
@@ -139,13 +157,17 @@ struct MeasuredCurve {
 struct Comparison {
     std::string session;              // file
     std::string title, law, variant;  // of the session's assembly
-    std::string measured_file, source;
+    std::string measured_file, source, thread;
     joint::Direction direction = joint::Direction::tighten;
     std::vector<MeasuredCurve> measured;
     std::vector<JointComparison> joints;
     TorqueErrors errors;  // over all joints and cycles
     ComparisonOptions options;
 };
+
+// Why the measured curves cannot be of a joint with this simulated curve: their median peak differs by more
+// than largest_peak_ratio. Empty if they can.
+std::string different_peaks(const TorqueCurve& simulated, const std::vector<MeasuredCurve>& measured);
 
 // Compares a joint's curve with the measured curves.
 Result<JointComparison> compare_joint(std::string joint, TorqueCurve simulated,

@@ -113,12 +113,11 @@ struct FilePosition {
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
 
-// The text after "# source:"; empty for other comments.
-std::string source_of(std::string_view comment) {
-    constexpr std::string_view key = "source:";
+// The text after "# <key>:"; empty for other comments.
+std::string comment_value(std::string_view comment, std::string_view key) {
     comment.remove_prefix(std::min(comment.find_first_not_of("# \t"), comment.size()));
-    if (!comment.starts_with(key)) return {};
-    comment.remove_prefix(key.size());
+    if (!comment.starts_with(key) || !comment.substr(key.size()).starts_with(':')) return {};
+    comment.remove_prefix(key.size() + 1);
     const std::size_t first = comment.find_first_not_of(" \t");
     if (first == std::string_view::npos) return {};
     const std::size_t last = comment.find_last_not_of(" \t\r");
@@ -206,7 +205,8 @@ struct CsvParser {
     Status line(std::string_view text) {
         if (is_blank(text)) return {};
         if (text[text.find_first_not_of(" \t")] == '#') {
-            if (measured.source.empty()) measured.source = source_of(text);
+            if (measured.source.empty()) measured.source = comment_value(text, "source");
+            if (measured.thread.empty()) measured.thread = comment_value(text, "thread");
             return {};
         }
         if (text.ends_with('\r')) text.remove_suffix(1);

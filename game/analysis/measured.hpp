@@ -1,7 +1,8 @@
 // A measured torque–angle record, from a CSV file.
 //
 // The first line that is neither blank nor a comment (#) names the columns. `angle_deg` and `torque_Nm` are
-// required; the optional `cycle` distinguishes several runs in one file. Other columns are ignored.
+// required; the optional `cycle` distinguishes several runs in one file. Other columns are ignored. Comments
+// may give the source ("# source: ...") and the thread of the measured joint ("# thread: M8").
 #pragma once
 
 #include <filesystem>
@@ -24,6 +25,7 @@ struct Cycle {
 struct MeasuredRecord {
     std::string file;
     std::string source;                                      // citation, shown with the data; may be empty
+    std::string thread;                                      // "M8", from a line "# thread: M8"; may be empty
     joint::Direction direction = joint::Direction::tighten;  // loosening if the torques are negative
     std::vector<Cycle> cycles;                               // in the order of the file
 

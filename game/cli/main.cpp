@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
     bolt::cli::add_report(app, exit_code);
     bolt::cli::add_export(app, exit_code);
     bolt::cli::add_compare(app, exit_code);
+    bolt::cli::add_measure(app, exit_code);
     bolt::cli::add_render(app, exit_code);
     bolt::cli::add_doctor(app, exit_code);
     bolt::cli::add_glove(app, exit_code);

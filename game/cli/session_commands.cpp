@@ -12,7 +12,9 @@
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
 #include "game/analysis/comparison.hpp"
+#include "game/analysis/session_data.hpp"
 #include "game/cli/commands.hpp"
+#include "game/measure/fit.hpp"
 #include "game/report/report.hpp"
 #include "game/session/export.hpp"
 #include "game/session/session_file.hpp"
@@ -132,18 +134,49 @@ void add_export(CLI::App& app, int& exit_code) {
 namespace {
 
 struct CompareOptions {
-    std::string session, measured, joint, html = "out/compare.html";
+    std::string session, measured, joint, html = "out/compare.html", fit;
+    bool same_joint = false;
 };
+
+// Fits the mechanistic law to the record, from the design of the compared joint, and writes the joint type.
+Status fit_measured(const CompareOptions& options, const session::SessionReader& session,
+                    const analysis::Comparison& comparison) {
+    if (comparison.joints.size() != 1)
+        return fail(ErrorCode::usage,
+                    fmt::format("--fit is given, but {} joints are compared", comparison.joints.size()),
+                    "--joint with the id of one joint");
+    const analysis::JointComparison& compared = comparison.joints.front();
+    if (!compared.other_joint.empty())
+        return fail(ErrorCode::usage,
+                    fmt::format("{} cannot be fitted: {}", compared.joint, compared.other_joint),
+                    "a record of this joint, or --same-joint if only the torques differ");
+    BOLT_TRY_ASSIGN(const auto assembly, analysis::stored_assembly(session));
+    const content::AssemblyJoint* joint = nullptr;
+    for (const content::AssemblyJoint& j : assembly.joints)
+        if (j.design.id == compared.joint) joint = &j;
+    if (joint == nullptr)
+        return fail(ErrorCode::failed, "the session has no joint " + compared.joint, "its assembly");
+    std::vector<measure::Landmarks> runs;
+    for (const analysis::MeasuredCurve& run : comparison.measured)
+        runs.push_back(measure::find_landmarks(run.curve));
+    BOLT_TRY_ASSIGN(const auto fit, measure::fit_joint(joint->design, runs, comparison.direction));
+    BOLT_TRY(write_file(options.fit,
+                        measure::joint_type_json(fit, joint->type + "-measured", joint->spec.torque.target)));
+    return print(measure::fit_text(fit) + options.fit + "\n");
+}
 
 int run_compare(const CompareOptions& options) {
     for (const std::string& input : {options.session, options.measured})
-        if (Status different = require_different_files(input, options.html); !different)
-            return print_error(different.error());
+        for (const std::string& output : {options.html, options.fit})
+            if (Status different = require_different_files(input, output); !different)
+                return print_error(different.error());
     Result<session::SessionReader> reader = session::SessionReader::open(options.session);
     if (!reader) return print_error(reader.error());
     Result<analysis::MeasuredRecord> measured = analysis::read_measured(options.measured);
     if (!measured) return print_error(measured.error());
-    Result<analysis::Comparison> comparison = analysis::compare(*reader, *measured, options.joint);
+    analysis::ComparisonOptions comparing;
+    comparing.same_joint = options.same_joint;
+    Result<analysis::Comparison> comparison = analysis::compare(*reader, *measured, options.joint, comparing);
     if (!comparison) return print_error(comparison.error());
     if (Status printed = print(report::console_text(*comparison)); !printed)
         return print_error(printed.error());
@@ -153,8 +186,10 @@ int run_compare(const CompareOptions& options) {
     if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path(), ignored);
     if (Status written = write_file(page, report::comparison_page(*comparison)); !written)
         return print_error(written.error());
-    const Status printed = print(page.string() + "\n");
-    return printed ? 0 : print_error(printed.error());
+    if (Status printed = print(page.string() + "\n"); !printed) return print_error(printed.error());
+    if (options.fit.empty()) return 0;
+    const Status fitted = fit_measured(options, *reader, *comparison);
+    return fitted ? 0 : print_error(fitted.error());
 }
 
 }  // namespace
@@ -168,6 +203,10 @@ void add_compare(CLI::App& app, int& exit_code) {
         ->required();
     compare->add_option("--joint", options->joint,
                         "Id of one joint; default: all joints turned in the measured direction");
+    compare->add_option("--fit", options->fit,
+                        "Fit friction, compliance and yield to the record, and write the joint type as JSON");
+    compare->add_flag("--same-joint", options->same_joint,
+                      "Compare although the peak torques say that the record is of another joint");
     compare->add_option("--html", options->html, "HTML page to write")->capture_default_str();
     compare->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "engine/base/math.hpp"
+#include "game/analysis/repetition.hpp"
 #include "game/plot/html.hpp"
 #include "game/plot/plot.hpp"
 
@@ -110,25 +111,61 @@ std::string error_value(const analysis::StageError& e, double value) {
     return e.count > 0 ? number(value, 5) : "–";
 }
 
-std::string error_table(const analysis::TorqueErrors& errors) {
+// " [0.012 … 0.034]"; empty without an interval.
+std::string interval_text(const statistics::Interval& i, int decimals) {
+    if (!std::isfinite(i.low)) return "";
+    return fmt::format(" [{} … {}]", number(i.low, decimals), number(i.high, decimals));
+}
+
+// "−3.2 % [−4.1 … −2.2]"
+std::string share_text(double share, const statistics::Interval& i) {
+    const statistics::Interval percent{100.0 * i.low, 100.0 * i.high};
+    return plot::signed_number(100.0 * share, 1) + " %" + interval_text(percent, 1);
+}
+
+std::string error_table(const analysis::TorqueErrors& errors, const analysis::RepetitionBands* bands) {
     std::string out =
         "<div class=\"scroll\"><table><thead><tr><th>stage</th><th class=\"n\">MRE</th><th "
-        "class=\"n\">MAPE</th>"
+        "class=\"n\">MAPE</th><th class=\"n\">RMSE, N·m</th>"
         "<th class=\"n\">samples</th><th class=\"n\">below the floor</th></tr></thead><tbody>\n";
-    const auto row = [&](std::string_view name, const analysis::StageError& e, std::string_view style) {
-        fmt::format_to(
-            std::back_inserter(out),
-            "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-            "<td class=\"n\">{}</td></tr>\n",
-            style, name, error_value(e, e.mre), error_value(e, e.mape), e.count, e.below);
+    const auto row = [&](std::string_view name, const analysis::StageError& e,
+                         const analysis::StageBand* band, std::string_view style) {
+        plot::put(out,
+                  "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}{}</td><td class=\"n\">{}{}</td>"
+                  "<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+                  style, name, error_value(e, e.mre), error_value(e, e.mape),
+                  band != nullptr ? interval_text(band->mape, 3) : "",
+                  e.count + e.below > 0 ? number(e.rmse, 3) : "–",
+                  band != nullptr ? interval_text(band->rmse, 3) : "", e.count, e.below);
     };
     for (std::size_t i = 0; i < errors.stage.size(); ++i)
-        row(joint::name(static_cast<joint::Stage>(i)), errors.stage[i], "");
-    row("all stages", errors.all, " class=\"sum\"");
+        row(joint::name(static_cast<joint::Stage>(i)), errors.stage[i],
+            bands != nullptr ? &bands->stage[i] : nullptr, "");
+    row("all stages", errors.all, bands != nullptr ? &bands->all : nullptr, " class=\"sum\"");
     return out +
            fmt::format(
                "</tbody></table></div>\n<p class=\"note\">{} samples lie outside the virtual curve.</p>\n",
                errors.outside);
+}
+
+// Slope and breakaway; empty if the runs have neither.
+std::string feature_text(const analysis::RepetitionBands& bands) {
+    std::string out;
+    if (std::isfinite(bands.slope_error))
+        out += fmt::format("slope in linearity: virtual {} against measured. ",
+                           share_text(bands.slope_error, bands.slope_interval));
+    if (std::isfinite(bands.breakaway_error))
+        out += fmt::format("breakaway: virtual {} against measured. ",
+                           share_text(bands.breakaway_error, bands.breakaway_interval));
+    return out;
+}
+
+// What a joint's section has instead of errors if the record is of another joint.
+std::string other_joint_text(const analysis::JointComparison& joint) {
+    return fmt::format(
+        "another joint, or tightened very differently: {}. Errors of torque, slope and breakaway would have "
+        "no meaning and are left out.",
+        joint.other_joint);
 }
 
 std::string cycle_table(const analysis::Comparison& c, const analysis::JointComparison& joint) {
@@ -168,6 +205,13 @@ plot::Plot overlay_plot(const analysis::Comparison& c, std::size_t index) {
     const std::string_view style = joint.cycles.size() == 1 ? "ln me1" : "ln me";
     for (std::size_t i = 0; i < joint.cycles.size(); ++i)
         plot.lines.push_back({cycle_points(c, joint, i), style, false});
+    const analysis::CurveBand band = analysis::curve_band(c.measured, joint.cycles);
+    for (const std::vector<double>* edge : {&band.low, &band.high}) {
+        plot::PlotLine line{{}, "ln me1", false};
+        for (std::size_t i = 0; i < band.angle.size(); ++i)
+            line.points.push_back({to_degrees(band.angle[i] - common_angle(joint)), (*edge)[i]});
+        if (!line.points.empty()) plot.lines.push_back(std::move(line));
+    }
     plot.lines.push_back({simulated_points(joint), "ln p2", false});
     return plot;
 }
@@ -175,11 +219,18 @@ plot::Plot overlay_plot(const analysis::Comparison& c, std::size_t index) {
 std::string joint_section(const analysis::Comparison& c, std::size_t index) {
     const analysis::JointComparison& joint = c.joints[index];
     std::string out = fmt::format("<h2>{}</h2>\n<div class=\"grid\">\n", escape(joint.joint));
-    const std::string caption =
-        fmt::format("Line: virtual. Thin: {} measured cycle{}. Shaded: stages of the virtual curve.",
-                    c.measured.size(), c.measured.size() == 1 ? "" : "s");
+    const analysis::RepetitionBands bands = analysis::repetition_bands(joint.cycles);
+    const std::string caption = fmt::format(
+        "Line: virtual. Thin: {} measured cycle{}.{} Shaded: stages of the virtual curve.", c.measured.size(),
+        c.measured.size() == 1 ? "" : "s",
+        c.measured.size() >= analysis::min_repetitions ? " Pair of lines: 95 % interval of their mean." : "");
     out += plot::figure("", plot::draw(overlay_plot(c, index)), escape(caption));
-    out += "<div>" + error_table(joint.errors) + "</div></div>\n" + cycle_table(c, joint);
+    if (!joint.other_joint.empty())
+        return out + "<div><p><strong>" + escape(other_joint_text(joint)) + "</strong></p></div></div>\n";
+    out += "<div>" + error_table(joint.errors, &bands);
+    if (const std::string features = feature_text(bands); !features.empty())
+        out += "<p>" + escape(features) + "</p>\n";
+    out += "</div></div>\n" + cycle_table(c, joint);
     if (c.joints.size() > 1 || c.measured.size() < 2) return out;
     const CurveExtent extent = curve_extent(c, joint);
     out += "<h2>Cycle by cycle</h2>\n<div class=\"grid tiny\">\n";
@@ -197,11 +248,23 @@ std::string joint_section(const analysis::Comparison& c, std::size_t index) {
     return out;
 }
 
+// Joints that the record may be of.
+std::size_t compared_joints(const analysis::Comparison& c) {
+    return static_cast<std::size_t>(
+        std::count_if(c.joints.begin(), c.joints.end(), [](const auto& j) { return j.other_joint.empty(); }));
+}
+
 std::string source_line(const analysis::Comparison& c) {
     return c.source.empty() ? "" : fmt::format("Measured by {}", c.source);
 }
 
 }  // namespace
+
+std::string joint_sections(const analysis::Comparison& c) {
+    std::string out;
+    for (std::size_t j = 0; j < c.joints.size(); ++j) out += joint_section(c, j);
+    return out;
+}
 
 std::string comparison_page(const analysis::Comparison& c) {
     std::string body =
@@ -215,8 +278,9 @@ std::string comparison_page(const analysis::Comparison& c) {
             "</dl>\n<p class=\"note\">";
     for (const std::string& text : remarks(c)) body += escape(text) + " ";
     body += "</p>\n";
-    for (std::size_t j = 0; j < c.joints.size(); ++j) body += joint_section(c, j);
-    if (c.joints.size() > 1) body += "<h2>All joints</h2>\n" + error_table(c.errors);
+    body += joint_sections(c);
+    if (c.joints.size() > 1 && compared_joints(c) > 0)
+        body += "<h2>All joints</h2>\n" + error_table(c.errors, nullptr);
     body += fmt::format("<footer>{}</footer>\n", escape(method_text(c)));
     return plot::page(c.title + " – virtual against measured", body);
 }
@@ -248,13 +312,10 @@ std::vector<std::string> remarks(const analysis::Comparison& c) {
     }
     texts.push_back(fmt::format("Highest torque: measured {} N·m, virtual {} N·m.", span_text(least, most),
                                 span_text(virtual_least, virtual_most)));
-    const double ratio =
-        std::max(virtual_most / std::max(least, 1e-12), most / std::max(virtual_least, 1e-12));
-    if (ratio > 3.0)
-        texts.push_back(
-            fmt::format("The peaks differ by a factor of up to {}: these are not the same joint, and the "
-                        "relative errors show it.",
-                        number(ratio, 1)));
+    for (const analysis::JointComparison& joint : c.joints)
+        if (!joint.other_joint.empty())
+            texts.push_back(fmt::format("{}: {}", joint.joint, other_joint_text(joint)));
+    if (compared_joints(c) == 0) return texts;
     for (std::size_t i = 0; i < c.errors.stage.size(); ++i) {
         const analysis::StageError& stage = c.errors.stage[i];
         if (stage.count == 0)
@@ -276,9 +337,14 @@ std::string method_text(const analysis::Comparison& c) {
         "to match the virtual one {}. "
         "Error: |virtual − measured| / |measured|; MRE is its maximum, MAPE its mean; stages are those of "
         "the virtual curve. "
-        "Samples below {} % of their run’s highest measured torque are left out, and so are angles that the "
-        "virtual curve does not have. Virtual torque: at the wrench, true and unscaled, law “{}”.",
-        aligned, number(100.0 * c.options.floor_share, 1), c.law);
+        "RMSE is the root of their mean square in N·m. "
+        "Samples below {} % of their run’s highest measured torque count for the RMSE only; angles that the "
+        "virtual curve does not have are left out. Brackets: 95 % interval over the repetitions, bootstrap "
+        "of "
+        "whole runs with the seed {}, from {} runs on. Virtual torque: at the wrench, true and unscaled, law "
+        "“{}”.",
+        aligned, number(100.0 * c.options.floor_share, 1), analysis::band_seed, analysis::min_repetitions,
+        c.law);
 }
 
 std::string console_text(const analysis::Comparison& c) {
@@ -288,24 +354,31 @@ std::string console_text(const analysis::Comparison& c) {
                        c.measured.size() == 1 ? "" : "s",
                        c.direction == joint::Direction::tighten ? "tightening" : "loosening", c.joints.size(),
                        c.joints.size() == 1 ? "" : "s", c.law);
-    out += fmt::format("{:<12} {:<12} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "joint", "stage", "MRE", "MAPE",
-                       "samples", "floor", "outside");
+    if (compared_joints(c) > 0)
+        out += fmt::format("{:<12} {:<12} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "joint", "stage", "MRE",
+                           "MAPE", "RMSE,N·m", "samples", "floor", "outside");
     const auto rows = [&](const std::string& joint, const analysis::TorqueErrors& errors) {
         const auto row = [&](std::string_view stage, const analysis::StageError& e,
                              const std::string& outside) {
             const auto value = [&](double v) {
                 return e.count > 0 ? fmt::format("{:.5f}", v) : std::string("-");
             };
-            out += fmt::format("{:<12} {:<12} {:>9} {:>9} {:>8} {:>8} {:>8}\n", joint, stage, value(e.mre),
-                               value(e.mape), e.count, e.below, outside);
+            out +=
+                fmt::format("{:<12} {:<12} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", joint, stage, value(e.mre),
+                            value(e.mape), e.count + e.below > 0 ? fmt::format("{:.3f}", e.rmse) : "-",
+                            e.count, e.below, outside);
         };
         for (std::size_t i = 0; i < errors.stage.size(); ++i)
             row(joint::name(static_cast<joint::Stage>(i)), errors.stage[i], "");
         row("all", errors.all, fmt::format("{}", errors.outside));
     };
-    for (const analysis::JointComparison& joint : c.joints) rows(joint.joint, joint.errors);
-    if (c.joints.size() > 1) rows("all", c.errors);
-    out += "\n";
+    for (const analysis::JointComparison& joint : c.joints)
+        if (joint.other_joint.empty()) rows(joint.joint, joint.errors);
+    if (c.joints.size() > 1 && compared_joints(c) > 0) rows("all", c.errors);
+    if (compared_joints(c) > 0) out += "\n";
+    for (const analysis::JointComparison& joint : c.joints)
+        if (const std::string text = feature_text(analysis::repetition_bands(joint.cycles)); !text.empty())
+            out += joint.joint + " " + text + "\n";
     for (const std::string& text : remarks(c)) out += text + "\n";
     return out + method_text(c) + "\n";
 }

@@ -57,11 +57,34 @@ TEST_CASE("Comparison page: names with markup are escaped") {
     CHECK_FALSE(has(page, "<script"));
 }
 
-TEST_CASE("Comparison page: a remark names peaks that do not match") {
-    Comparison c = comparison_of(1, "rig");
-    CHECK_FALSE(has(console_text(c), "factor"));
-    for (double& torque : c.measured[0].curve.torque) torque *= 0.02;
-    CHECK(has(console_text(c), "The peaks differ by a factor of up to 5"));
+TEST_CASE("Comparison page: a record of another joint has a label and no errors") {
+    Comparison c = comparison_of(4, "rig");
+    CHECK_FALSE(has(console_text(c), "another joint"));
+    CHECK(has(console_text(c), "slope in linearity: virtual"));
+    CHECK(has(comparison_page(c), " … "));
+    std::vector<MeasuredCurve> small = c.measured;
+    for (MeasuredCurve& curve : small)
+        for (double& torque : curve.curve.torque) torque *= 0.02;
+    auto joint = analysis::compare_joint("B1", c.joints[0].simulated, small);
+    REQUIRE(joint);
+    CHECK(has(joint->other_joint, "differ by a factor of 5"));
+    CHECK(joint->errors.all.count == 0);
+    c.measured = small;
+    c.joints = {*joint};
+    c.errors = joint->errors;
+    for (const std::string& text : {console_text(c), comparison_page(c)}) {
+        CHECK(has(text, "another joint, or tightened very differently: the peak torques differ by a factor of 5"));
+        CHECK_FALSE(has(text, "MAPE 0"));
+        CHECK_FALSE(has(text, "all stages"));
+    }
+    CHECK(markup_fault(comparison_page(c)) == "");
+
+    analysis::ComparisonOptions asserted;
+    asserted.same_joint = true;
+    joint = analysis::compare_joint("B1", c.joints[0].simulated, small, asserted);
+    REQUIRE(joint);
+    CHECK(joint->other_joint.empty());
+    CHECK(joint->errors.all.count > 0);
 }
 
 TEST_CASE("Comparison page: closed-form curves have small errors, and every sample is counted") {

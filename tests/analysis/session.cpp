@@ -80,6 +80,22 @@ TEST_CASE("Comparison: a session against a rig with the same curve") {
     CHECK(weaker->errors.all.mape == doctest::Approx(0.1).epsilon(0.05));
 }
 
+TEST_CASE("Comparison: a record of another thread has no errors, however equal its torques are") {
+    const Loosened session;
+    const Result<session::SessionReader> reader = session::SessionReader::open(session.path);
+    REQUIRE(reader);
+    MeasuredRecord measured = rig(30.0, 1.0);
+    measured.thread = "M8x1";
+    const Result<Comparison> c = analysis::compare(*reader, measured, "");
+    REQUIRE_MESSAGE(c, (c ? "" : c.error().message()));
+    CHECK(c->joints[0].other_joint == "the measured thread is M8×1, the joint's M8×1.25");
+    CHECK(c->errors.all.count == 0);
+    measured.thread = "M9";
+    const Result<Comparison> unknown = analysis::compare(*reader, measured, "");
+    REQUIRE_FALSE(unknown.has_value());
+    CHECK(unknown.error().message().starts_with("rig.csv: the line \"# thread:\" is wrong: "));
+}
+
 TEST_CASE("Comparison: errors name the joint and the direction") {
     const Loosened session;
     const Result<session::SessionReader> reader = session::SessionReader::open(session.path);

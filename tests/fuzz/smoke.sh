@@ -32,6 +32,7 @@ smoke displays 15000 -dict="$here/displays.dict" -max_len=4096 "$bin/../corpus/d
 smoke pvx 25000 -dict="$here/pvx.dict" -max_len=4096 "$bin/../corpus/pvx"
 smoke questionnaire 15000 -dict="$here/questionnaire.dict" -max_len=4096 "$bin/../corpus/questionnaire"
 smoke study 10000 -dict="$here/study.dict" -max_len=4096 "$bin/../corpus/study"
+smoke rig 15000 -max_len=4096 "$bin/../corpus/rig"
 smoke dtrack 100000 -dict="$here/dtrack.dict" -max_len=1024 "$bin/../corpus/dtrack"
 smoke scene_stream 50000 -max_len=2048
 smoke report 100000 -max_len=512

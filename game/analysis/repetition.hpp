@@ -1,0 +1,46 @@
+// Confidence bands over the repetitions of a measured run. A repetition is the unit that varies from bolt to
+// bolt, so whole repetitions are resampled, never single samples of a curve, which depend on each other.
+//
+// All intervals are percentile bootstrap intervals of 95 % (statistics/summary.hpp) with the fixed seed
+// `band_seed`, so equal files give equal pages. With n repetitions they describe the mean over repetitions;
+// below `min_repetitions` they are not computed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "game/analysis/comparison.hpp"
+#include "game/statistics/summary.hpp"
+
+namespace bolt::analysis {
+
+inline constexpr std::size_t min_repetitions = 4;
+inline constexpr std::uint64_t band_seed = 1;
+
+struct StageBand {
+    statistics::Interval mape, rmse;  // NaN: not enough repetitions with samples
+};
+
+struct RepetitionBands {
+    std::size_t repetitions = 0;
+    std::array<StageBand, joint::stage_count> stage;
+    StageBand all;
+    // Means over the repetitions that have the value, and their intervals; NaN without one.
+    double slope_error = nan, breakaway_error = nan;
+    statistics::Interval slope_interval, breakaway_interval;
+};
+
+RepetitionBands repetition_bands(std::span<const CycleComparison> cycles);
+
+// The mean measured torque with its interval, at angles of the simulated curve that all repetitions reach.
+struct CurveBand {
+    std::vector<double> angle;            // rad, ascending; empty: not enough repetitions
+    std::vector<double> mean, low, high;  // N·m
+};
+
+CurveBand curve_band(std::span<const MeasuredCurve> measured, std::span<const CycleComparison> cycles);
+
+}  // namespace bolt::analysis

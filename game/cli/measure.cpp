@@ -1,0 +1,164 @@
+// boltwright measure: brings measurements of a test rig into the form that `compare` reads.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "content/format/assembly.hpp"
+#include "engine/base/file.hpp"
+#include "engine/base/result.hpp"
+#include "game/analysis/comparison.hpp"
+#include "game/analysis/measured.hpp"
+#include "game/cli/commands.hpp"
+#include "game/measure/import.hpp"
+#include "game/measure/simulated_rig.hpp"
+#include "game/report/report.hpp"
+#include "haptics/joint/group.hpp"
+
+namespace bolt::cli {
+
+namespace {
+
+struct ImportOptions {
+    std::string rig;
+    std::vector<std::string> files;
+    std::string out;
+};
+
+int run_measure_import(const ImportOptions& options) {
+    const measure::LoadedRig loaded = measure::load_rig(options.rig);
+    if (!loaded.ok()) return print_error(loaded.errors);
+    std::vector<measure::RigRun> runs;
+    for (const std::string& file : options.files) {
+        if (Status different = require_different_files(file, options.out); !different)
+            return print_error(different.error());
+        Result<std::vector<measure::RigRun>> imported = measure::import_file(loaded.rig, file);
+        if (!imported) return print_error(imported.error());
+        for (measure::RigRun& run : *imported) runs.push_back(std::move(run));
+    }
+    measure::name_uniquely(runs);
+    if (Status written = write_file(options.out, measure::record_csv(loaded.rig, runs)); !written)
+        return print_error(written.error());
+    const Status printed = print(measure::summary_text(loaded.rig, runs) + options.out + "\n");
+    return printed ? 0 : print_error(printed.error());
+}
+
+void add_measure_import(CLI::App& measure, int& exit_code) {
+    auto options = std::make_shared<ImportOptions>();
+    CLI::App* command = measure.add_subcommand(
+        "import", "Compute torque over angle from the files of a test rig, with uncertainty and landmarks");
+    command->add_option("rig", options->rig, "Description of the rig's channels (docs/measurement.md)")
+        ->required();
+    command->add_option("files", options->files, "CSV files of the runs, all in one direction")->required();
+    command->add_option("--out", options->out, "CSV record to write, for boltwright compare")->required();
+    command->callback([options, &exit_code] { exit_code = run_measure_import(*options); });
+}
+
+struct SimulateOptions {
+    std::string assembly = "zq350", out = "out/simulated";
+    std::vector<std::string> variants;
+    std::uint64_t seed = 1;
+};
+
+// Writes the sensor data of one run for each joint, and imports it again from the disk, as a laboratory's
+// data would be.
+Result<analysis::MeasuredRecord> simulate_record(const content::Assembly& assembly,
+                                                 const std::filesystem::path& folder, std::uint64_t seed) {
+    std::error_code ignored;  // write_file reports the error
+    std::filesystem::create_directories(folder, ignored);
+    const measure::SensorModel model;
+    const std::filesystem::path rig_file = folder / "rig.json", record_file = folder / "record.csv";
+    const std::string title = fmt::format("Simulated rig, {} {}", assembly.name, assembly.variant);
+    BOLT_TRY(write_file(rig_file, measure::simulated_rig_json(model, title, "")));
+    const measure::LoadedRig rig = measure::load_rig(rig_file);
+    if (!rig.ok()) return fail(rig.errors.front());
+    std::vector<measure::RigRun> runs;
+    for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+        const content::AssemblyJoint& joint = assembly.joints[i];
+        const std::filesystem::path file = folder / (joint.design.id + ".csv");
+        const auto rows =
+            measure::simulate_run(joint.design, joint.spec.torque.target, seed * 1000 + i, model);
+        BOLT_TRY(write_file(file, measure::sensor_csv(rows)));
+        BOLT_TRY_ASSIGN(auto imported, measure::import_file(rig.rig, file));
+        for (measure::RigRun& run : imported) runs.push_back(std::move(run));
+    }
+    measure::name_uniquely(runs);
+    BOLT_TRY(write_file(record_file, measure::record_csv(rig.rig, runs)));
+    BOLT_TRY(write_file(folder / "summary.txt", measure::summary_text(rig.rig, runs)));
+    return analysis::read_measured(record_file);
+}
+
+// The published law as the virtual joint, against the record.
+Result<analysis::Comparison> compare_published(const content::Assembly& assembly,
+                                               const analysis::MeasuredRecord& record) {
+    analysis::TorqueCurveBuilder builder(joint::Direction::tighten);
+    for (const joint::CurveSample& s :
+         joint::torque_angle_curve(joint::make_published_group(assembly.published), {}))
+        builder.add(s.angle, s.torque, s.stage);
+    analysis::Comparison c;
+    c.title = assembly.name;
+    c.law = "published";
+    c.variant = assembly.variant;
+    c.measured_file = record.file;
+    c.source = record.source;
+    c.measured = analysis::measured_curves(record);
+    BOLT_TRY_ASSIGN(auto joint,
+                    analysis::compare_joint("published law", builder.finish(), c.measured, c.options));
+    c.errors = joint.errors;
+    c.joints.push_back(std::move(joint));
+    return c;
+}
+
+int run_measure_simulate(SimulateOptions options) {
+    if (options.variants.empty()) {
+        const content::LoadedAssembly loaded = content::load_assembly(options.assembly);
+        if (!loaded.ok()) return print_error(loaded.errors);
+        for (const content::AssemblyVariant& v : loaded.assembly.variants) options.variants.push_back(v.name);
+        if (options.variants.empty()) options.variants.emplace_back();
+    }
+    const std::filesystem::path out(options.out);
+    std::vector<analysis::Comparison> materials;
+    for (const std::string& variant : options.variants) {
+        const content::LoadedAssembly loaded = content::load_assembly(options.assembly, variant);
+        if (!loaded.ok()) return print_error(loaded.errors);
+        const auto record = simulate_record(loaded.assembly, out / variant, options.seed);
+        if (!record) return print_error(record.error());
+        Result<analysis::Comparison> comparison = compare_published(loaded.assembly, *record);
+        if (!comparison) return print_error(comparison.error());
+        materials.push_back(std::move(*comparison));
+    }
+    const std::filesystem::path page = out / "table2.html";
+    if (Status written = write_file(page, report::paper_table_page(materials)); !written)
+        return print_error(written.error());
+    const Status printed = print(report::paper_table_text(materials) + "\n" + page.string() + "\n");
+    return printed ? 0 : print_error(printed.error());
+}
+
+void add_measure_simulate(CLI::App& measure, int& exit_code) {
+    auto options = std::make_shared<SimulateOptions>();
+    CLI::App* command = measure.add_subcommand("simulate",
+                                               "Simulate the sensor data of a rig with the mechanistic law, "
+                                               "import it, and compare the published law");
+    command->add_option("assembly", options->assembly, "Folder, file, or name under content/assemblies")
+        ->capture_default_str();
+    command->add_option("--variant", options->variants, "Material variants; default: all of the assembly");
+    command->add_option("--seed", options->seed, "Seed of bolts, operator and sensors")
+        ->check(CLI::Range(0, 1'000'000))
+        ->capture_default_str();
+    command->add_option("--out", options->out, "Folder to write into")->capture_default_str();
+    command->callback([options, &exit_code] { exit_code = run_measure_simulate(*options); });
+}
+
+}  // namespace
+
+void add_measure(CLI::App& app, int& exit_code) {
+    CLI::App* measure = app.add_subcommand("measure", "Measurements of a test rig");
+    measure->require_subcommand(1);
+    add_measure_import(*measure, exit_code);
+    add_measure_simulate(*measure, exit_code);
+}
+
+}  // namespace bolt::cli

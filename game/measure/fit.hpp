@@ -1,0 +1,64 @@
+// Fits friction, compliance and the yield load of a joint design to measured tightening or loosening runs, as
+// far as torque and angle determine them. Clamp force is not measured, so most quantities appear as products
+// only; the result says which assumption separates them.
+//
+// Tightening: T = F L (L lever of tightening) and F = (θ P/2π)/δ, so the slope of the linear part is
+//
+//   k = L (P/2π) / δ                                                                   (1)
+//
+// and the torque at which yield begins is T_y = F_y L, with the force F_y at which the tensile and torsional
+// stress of a bolt of the design's class reaches its limit. F_y depends on the friction too:
+//
+//   T_y = F_y(μ) L(μ)                                                                  (2)
+//
+// With yield, (2) gives the friction μ (one coefficient for thread and bearing) and (1) the compliance δ.
+// Without yield, the friction stays that of the design and (1) gives δ. A loosening run gives the preload at
+// the design's friction only: T_off = r F L_off.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "game/measure/landmarks.hpp"
+#include "haptics/joint/design.hpp"
+
+namespace bolt::measure {
+
+// Mean of the runs and the standard deviation between them.
+struct FittedValue {
+    double mean = 0.0, deviation = 0.0;
+    std::size_t runs = 0;
+};
+
+struct JointFit {
+    joint::JointDesign design;             // with the fitted values
+    std::optional<FittedValue> slope;      // N·m/rad
+    std::optional<FittedValue> yield;      // N·m at which yield begins
+    std::optional<FittedValue> breakaway;  // N·m, positive
+    std::optional<FittedValue> running;    // N·m, of the free nut
+    double friction = 0.0;                 // of thread and bearing
+    bool friction_fitted = false;          // otherwise it is the design's
+    double compliance = 0.0;               // m/N; 0: not fitted
+    double members_E = 0.0;                // Pa, of all members, that gives the compliance; 0: none gives it
+    double preload = 0.0;                  // N, from the breakaway at the design's friction; loosening only
+    std::vector<std::string> unknown;      // what the data cannot tell, one sentence each
+};
+
+// The torque at which the mechanistic law of this design begins to yield (half of the linear slope), N·m, if
+// thread and bearing have this friction.
+double yield_torque(const joint::JointDesign& design, double friction);
+
+// `runs`: landmarks of the runs of one direction. Fails without a linear part (tightening).
+Result<JointFit> fit_joint(const joint::JointDesign& design, std::span<const Landmarks> runs,
+                           joint::Direction direction);
+
+// A fragment of an assembly file to paste: the materials of the members, and the joint type `name` with all
+// properties of the design. Its specification has only the target torque (N·m).
+std::string joint_type_json(const JointFit& fit, const std::string& name, double target_torque);
+
+// What was fitted and what the data cannot tell, for the terminal.
+std::string fit_text(const JointFit& fit);
+
+}  // namespace bolt::measure
