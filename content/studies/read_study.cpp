@@ -397,15 +397,29 @@ LoadedStudy load_study(const std::filesystem::path& folder, const std::filesyste
     return loaded;
 }
 
+namespace {
+
+bool has_texts(const Questionnaire& form, const std::string& language) {
+    if (!missing_texts(form, language).empty()) return false;
+    const auto has = [&](const AnswerLabels& labels) { return labels.empty() || labels.contains(language); };
+    return has(form.answer_scale.labels) &&
+           std::all_of(form.items.begin(), form.items.end(),
+                       [&](const QuestionnaireItem& item) { return has(item.labels); });
+}
+
+}  // namespace
+
 std::vector<std::string> complete_languages(const Study& study) {
+    std::size_t statements = 0;
+    for (const auto& [language, texts] : study.consent) statements = std::max(statements, texts.size());
     std::vector<std::string> languages;
     for (const auto& title : study.titles) {
         const std::string& language = title.first;
-        const bool reads = study.information.contains(language) && study.consent.contains(language);
+        const auto consent = study.consent.find(language);
+        const bool reads = study.information.contains(language) && consent != study.consent.end() &&
+                           consent->second.size() == statements;
         const bool forms = std::all_of(study.questionnaires.begin(), study.questionnaires.end(),
-                                       [&](const Questionnaire& questionnaire) {
-                                           return missing_texts(questionnaire, language).empty();
-                                       });
+                                       [&](const Questionnaire& form) { return has_texts(form, language); });
         if (reads && forms) languages.push_back(language);
     }
     return languages;

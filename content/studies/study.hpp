@@ -150,9 +150,9 @@ LoadedStudy load_study(const std::filesystem::path& folder, const std::filesyste
 inline constexpr const char* study_file_name = "study.json";
 inline constexpr const char* forms_folder_name = "questionnaires";
 
-// Languages in which a participant can read everything: the title, the information, the consent, and every
-// item of every form. A form that ships without texts is complete in no language until the laboratory adds
-// them.
+// Languages in which a participant can read everything: the title, the information, every statement of the
+// consent, and every item and label of every form. A form that ships without texts is complete in no language
+// until the laboratory adds them.
 std::vector<std::string> complete_languages(const Study& study);
 
 // Orders of conditions (order.cpp).

@@ -96,7 +96,7 @@ Result<analysis::Comparison> compare_published(const content::Assembly& assembly
                                                const analysis::MeasuredRecord& record) {
     analysis::TorqueCurveBuilder builder(joint::Direction::tighten);
     for (const joint::CurveSample& s :
-         joint::torque_angle_curve(joint::make_published_group(assembly.published), {}))
+         joint::torque_angle_curve(joint::make_published_group({assembly.joints.front().published.law}), {}))
         builder.add(s.angle, s.torque, s.stage);
     analysis::Comparison c;
     c.title = assembly.name;

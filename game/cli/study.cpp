@@ -32,7 +32,7 @@ struct StudyArguments {
     bool yes = false, quiet = false;
     std::string mean;
     std::size_t n = 0;
-    double step = 1.0;
+    double step = 1.0, low = 0.0;
 };
 
 std::vector<std::string> example_names() {
@@ -74,6 +74,10 @@ int run_new(const StudyArguments& options) {
     const fs::path forms = content::content_folder() / "questionnaires";
     const content::LoadedStudy study = content::load_study(from, forms);
     if (!study.ok()) return print_error(study.errors);
+    for (const content::StudyForm& form : study.study.forms)
+        if (const fs::path own = to / content::forms_folder_name / (form.id + ".json");
+            fs::exists(own, problem))
+            return print_error({ErrorCode::usage, "there is a form already", "a new folder", own.string()});
     fs::create_directories(to / content::forms_folder_name, problem);
     if (problem)
         return print_error({ErrorCode::failed, "cannot be created: " + problem.message(), {}, to.string()});
@@ -147,6 +151,7 @@ int run_results(const StudyArguments& options) {
     const fs::path json = options.json.empty() ? folder / "results.json" : fs::path(options.json);
     for (const auto& [path, text] : {std::pair(html, study::results_page(*study, *data, results)),
                                      std::pair(csv, study::results_csv(*study, *data)),
+                                     std::pair(csv.parent_path() / "answers.csv", study::answers_csv(*data)),
                                      std::pair(json, study::results_json(*study, *data, results))})
         if (Status written = write_file(path, text); !written) return print_error(written.error());
     const Status printed = print(fmt::format("{} participants, {} complete, {} withdrew\n{}\n{}\n{}\n",
@@ -186,8 +191,10 @@ Result<session::LessonOutcome> play_simulated(const study::SimulatedLesson& less
     BOLT_TRY_ASSIGN(train.trainee, trainees::find_profile(profiles[lesson.person % profiles.size()]));
     train.lesson.trainee_profile = train.trainee.name;
     if (lesson.view_help) train.view_help = view::make_view_helper();
-    return trainees::train(lesson.assembly, train, lesson.file,
-                           [](const trainees::TrainingProgress&) { return !interrupted(); });
+    BOLT_TRY_ASSIGN(auto outcome, trainees::train(lesson.assembly, train, lesson.file,
+                                                  [](const auto&) { return !interrupted(); }));
+    if (interrupted()) return fail(ErrorCode::failed, "the simulation was interrupted");
+    return outcome;
 }
 
 int run_simulate(const StudyArguments& options) {
@@ -237,16 +244,14 @@ int run_power(const StudyArguments& options) {
 }
 
 int run_withdraw(const StudyArguments& options) {
-    const Result<content::Study> study = load_study_folder(options.folder);
-    if (!study) return print_error(study.error());
     if (!options.yes)
         return print_error(
             {ErrorCode::usage,
              fmt::format("everything that {} answered and did is deleted", options.participant), "--yes"});
-    auto participation = study::Participation::resume(*study, options.folder, options.participant, true);
-    if (!participation) return print_error(participation.error());
-    if (Status done = participation->withdraw(); !done) return print_error(done.error());
-    const Status printed = print(fmt::format("{} withdrew; everything is deleted\n", options.participant));
+    if (Status done = study::withdraw(options.folder, options.participant, study::system_time()); !done)
+        return print_error(done.error());
+    const Status printed = print(
+        fmt::format("{} withdrew; answers, recordings and results pages are deleted\n", options.participant));
     return printed ? 0 : print_error(printed.error());
 }
 
@@ -257,7 +262,7 @@ int run_grim(const StudyArguments& options) {
         return print_error({ErrorCode::usage, "--mean: is no number", "the printed mean, such as 6.684"});
     const std::size_t dot = options.mean.find('.');
     const int decimals = dot == std::string::npos ? 0 : static_cast<int>(options.mean.size() - dot - 1);
-    const bool possible = statistics::is_possible_mean(mean, decimals, options.n, options.step);
+    const bool possible = statistics::is_possible_mean(mean, decimals, options.n, options.step, options.low);
     const Status printed =
         print(fmt::format("{}: {} answers in steps of {} {} have this mean\n", options.mean, options.n,
                           options.step, possible ? "can" : "cannot"));
@@ -344,6 +349,7 @@ void add_study(CLI::App& app, int& exit_code) {
                                  options, exit_code, run_grim);
     grim->add_option("--mean", options->mean, "As printed, with all decimals")->required();
     grim->add_option("--n", options->n, "Number of answers")->required()->check(CLI::Range(1, 100000));
+    grim->add_option("--low", options->low, "Lowest answer")->capture_default_str();
     grim->add_option("--step", options->step, "Difference of neighbouring answers")
         ->capture_default_str()
         ->check(CLI::Range(1e-6, 1e6));

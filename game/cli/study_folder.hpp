@@ -1,4 +1,4 @@
-// What the commands of boltwright study share.
+// Shared by the commands of boltwright study.
 #pragma once
 
 #include <filesystem>

@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "content/words/words.hpp"
 #include "engine/base/file.hpp"
+#include "engine/platform/window.hpp"
 #include "game/cli/commands.hpp"
 #include "game/cli/study_folder.hpp"
 #include "game/cli/train_arguments.hpp"
@@ -58,10 +60,29 @@ Status run(const StudyRunArguments& options) {
     BOLT_TRY_ASSIGN(const auto study, load_study_folder(options.folder));
     const study::StudyCheck check = study::check_study(study, options.folder);
     if (!check.errors.empty()) return fail(check.errors.front());
-    if (content::complete_languages(study).empty())
-        return fail(ErrorCode::bad_content, "there is no language in which everything can be read",
-                    "what `boltwright study check` says is to be added");
+    const std::vector<std::string> own = words::languages(words::words_folder());
+    const std::vector<std::string> readable = content::complete_languages(study);
+    const bool any = std::any_of(readable.begin(), readable.end(), [&](const std::string& language) {
+        return std::find(own.begin(), own.end(), language) != own.end();
+    });
+    if (!any)
+        return fail(ErrorCode::bad_content,
+                    "there is no language of the program in which everything can be read",
+                    "what `boltwright study check` lists");  // What the window needs is checked before
+                                                             // anybody is enrolled.
+    BOLT_TRY(equipment_of(options.window));
+    BOLT_TRY(platform::Desktop::open());
     BOLT_TRY_ASSIGN(auto participation, find_participation(study, options));
+    if (participation.progress().simulated)
+        return fail(ErrorCode::usage, participation.participant() + " is a simulated participant",
+                    "a person");
+    if (participation.due() == nullptr && options.accept_change) {
+        (void)std::fputs(
+            fmt::format("{} has done every step; the change is recorded\n", participation.participant())
+                .c_str(),
+            stderr);
+        return {};
+    }
     if (participation.due() == nullptr)
         return fail(ErrorCode::usage, fmt::format("{} has done every step", participation.participant()),
                     "another participant");
@@ -83,7 +104,7 @@ void add_study_run(CLI::App& study, int& exit_code) {
     command->add_option("folder", options->folder, "Folder of the study")->required();
     command->add_option("--participant", options->participant, "One who has begun, such as P03");
     command->add_flag("--accept-change", options->accept_change,
-                      "Continue although the plan was changed; the record says so");
+                      "Continue although the plan was changed; the journal records it");
     add_study_options(*command, options->window);
     command->callback([options, &exit_code] {
         const Status done = run(*options);

@@ -79,12 +79,14 @@ Status write_report(const std::filesystem::path& session, const std::filesystem:
 
 // Writes the summary, the report and on request the pictures beside the session, and prints the results.
 Status write_results(const content::Assembly& assembly, const session::LessonOptions& options,
-                     const session::LessonOutcome& outcome, const std::filesystem::path& out, bool pictures) {
+                     const session::LessonOutcome& outcome, const std::filesystem::path& out, bool pictures,
+                     bool prints = true) {
     if (Status written = write_file(out / "summary.json", session::summary_json(assembly, options, outcome));
         !written)
         return written;
     const std::filesystem::path session = out / "session.boltwright";
     if (Status written = write_report(session, out / "report.html"); !written) return written;
+    if (!prints) return {};
     std::string closing = session::summary_table(assembly, outcome.result);
     closing += fmt::format("{}, {}, {}\n", session.string(), (out / "summary.json").string(),
                            (out / "report.html").string());
@@ -193,9 +195,11 @@ Status run_window(WindowRequest request, const Surroundings& surroundings, platf
         app_options.gloves_folder = *data / "gloves";
     }
     app_options.on_start = remove_stale_files;
-    app_options.on_end = [](const content::Assembly& assembly, const session::LessonOptions& lesson,
-                            const session::LessonOutcome& outcome, const std::filesystem::path& folder) {
-        return write_results(assembly, lesson, outcome, folder, false);
+    const bool prints = !request.study;  // the results of a study are not for the experimenter's terminal
+    app_options.on_end = [prints](const content::Assembly& assembly, const session::LessonOptions& lesson,
+                                  const session::LessonOutcome& outcome,
+                                  const std::filesystem::path& folder) {
+        return write_results(assembly, lesson, outcome, folder, false, prints);
     };
     if (!options.quiet)
         app_options.log = [](const std::string& line) { (void)std::fprintf(stderr, "%s\n", line.c_str()); };

@@ -71,6 +71,8 @@ void erase_answers(const fs::path& path, Erasure& erasure) {
         return;
     }
     unlink_file(path, erasure);
+    for (const fs::path& file : study::delete_derived_files(path.parent_path()))
+        erasure.kept.push_back(kept_file(file, "cannot be deleted"));
 }
 
 // Removes the folder of a lesson and folders around it while they are empty, but never `root`.

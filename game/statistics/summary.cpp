@@ -42,12 +42,12 @@ Interval bootstrap_interval(std::span<const double> values,
     return {quantile_of_sorted(results, tail), quantile_of_sorted(results, 1.0 - tail)};
 }
 
-bool is_possible_mean(double mean, int decimals, std::size_t n, double step) {
+bool is_possible_mean(double mean, int decimals, std::size_t n, double step, double low) {
     if (n == 0 || !(step > 0.0)) return false;
     const double unit = std::pow(10.0, -decimals);
-    const double sum = mean * static_cast<double>(n) / step;  // in steps
+    const double sum = (mean - low) * static_cast<double>(n) / step;  // in steps
     for (const double whole : {std::floor(sum), std::ceil(sum)}) {
-        const double possible = whole * step / static_cast<double>(n);
+        const double possible = low + whole * step / static_cast<double>(n);
         // Half a unit either way: printed means are rounded up or to even.
         if (std::abs(possible - mean) <= 0.5 * unit * (1.0 + 1e-9)) return true;
     }

@@ -38,7 +38,7 @@ Interval bootstrap_interval(std::span<const double> values,
                             const BootstrapOptions& options = {});
 
 // The GRIM test (Brown and Heathers, Soc. Psychol. Personal. Sci. 8 (2017) 363): false if no `n` answers in
-// multiples of `step` have a mean that is printed as `mean` with so many decimals.
-bool is_possible_mean(double mean, int decimals, std::size_t n, double step);
+// steps of `step` from `low` have a mean that is printed as `mean` with so many decimals.
+bool is_possible_mean(double mean, int decimals, std::size_t n, double step, double low = 0.0);
 
 }  // namespace bolt::statistics

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <ctime>
 #include <set>
 
 #include "engine/base/file.hpp"
@@ -67,26 +69,63 @@ std::size_t participant_number(const std::string& name) {
     return number;
 }
 
-struct Enrolled {
-    std::set<std::size_t> places;  // of those who have not withdrawn
-    std::size_t highest_number = 0;
-};
-
-Result<Enrolled> find_enrolled(const fs::path& participants) {
-    Enrolled enrolled;
+// The folders of participants, by number.
+Result<std::map<std::size_t, fs::path>> participant_folders(const fs::path& participants) {
+    std::map<std::size_t, fs::path> folders;
     std::error_code problem;
-    for (const fs::directory_entry& entry : fs::directory_iterator(participants, problem)) {
-        const std::size_t number = participant_number(entry.path().filename().string());
-        if (number == 0) continue;
-        enrolled.highest_number = std::max(enrolled.highest_number, number);
-        std::error_code ignored;
-        if (fs::exists(entry.path() / withdrawn_file_name, ignored)) continue;
-        if (!fs::exists(entry.path() / journal_file_name, ignored)) continue;  // being enrolled, or damaged
-        BOLT_TRY_ASSIGN(const auto read, read_journal(entry.path() / journal_file_name));
-        enrolled.places.insert(progress_of(read.entries, read.simulated).place);
-    }
+    for (const fs::directory_entry& entry : fs::directory_iterator(participants, problem))
+        if (const std::size_t number = participant_number(entry.path().filename().string()); number > 0)
+            folders.emplace(number, entry.path());
     if (problem) return fail(participant_error(participants, "cannot be read: " + problem.message()));
-    return enrolled;
+    return folders;
+}
+
+// Deletes everything in the folder of a participant but the mark, and what was computed from it. The mark
+// comes first, so that an interrupted deletion can be completed.
+Status delete_participant(const fs::path& folder, std::int64_t time) {
+    std::error_code problem;
+    if (!fs::exists(folder / withdrawn_file_name, problem)) BOLT_TRY(mark_withdrawn(folder, time));
+    std::vector<std::string> left;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem)) {
+        if (entry.path().filename() == withdrawn_file_name) continue;
+        std::error_code failed;
+        fs::remove_all(entry.path(), failed);
+        if (failed) left.push_back(entry.path().string() + ": " + failed.message());
+    }
+    if (problem) left.push_back(folder.string() + ": " + problem.message());
+    for (const fs::path& file : delete_derived_files(folder)) left.push_back(file.string());
+    if (left.empty()) return {};
+    return fail(
+        participant_error(folder, fmt::format("not deleted: {}", fmt::join(left, "; ")), "deletion by hand"));
+}
+
+// True if something besides the mark and lock files is left.
+bool has_leftovers(const fs::path& folder) {
+    std::error_code problem;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem))
+        if (entry.path().filename() != withdrawn_file_name && entry.path().extension() != ".lock")
+            return true;
+    return false;
+}
+
+// Fails if the person or the plan do not fit to the participants who have begun.
+Status check_enrolment(const content::Study& study, const fs::path& folder, const std::string& person,
+                       bool simulated, const std::vector<ParticipantState>& states) {
+    for (const ParticipantState& state : states) {
+        if (state.withdrawn || state.problem) continue;
+        if (state.progress.simulated != simulated)
+            return fail(participant_error(folder, "people and simulated participants are never mixed",
+                                          "a folder of their own"));
+        if (state.progress.person == person)
+            return fail(participant_error(folder, "this person takes part as " + state.participant,
+                                          "--participant " + state.participant));
+        if (state.progress.checksum != study.checksum)
+            return fail(participant_error(
+                folder, fmt::format("the plan or a form was changed after {} began", state.participant),
+                "the files as they were, or `study run --participant " + state.participant +
+                    " --accept-change` for each participant first"));
+    }
+    return {};
 }
 
 }  // namespace
@@ -97,7 +136,7 @@ std::int64_t system_time() {
         .count();
 }
 
-std::vector<Step> steps_of(const content::Study& study, std::size_t place) {
+std::vector<Step> steps_of(const content::Study& study, const std::vector<std::size_t>& conditions) {
     using content::FormTime;
     std::vector<Step> steps{{StepKind::language, "language"},
                             {StepKind::information, "information"},
@@ -107,7 +146,6 @@ std::vector<Step> steps_of(const content::Study& study, std::size_t place) {
         steps.push_back({StepKind::training, "training"});
         add_forms(study, FormTime::after_training, "training/", {}, steps);
     }
-    const std::vector<std::size_t> conditions = content::conditions_of(study, place);
     for (std::size_t part = 0; part < conditions.size(); ++part) {
         if (part > 0) steps.push_back({StepKind::pause, fmt::format("break-{}", part), no_index, part});
         add_condition(study, part, conditions[part], steps);
@@ -136,7 +174,11 @@ Progress progress_of(std::span<const JournalEntry> entries, bool simulated) {
                 progress.place = static_cast<std::size_t>(entry.value.value_or(0.0));
                 progress.checksum = std::strtoull(entry.item.c_str(), nullptr, 16);
                 break;
+            case JournalKind::assigned:
+                progress.conditions.push_back(entry.item);
+                break;
             case JournalKind::plan_changed:
+                ++progress.plan_changes;
                 progress.checksum = std::strtoull(entry.item.c_str(), nullptr, 16);
                 break;
             case JournalKind::language:
@@ -167,8 +209,6 @@ Progress progress_of(std::span<const JournalEntry> entries, bool simulated) {
             case JournalKind::clock_set_back:
                 progress.clock_set_back += entry.value.value_or(0.0);
                 break;
-            case JournalKind::step_begun:
-                break;
         }
     }
     return progress;
@@ -181,10 +221,33 @@ std::size_t due_step(const std::vector<Step>& steps, const Progress& progress) {
         steps.begin());
 }
 
+Result<std::vector<std::size_t>> assigned_conditions(const content::Study& study, const Progress& progress) {
+    std::vector<std::size_t> conditions;
+    for (const std::string& id : progress.conditions) {
+        const auto found = std::find_if(study.conditions.begin(), study.conditions.end(),
+                                        [&](const content::StudyCondition& c) { return c.id == id; });
+        if (found == study.conditions.end())
+            return fail(
+                ErrorCode::bad_content,
+                fmt::format("the plan does not have condition \"{}\", which a participant was given", id),
+                "a plan with this condition");
+        conditions.push_back(static_cast<std::size_t>(found - study.conditions.begin()));
+    }
+    return conditions;
+}
+
 std::optional<std::int64_t> retention_due(const content::Study& study, const Progress& progress) {
     const auto visit = progress.done.find("end-of-visit");
     if (!study.retention || visit == progress.done.end()) return std::nullopt;
-    return visit->second + static_cast<std::int64_t>(study.retention->after_days * day);
+    const double days = study.retention->after_days;
+    if (days < 1.0) return visit->second + static_cast<std::int64_t>(days * day);
+    const auto end = static_cast<std::time_t>(visit->second);
+    std::tm date{};
+    localtime_r(&end, &date);
+    date.tm_mday += static_cast<int>(std::floor(days));
+    date.tm_hour = date.tm_min = date.tm_sec = 0;
+    date.tm_isdst = -1;
+    return mktime(&date);
 }
 
 Participation::Participation(const content::Study& study, Journal journal, fs::path folder, Clock clock)
@@ -192,9 +255,31 @@ Participation::Participation(const content::Study& study, Journal journal, fs::p
       journal_(std::move(journal)),
       folder_(std::move(folder)),
       participant_(folder_.filename().string()),
-      clock_(std::move(clock)),
-      progress_(progress_of(journal_.entries(), journal_.simulated())) {
-    steps_ = steps_of(study, progress_.place);
+      clock_(std::move(clock)) {
+    update_progress();
+}
+
+Result<Participation> Participation::start(const content::Study& study, Journal journal, fs::path folder,
+                                           Clock clock) {
+    Participation participation(study, std::move(journal), std::move(folder), std::move(clock));
+    auto conditions = assigned_conditions(study, participation.progress_);
+    if (!conditions) {
+        Error error = conditions.error();
+        error.file = participation.folder_.string();
+        return fail(std::move(error));
+    }
+    participation.conditions_ = std::move(*conditions);
+    participation.steps_ = steps_of(study, participation.conditions_);
+    return participation;
+}
+
+// A participant whose language the plan does not have any more chooses again.
+void Participation::update_progress() {
+    progress_ = progress_of(journal_.entries(), journal_.simulated());
+    const std::vector<std::string> readable = content::complete_languages(*study_);
+    if (std::find(readable.begin(), readable.end(), progress_.language) != readable.end()) return;
+    progress_.language.clear();
+    progress_.done.erase("language");
 }
 
 Result<Participation> Participation::enrol(const content::Study& study, const fs::path& folder,
@@ -205,20 +290,34 @@ Result<Participation> Participation::enrol(const content::Study& study, const fs
     if (problem) return fail(participant_error(participants, "cannot be created: " + problem.message()));
     // Held until the journal exists, so that two programs do not take the same place.
     BOLT_TRY_ASSIGN(const auto lock, session::FileLock::acquire(participants / "enrolment", "enrolment"));
-    BOLT_TRY_ASSIGN(const auto enrolled, find_enrolled(participants));
+    BOLT_TRY_ASSIGN(const auto states, list_participants(study, folder));
+    BOLT_TRY(check_enrolment(study, folder, person, simulated, states));
+    std::set<std::size_t> places;
+    for (const ParticipantState& state : states)
+        if (!state.withdrawn && !state.problem) places.insert(state.progress.place);
     std::size_t place = 0;
-    while (enrolled.places.contains(place)) ++place;
-    const fs::path own = participants / fmt::format("P{:02}", enrolled.highest_number + 1);
+    while (places.contains(place)) ++place;
+    BOLT_TRY_ASSIGN(const auto folders, participant_folders(participants));
+    const std::size_t highest = folders.empty() ? 0 : folders.rbegin()->first;
+    const fs::path own = participants / fmt::format("P{:02}", highest + 1);
     if (!fs::create_directory(own, problem))
         return fail(participant_error(own, "cannot be created: " + problem.message()));
-    const JournalEntry first{JournalKind::enrolled,         clock(), {},
-                             checksum_text(study.checksum), person,  static_cast<double>(place)};
-    auto journal = Journal::create(own / journal_file_name, simulated, std::span(&first, 1));
+    const std::int64_t now = clock();
+    std::vector<JournalEntry> first{
+        {JournalKind::enrolled, now, {}, checksum_text(study.checksum), person, static_cast<double>(place)}};
+    for (const std::size_t condition : content::conditions_of(study, place))
+        first.push_back({JournalKind::assigned,
+                         now,
+                         fmt::format("part-{}", first.size()),
+                         study.conditions[condition].id,
+                         {},
+                         std::nullopt});
+    auto journal = Journal::create(own / journal_file_name, simulated, first);
     if (!journal) {
         fs::remove_all(own, problem);
         return fail(journal.error());
     }
-    return Participation(study, std::move(*journal), own, std::move(clock));
+    return start(study, std::move(*journal), own, std::move(clock));
 }
 
 Result<Participation> Participation::resume(const content::Study& study, const fs::path& folder,
@@ -230,7 +329,7 @@ Result<Participation> Participation::resume(const content::Study& study, const f
     if (fs::exists(own / withdrawn_file_name, ignored))
         return fail(participant_error(own, "this participant has withdrawn the consent"));
     BOLT_TRY_ASSIGN(auto journal, Journal::open(own / journal_file_name));
-    Participation participation(study, std::move(journal), own, std::move(clock));
+    BOLT_TRY_ASSIGN(auto participation, start(study, std::move(journal), own, std::move(clock)));
     if (participation.progress_.checksum == study.checksum) return participation;
     if (!accept_change)
         return fail(participant_error(
@@ -260,7 +359,7 @@ Status Participation::append(std::vector<JournalEntry> entries) {
     const std::int64_t now = clock_();
     for (JournalEntry& entry : entries) entry.time = now;
     BOLT_TRY(journal_.append(entries));
-    progress_ = progress_of(journal_.entries(), journal_.simulated());
+    update_progress();
     return {};
 }
 
@@ -361,63 +460,89 @@ Status Participation::end_lesson(const std::map<std::string, double>& measures) 
     return append(std::move(entries));
 }
 
+// s since 1970-01-01 UTC, which never runs backwards while the program runs.
+double Participation::steady_now() const {
+    const std::int64_t now = clock_();
+    if (now < last_time_) set_back_ += last_time_ - now;
+    last_time_ = now;
+    return static_cast<double>(now + set_back_);
+}
+
 double Participation::wait() const {
+    const double now = steady_now();
     const std::size_t index = due_step(steps_, progress_);
     if (index == steps_.size()) return 0.0;
     const Step& step = steps_[index];
-    const std::int64_t now = clock_();
     if (step.kind == StepKind::retention) {
         const auto due_time = retention_due(*study_, progress_);
-        return due_time ? std::max(0.0, static_cast<double>(*due_time - now)) : 0.0;
+        return due_time ? std::max(0.0, static_cast<double>(*due_time) - now) : 0.0;
     }
     if (step.kind != StepKind::pause || index == 0) return 0.0;
     const auto before = progress_.done.find(steps_[index - 1].id);
-    const double passed = before == progress_.done.end() ? 0.0 : static_cast<double>(now - before->second);
-    // A clock that was set back must not lengthen the break.
+    const double passed = before == progress_.done.end() ? 0.0 : now - static_cast<double>(before->second);
     return std::clamp(study_->design.shortest_break - std::max(passed, 0.0), 0.0,
                       study_->design.shortest_break);
 }
 
-Status Participation::withdraw() {
-    BOLT_TRY(mark_withdrawn(folder_, clock_()));
-    std::vector<std::string> left;
-    std::error_code problem;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_, problem)) {
-        if (entry.path().filename() == withdrawn_file_name) continue;
-        std::error_code failed;
-        fs::remove_all(entry.path(), failed);
-        if (failed) left.push_back(entry.path().string() + ": " + failed.message());
-    }
-    if (problem) left.push_back(folder_.string() + ": " + problem.message());
-    if (left.empty()) return {};
-    return fail(participant_error(folder_, fmt::format("not deleted: {}", fmt::join(left, "; ")),
-                                  "deletion by hand"));
+Status Participation::withdraw() { return delete_participant(folder_, clock_()); }
+
+Status withdraw(const fs::path& study_folder, const std::string& participant, std::int64_t time) {
+    const fs::path own = study_folder / participants_folder_name / participant;
+    std::error_code ignored;
+    if (participant_number(participant) == 0 || !fs::exists(own, ignored))
+        return fail(participant_error(own, "there is no such participant"));
+    if (fs::exists(own / withdrawn_file_name, ignored) && !has_leftovers(own))
+        return fail(participant_error(own, "this participant has withdrawn the consent"));
+    BOLT_TRY_ASSIGN(const auto lock,
+                    session::FileLock::acquire(own / journal_file_name, (own / journal_file_name).string()));
+    return delete_participant(own, time);
 }
+
+namespace {
+
+ParticipantState read_state(const content::Study& study, const fs::path& folder) {
+    ParticipantState state;
+    state.participant = folder.filename().string();
+    std::error_code ignored;
+    state.withdrawn = fs::exists(folder / withdrawn_file_name, ignored);
+    if (state.withdrawn) {
+        if (has_leftovers(folder))
+            state.problem = participant_error(folder, "the withdrawal was interrupted",
+                                              "`study withdraw` for this participant again");
+        return state;
+    }
+    const auto read = read_journal(folder / journal_file_name);
+    if (!read) {
+        state.problem = read.error();
+        return state;
+    }
+    state.progress = progress_of(read->entries, read->simulated);
+    auto conditions = assigned_conditions(study, state.progress);
+    if (!conditions) {
+        state.problem = conditions.error();
+        state.problem->file = folder.string();
+        return state;
+    }
+    state.conditions = std::move(*conditions);
+    state.steps = steps_of(study, state.conditions);
+    state.due = due_step(state.steps, state.progress);
+    return state;
+}
+
+}  // namespace
 
 Result<std::vector<ParticipantState>> list_participants(const content::Study& study, const fs::path& folder) {
     std::vector<ParticipantState> states;
     const fs::path participants = folder / participants_folder_name;
     std::error_code problem;
     if (!fs::exists(participants, problem)) return states;
-    for (const fs::directory_entry& entry : fs::directory_iterator(participants, problem)) {
-        ParticipantState state;
-        state.participant = entry.path().filename().string();
-        if (participant_number(state.participant) == 0) continue;
-        std::error_code ignored;
-        state.withdrawn = fs::exists(entry.path() / withdrawn_file_name, ignored);
-        const fs::path journal = entry.path() / journal_file_name;
-        if (!state.withdrawn) {
-            BOLT_TRY_ASSIGN(const auto read, read_journal(journal));
-            state.progress = progress_of(read.entries, read.simulated);
-            state.steps = steps_of(study, state.progress.place);
-            state.due = due_step(state.steps, state.progress);
-        }
-        states.push_back(std::move(state));
+    BOLT_TRY_ASSIGN(const auto folders, participant_folders(participants));
+    for (const auto& [number, own] : folders) {
+        // A program that was killed while it enrolled somebody leaves a folder without a journal.
+        const bool begun =
+            fs::exists(own / journal_file_name, problem) || fs::exists(own / withdrawn_file_name, problem);
+        if (begun) states.push_back(read_state(study, own));
     }
-    if (problem) return fail(participant_error(participants, "cannot be read: " + problem.message()));
-    std::sort(states.begin(), states.end(), [](const ParticipantState& a, const ParticipantState& b) {
-        return participant_number(a.participant) < participant_number(b.participant);
-    });
     return states;
 }
 

@@ -42,14 +42,16 @@ struct Step {
     std::size_t lesson = no_index;     // counts the lessons of a part from 0
 };
 
-// The steps of the participant at `place` in the balanced order.
-std::vector<Step> steps_of(const content::Study& study, std::size_t place);
+// The steps of a participant with these conditions, in their order.
+std::vector<Step> steps_of(const content::Study& study, const std::vector<std::size_t>& conditions);
 
 // The state of a participant as a journal records it.
 struct Progress {
     std::string person;  // code
     std::size_t place = 0;
-    std::uint64_t checksum = 0;  // of the plan that the participant follows
+    std::vector<std::string> conditions;  // ids, in the participant's order
+    std::uint64_t checksum = 0;           // of the plan that the participant follows
+    std::size_t plan_changes = 0;         // accepted since the participant began
     bool simulated = false;
     std::string language;
     std::map<std::string, std::int64_t> done;                       // steps, with their time
@@ -67,7 +69,12 @@ Progress progress_of(std::span<const JournalEntry> entries, bool simulated);
 // The index of the first step that is not done; the number of steps if all are done.
 std::size_t due_step(const std::vector<Step>& steps, const Progress& progress);
 
-// The date of the retention test, s since 1970-01-01 UTC; none if the first visit is not complete.
+// The conditions that the participant was assigned at enrolment, as indices into the plan. Fails if the plan
+// does not have one of them any more.
+Result<std::vector<std::size_t>> assigned_conditions(const content::Study& study, const Progress& progress);
+
+// The beginning of the first day, in local time, on which the retention test can be taken, s since 1970-01-01
+// UTC. With fewer than one day between the visits, the exact time. None if the first visit is not complete.
 std::optional<std::int64_t> retention_due(const content::Study& study, const Progress& progress);
 
 // Returns the time in seconds since 1970-01-01 UTC.
@@ -76,9 +83,11 @@ std::int64_t system_time();
 
 // The study that it is made with must outlive it.
 class Participation {
-  public:
-    // Enrols a person as the next participant: makes the folder PARTICIPANTS/Pnn and its journal. Takes the
-    // smallest place that no active participant has. Two programs may enrol at once.
+  public:  // Enrols a person as the next participant: makes the folder PARTICIPANTS/Pnn and its journal.
+           // Takes the
+    // smallest place that no active participant has. Fails if the person takes part already, if active
+    // participants follow another plan, or if people and simulated participants would be mixed. Two programs
+    // may enrol at once.
     static Result<Participation> enrol(const content::Study& study, const std::filesystem::path& folder,
                                        const std::string& person, bool simulated, Clock clock = system_time);
     // Continues at the step reached. `participant`: "P03". Fails if the plan was changed since the
@@ -125,8 +134,15 @@ class Participation {
     // not be used afterwards.
     Status withdraw();
 
+    // The conditions in the participant's order.
+    [[nodiscard]] const std::vector<std::size_t>& conditions() const { return conditions_; }
+
   private:
+    static Result<Participation> start(const content::Study& study, Journal journal,
+                                       std::filesystem::path folder, Clock clock);
     Participation(const content::Study& study, Journal journal, std::filesystem::path folder, Clock clock);
+    void update_progress();
+    [[nodiscard]] double steady_now() const;
     Status append(std::vector<JournalEntry> entries);
     [[nodiscard]] const content::Questionnaire& due_form() const;
 
@@ -137,18 +153,26 @@ class Participation {
     Clock clock_;
     std::vector<Step> steps_;
     Progress progress_;
-    std::map<std::string, std::int64_t> begun_;  // breaks, by step
+    std::vector<std::size_t> conditions_;
+    // s; a clock that is set back while the program runs must not lengthen a break
+    mutable std::int64_t last_time_ = 0, set_back_ = 0;
 };
+
+// Deletes the data of a participant whom no program leads. Completes an earlier withdrawal that was
+// interrupted.
+Status withdraw(const std::filesystem::path& study_folder, const std::string& participant, std::int64_t time);
 
 // A participant as the experimenter sees it.
 struct ParticipantState {
     std::string participant;  // "P03"
     bool withdrawn = false;
     Progress progress;
-    std::vector<Step> steps;  // none if withdrawn
-    std::size_t due = 0;      // index into `steps`; their number: complete
+    std::vector<std::size_t> conditions;  // in the participant's order
+    std::vector<Step> steps;              // none if withdrawn
+    std::optional<Error> problem;         // the journal cannot be used, or a withdrawal is not complete
+    std::size_t due = 0;                  // index into `steps`; their number: complete
 };
-// All participants of a study's folder, in the order of their numbers. A damaged journal is an error.
+// All participants of a study's folder, in the order of their numbers.
 Result<std::vector<ParticipantState>> list_participants(const content::Study& study,
                                                         const std::filesystem::path& folder);
 

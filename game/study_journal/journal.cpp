@@ -19,8 +19,8 @@ constexpr const char* create_tables =
 
 // In the order of JournalKind.
 constexpr std::string_view kind_names[journal_kinds] = {
-    "enrolled",     "language", "step_begun", "answered",     "agreed",        "commented",
-    "lesson_begun", "measured", "step_done",  "plan_changed", "clock_set_back"};
+    "enrolled",     "assigned", "language",  "answered",     "agreed",        "commented",
+    "lesson_begun", "measured", "step_done", "plan_changed", "clock_set_back"};
 
 // The inverse of time_text(). None if the text has another form.
 std::optional<std::int64_t> parse_time(const std::string& text) {
@@ -89,20 +89,32 @@ std::string time_text(std::int64_t time) {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(time)));
 }
 
+std::string local_date(std::int64_t time) {
+    return fmt::format("{:%Y-%m-%d}", fmt::localtime(static_cast<std::time_t>(time)));
+}
+
 Result<Journal> Journal::create(const std::filesystem::path& file, bool simulated,
                                 std::span<const JournalEntry> first) {
     const std::string name = file.string();
-    BOLT_TRY_ASSIGN(auto lock, session::FileLock::acquire(file, name));
-    BOLT_TRY_ASSIGN(auto database, session::Database::create(file, name));
-    BOLT_TRY(database.execute(durable));
-    BOLT_TRY(database.execute(fmt::format("BEGIN; PRAGMA application_id = {}; {} "
-                                          "INSERT INTO study_properties_1 VALUES ({}); COMMIT",
-                                          application_id, create_tables, simulated ? 1 : 0)
-                                  .c_str()));
-    Journal journal(std::move(database), std::move(lock));
-    journal.simulated_ = simulated;
-    BOLT_TRY(journal.append(first));
-    return journal;
+    std::error_code problem;
+    if (std::filesystem::exists(file, problem)) return session::file_error(name, "exists already");
+    // The file gets its name when it is complete.
+    const std::filesystem::path part = name + ".part";
+    std::filesystem::remove(part, problem);
+    {
+        BOLT_TRY_ASSIGN(const auto lock, session::FileLock::acquire(part, name));
+        BOLT_TRY_ASSIGN(auto database, session::Database::create(part, name));
+        BOLT_TRY(database.execute(durable));
+        BOLT_TRY(database.execute(fmt::format("BEGIN; PRAGMA application_id = {}; {} "
+                                              "INSERT INTO study_properties_1 VALUES ({})",
+                                              application_id, create_tables, simulated ? 1 : 0)
+                                      .c_str()));
+        for (std::size_t i = 0; i < first.size(); ++i) BOLT_TRY(insert(database, i, first[i]));
+        BOLT_TRY(database.execute("COMMIT"));
+    }
+    std::filesystem::rename(part, file, problem);
+    if (problem) return session::file_error(name, "cannot be created: " + problem.message());
+    return open(file);
 }
 
 Result<Journal> Journal::open(const std::filesystem::path& file) {
@@ -147,8 +159,18 @@ Status Journal::append(std::span<const JournalEntry> entries) {
 }
 
 Result<ReadJournal> read_journal(const std::filesystem::path& file) {
-    BOLT_TRY_ASSIGN(auto database, session::Database::open_read_only(file, file.string()));
-    return read_entries(database, file.string());
+    const std::string name = file.string();
+    std::error_code unknown;
+    if (std::filesystem::exists(name + "-journal", unknown)) {
+        // A killed program has left an unfinished entry, which only a writer can remove. While another
+        // program is at work, the entry is finished soon.
+        if (const auto lock = session::FileLock::acquire(file, name)) {
+            BOLT_TRY_ASSIGN(auto database, session::Database::open(file, name));
+            return read_entries(database, name);
+        }
+    }
+    BOLT_TRY_ASSIGN(auto database, session::Database::open_read_only(file, name));
+    return read_entries(database, name);
 }
 
 std::string person_of(const ReadJournal& journal) {
@@ -161,6 +183,17 @@ Status mark_withdrawn(const std::filesystem::path& participant_folder, std::int6
     return write_file(participant_folder / withdrawn_file_name,
                       fmt::format("{} withdrew the consent on {}. Everything else was deleted.\n",
                                   participant_folder.filename().string(), time_text(time).substr(0, 10)));
+}
+
+std::vector<std::filesystem::path> delete_derived_files(const std::filesystem::path& participant_folder) {
+    const std::filesystem::path study = participant_folder.parent_path().parent_path();
+    std::vector<std::filesystem::path> left;
+    for (const char* file_name : derived_file_names) {
+        std::error_code failed;
+        std::filesystem::remove(study / file_name, failed);
+        if (failed) left.push_back(study / file_name);
+    }
+    return left;
 }
 
 }  // namespace bolt::study

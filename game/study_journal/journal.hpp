@@ -17,16 +17,17 @@ namespace bolt::study {
 
 // Behind each kind: the members of JournalEntry that it uses besides `kind` and `time`.
 enum class JournalKind : std::uint8_t {
-    enrolled,      // text: code of the person; value: place in the balanced order; item: checksum of the plan
-    language,      // text: ISO 639 code
-    step_begun,    // step
-    answered,      // step, item; value: none if the participant does not want to answer
-    agreed,        // step, item: number of the statement of the consent
-    commented,     // step, text
-    lesson_begun,  // step; text: folder of the session, relative to the participant's
-    measured,      // step; item: name of the measure; value: none if the lesson does not have it
-    step_done,     // step
-    plan_changed,  // item: checksum of the changed plan, with which the participant continues
+    enrolled,  // text: code of the person; value: place in the balanced order; item: checksum of the plan
+    assigned,  // step: "part-1"; item: id of the condition
+    language,  // text: ISO 639 code
+
+    answered,        // step, item; value: none if the participant does not want to answer
+    agreed,          // step, item: number of the statement of the consent
+    commented,       // step, text
+    lesson_begun,    // step; text: folder of the session, relative to the participant's
+    measured,        // step; item: name of the measure; value: none if the lesson does not have it
+    step_done,       // step
+    plan_changed,    // item: checksum of the changed plan, with which the participant continues
     clock_set_back,  // value: s by which this entry is earlier than the one before
 };
 inline constexpr std::size_t journal_kinds = static_cast<std::size_t>(JournalKind::clock_set_back) + 1;
@@ -34,7 +35,7 @@ inline constexpr std::size_t journal_kinds = static_cast<std::size_t>(JournalKin
 std::string_view name(JournalKind kind);  // as in the file
 
 struct JournalEntry {
-    JournalKind kind = JournalKind::step_begun;
+    JournalKind kind = JournalKind::enrolled;
     std::int64_t time = 0;  // s since 1970-01-01 UTC
     std::string step, item, text;
     std::optional<double> value;
@@ -43,12 +44,14 @@ struct JournalEntry {
 
 // Seconds since 1970-01-01 UTC as "2026-11-28T15:04:05Z".
 std::string time_text(std::int64_t time);
+// The date in local time: "2026-11-28".
+std::string local_date(std::int64_t time);
 
 // A journal that is open for writing. Only one program at a time can have it.
 class Journal {
-  public:
-    // Creates a journal with its first entries. Fails if the file exists. `simulated`: the answers are not a
-    // person's.
+  public:  // Creates a journal with its first entries; a program that is killed meanwhile leaves no journal.
+           // Fails if
+    // the file exists. `simulated`: the answers are not a person's.
     static Result<Journal> create(const std::filesystem::path& file, bool simulated,
                                   std::span<const JournalEntry> first);
     // Fails if another program has it open, or if it is no journal.
@@ -75,7 +78,8 @@ struct ReadJournal {
     std::vector<JournalEntry> entries;
     bool simulated = false;
 };
-// Reads a journal that may be open in another program.
+// Reads a journal that may be open in another program. Repairs one that a killed program left with an
+// unfinished entry.
 Result<ReadJournal> read_journal(const std::filesystem::path& file);
 
 // The code of the person whose journal it is; empty if the participant is simulated.
@@ -86,4 +90,11 @@ inline constexpr const char* journal_file_name = "journal.db";
 // Marks the folder of a participant who withdrew. Any other file in the folder is a leftover to delete.
 inline constexpr const char* withdrawn_file_name = "withdrawn.txt";
 Status mark_withdrawn(const std::filesystem::path& participant_folder, std::int64_t time);
+
+// Pages and tables with the values of all participants. They are made again on demand, and deleted when a
+// participant withdraws.
+inline constexpr const char* derived_file_names[] = {"results.html", "results.csv", "results.json",
+                                                     "answers.csv", "progress.html"};
+// Deletes them in the study of a participant's folder. Returns those that could not be deleted.
+std::vector<std::filesystem::path> delete_derived_files(const std::filesystem::path& participant_folder);
 }  // namespace bolt::study

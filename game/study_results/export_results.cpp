@@ -11,6 +11,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// RFC 4180.
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+}
+
 // JSON has no NaN.
 ordered_json number(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
@@ -75,6 +83,19 @@ std::string results_csv(const content::Study& study, const StudyData& data) {
     return out;
 }
 
+std::string answers_csv(const StudyData& data) {
+    std::string out = "participant,step,item,value,text\r\n";
+    for (const ParticipantState& state : data.participants) {
+        for (const auto& [step, answers] : state.progress.answers)
+            for (const auto& [item, value] : answers)
+                out += fmt::format("{},{},{},{},\r\n", state.participant, step, item,
+                                   value ? fmt::format("{}", *value) : "");
+        if (!state.progress.comment.empty())
+            out += fmt::format("{},comment,,,{}\r\n", state.participant, csv_field(state.progress.comment));
+    }
+    return out;
+}
+
 std::string results_json(const content::Study& study, const StudyData& data, const Results& results) {
     ordered_json json{{"format", "boltwright study results 1"},
                       {"study", study.id},
@@ -93,10 +114,12 @@ std::string results_json(const content::Study& study, const StudyData& data, con
         for (const Sample& sample : measure.conditions) entry["conditions"].push_back(json_of(sample));
         for (const Sample& sample : measure.other_times) entry["other_times"].push_back(json_of(sample));
         if (measure.published != nullptr)
-            entry["published"] = {{"mean", measure.published->mean},
-                                  {"n", measure.published->n},
-                                  {"source", measure.published->source},
-                                  {"possible_mean", measure.published_is_possible}};
+            entry["published"] = {
+                {"mean", measure.published->mean},
+                {"n", measure.published->n},
+                {"source", measure.published->source},
+                {"possible_mean", measure.published_is_possible ? ordered_json(*measure.published_is_possible)
+                                                                : ordered_json(nullptr)}};
         json["measures"].push_back(std::move(entry));
     }
     json["comparisons"] = ordered_json::array();

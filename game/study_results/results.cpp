@@ -69,20 +69,46 @@ std::string title_of(const std::map<std::string, std::string>& titles) {
     return english != titles.end() ? english->second : titles.begin()->second;
 }
 
-// The smallest difference between two scores of one person; 0: unknown.
-double answer_step(const content::Study& study, const std::string& measure) {
+// The scores that one person can have in a scale of one item: low, low + size, ...; size 0: unknown.
+struct AnswerStep {
+    double size = 0.0, low = 0.0;
+};
+AnswerStep answer_step(const content::Study& study, const std::string& measure) {
     const content::Questionnaire* form = study.form_of(measure);
-    if (form == nullptr) return 0.0;
+    if (form == nullptr) return {};
     for (const content::QuestionnaireScale& scale : form->scales)
-        if (form->id + "." + scale.id == measure && scale.items.size() == 1)
-            return content::answer_scale_of(*form, form->items[scale.items.front().item]).step * scale.weight;
-    return 0.0;
+        if (form->id + "." + scale.id == measure && scale.items.size() == 1) {
+            const content::AnswerScale& answers =
+                content::answer_scale_of(*form, form->items[scale.items.front().item]);
+            return {answers.step * scale.weight, scale.from_zero ? 0.0 : answers.low * scale.weight};
+        }
+    return {};
 }
 
 MeasureInfo info_of(const std::vector<MeasureInfo>& infos, const std::string& measure) {
     const auto found =
         std::find_if(infos.begin(), infos.end(), [&](const MeasureInfo& m) { return m.id == measure; });
     return found == infos.end() ? MeasureInfo{measure, measure} : *found;
+}
+
+// As participant_means(), but NaN unless the participant has every lesson, or the form after the part, of
+// every condition: otherwise a mean over a factor's level would compare different conditions.
+std::vector<double> complete_means(const content::Study& study, const StudyData& data,
+                                   const Selection& selection) {
+    std::vector<double> means = participant_means(data, selection);
+    for (const std::size_t condition : selection.conditions) {
+        std::vector<std::size_t> lessons(means.size(), 0), parts(means.size(), 0);
+        for (const Observation& o : data.observations)
+            if (o.measure == selection.measure && o.time == selection.time && o.condition == condition)
+                ++(o.lesson == no_index ? parts : lessons)[o.participant];
+        for (std::size_t i = 0; i < means.size(); ++i) {
+            const bool complete = lessons[i] == study.design.sessions || (lessons[i] == 0 && parts[i] > 0);
+            const bool once = selection.time == ObservationTime::retention && lessons[i] + parts[i] > 0;
+            const bool required = study.design.subjects == content::StudySubjects::within;
+            if (required && !complete && !once) means[i] = nan;
+        }
+    }
+    return means;
 }
 
 // Participants with a finite value in every group: one row for each.
@@ -145,10 +171,13 @@ StudyData collect(const content::Study& study, std::vector<ParticipantState> sta
         for (const Step& step : state.steps) {
             common.time = time_of(step);
             const bool between = study.design.subjects == content::StudySubjects::between;
-            common.condition =
-                between ? content::conditions_of(study, state.progress.place).front() : step.condition;
-            // Between subjects a form at the end belongs to the participant's only condition.
-            if (between && common.time == ObservationTime::after) common.time = ObservationTime::condition;
+            common.condition = between ? state.conditions.front() : step.condition;
+            // Between subjects a form at the end belongs to the participant's only condition, unless the
+            // form is presented in the condition too.
+            if (between && common.time == ObservationTime::after && step.form != no_index &&
+                !study.forms[step.form].is_at(content::FormTime::after_session) &&
+                !study.forms[step.form].is_at(content::FormTime::after_condition))
+                common.time = ObservationTime::condition;
             common.part = step.part;
             common.lesson = step.lesson;
             if (step.kind == StepKind::form) add_scores(study, state, step, common, data);
@@ -162,14 +191,17 @@ StudyData collect(const content::Study& study, std::vector<ParticipantState> sta
 
 Result<StudyData> collect(const content::Study& study, const std::filesystem::path& folder) {
     BOLT_TRY_ASSIGN(auto states, list_participants(study, folder));
-    for (const ParticipantState& state : states)
+    for (const ParticipantState& state : states) {
+        if (state.problem && !state.withdrawn) return fail(*state.problem);
         if (!state.withdrawn && state.progress.checksum != study.checksum) {
             Error error;
             error.file = folder.string();
             error.what = "the plan or a form was changed after " + state.participant + " began";
-            error.expected = "the files as they were, or study run --accept-change for this participant";
+            error.expected = "the files as they were, or `study run --participant " + state.participant +
+                             " --accept-change`";
             return fail(std::move(error));
         }
+    }
     return collect(study, std::move(states));
 }
 
@@ -207,8 +239,8 @@ std::vector<ComparisonResult> compare(const content::Study& study, const StudyDa
         result.info = info_of(infos, planned.measure);
         std::vector<std::vector<double>> groups;
         for (const content::ComparedGroup& group : planned.groups) {
-            groups.push_back(participant_means(
-                data,
+            groups.push_back(complete_means(
+                study, data,
                 {planned.measure, planned.retention ? ObservationTime::retention : ObservationTime::condition,
                  group.conditions}));
             std::string name = group.name;
@@ -253,10 +285,10 @@ Results analyse(const content::Study& study, const StudyData& data,
         for (const content::PublishedValue& published : study.published)
             if (published.measure == info.id) {
                 measure.published = &published;
-                const double step = answer_step(study, info.id);
-                if (step > 0.0)
-                    measure.published_is_possible =
-                        statistics::is_possible_mean(published.mean, published.decimals, published.n, step);
+                const AnswerStep step = answer_step(study, info.id);
+                if (step.size > 0.0)
+                    measure.published_is_possible = statistics::is_possible_mean(
+                        published.mean, published.decimals, published.n, step.size, step.low);
             }
         if (any || !measure.other_times.empty() || measure.published != nullptr)
             results.measures.push_back(std::move(measure));

@@ -69,7 +69,7 @@ struct MeasureResult {
     std::vector<Sample> conditions;   // in the order of the plan
     std::vector<Sample> other_times;  // with values: before, after training, after, retention
     const content::PublishedValue* published = nullptr;
-    bool published_is_possible = true;  // GRIM
+    std::optional<bool> published_is_possible{};  // GRIM test; none: it cannot be checked
 };
 
 struct ComparisonResult {
@@ -95,7 +95,7 @@ struct Results {
 Results analyse(const content::Study& study, const StudyData& data,
                 const statistics::BootstrapOptions& bootstrap = {.resamples = 5000});
 
-// Only the planned comparisons, with Holm's correction.
+// Only the planned comparisons, with Holm's correction over all of them.
 std::vector<ComparisonResult> compare(const content::Study& study, const StudyData& data);
 
 // The page: a single HTML file without external resources.
@@ -111,6 +111,8 @@ std::string progress_text(const content::Study& study, const std::vector<Partici
 // A row for each observation: participant, simulated, condition, part, lesson, time, measure,
 // value (RFC 4180).
 std::string results_csv(const content::Study& study, const StudyData& data);
+// A row for each answer to an item, and for each comment: participant, step, item, value, text.
+std::string answers_csv(const StudyData& data);
 // Everything that the page shows, as numbers.
 std::string results_json(const content::Study& study, const StudyData& data, const Results& results);
 
@@ -126,14 +128,16 @@ struct PowerOptions {
 };
 struct Power {
     const content::PlannedComparison* planned = nullptr;
-    double rate = 0.0;  // share of the simulated studies in which Holm's p is below the significance
+    double rate = 0.0;  // share of the simulated studies in which Holm's p is below the significance.
+                        // Comparisons of objective measures count for the correction, with p = 1
 };
 // answer = middle of the scale + (trait + effect + error) · half of its width / 3, rounded to its step and
 // limited to it. The trait of the person and the error have a standard deviation of 1. Comparisons of
 // objective measures and of retention are left out.
 std::vector<Power> simulate_power(const content::Study& study, const PowerOptions& options);
 
-// The answer to an item for a latent value, as above. Ignores whether an item is reversed.
-double simulated_answer(const content::AnswerScale& scale, double latent);
+// The answer to an item for a latent value, as above. For an item that a scale of the form reverses, a larger
+// value gives a lower answer.
+double simulated_answer(const content::Questionnaire& form, std::size_t item, double latent);
 
 }  // namespace bolt::study

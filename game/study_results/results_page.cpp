@@ -55,6 +55,14 @@ std::string design_text(const content::Study& study) {
         n, n, design.seed);
 }
 
+// The participants whose plan was changed after they began: "P01, P03".
+std::string changed_plans(const StudyData& data) {
+    std::string text;
+    for (const ParticipantState& state : data.participants)
+        if (state.progress.plan_changes > 0) text += (text.empty() ? "" : ", ") + state.participant;
+    return text;
+}
+
 std::string facts(const content::Study& study, const StudyData& data) {
     std::int64_t first = 0, last = 0;
     double set_back = 0.0;
@@ -76,6 +84,7 @@ std::string facts(const content::Study& study, const StudyData& data) {
     if (set_back > 0.0)
         out += plot::fact("clock set back", fmt::format("by {} in total", plot::duration_text(set_back)));
     out += plot::fact("plan", fmt::format("{:016x}", study.checksum));
+    out += plot::fact("plan changed for", changed_plans(data));
     return out + "</dl>\n";
 }
 
@@ -99,9 +108,9 @@ void put_published(std::string& out, const MeasureResult& measure) {
         "<tr><td></td><td class=\"w\">{}{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
         "class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">–</td><td class=\"n\">–</td></tr>\n",
         plot::escape(value.source),
-        measure.published_is_possible ? "" : " <span class=\"bad\">impossible mean</span>", value.n,
-        value.min ? plot::number(*value.min, 0) : "–", value.max ? plot::number(*value.max, 0) : "–",
-        plot::number(value.mean, value.decimals));
+        measure.published_is_possible.value_or(true) ? "" : " <span class=\"bad\">impossible mean</span>",
+        value.n, value.min ? fmt::format("{:g}", *value.min) : "–",
+        value.max ? fmt::format("{:g}", *value.max) : "–", plot::number(value.mean, value.decimals));
 }
 
 std::string description_table(const Results& results, bool objective) {
@@ -118,7 +127,7 @@ std::string description_table(const Results& results, bool objective) {
                 first = false;
             }
         if (measure.published != nullptr) put_published(rows, measure);
-        impossible = impossible || !measure.published_is_possible;
+        impossible = impossible || !measure.published_is_possible.value_or(true);
     }
     if (rows.empty()) return {};
     std::string out = fmt::format(
@@ -145,6 +154,16 @@ std::string definitions(const Results& results) {
     return out + "</p>\n";
 }
 
+// At most `most` characters (UTF-8).
+std::string shortened(const std::string& text, std::size_t most) {
+    std::size_t characters = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if ((static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U) continue;
+        if (++characters > most) return text.substr(0, i) + "…";
+    }
+    return text;
+}
+
 std::string box_plot(const MeasureResult& measure) {
     plot::StripPlot strips;
     strips.title = measure.info.title;
@@ -157,7 +176,7 @@ std::string box_plot(const MeasureResult& measure) {
     double low = 0.0, high = 0.0;
     for (const Sample* sample : samples) {
         plot::StripRow row;
-        row.label = sample->name.size() > 18 ? sample->name.substr(0, 17) + "…" : sample->name;
+        row.label = shortened(sample->name, 18);
         const double scale = measure.info.scale;
         for (const double value : sample->values) {
             row.values.push_back(value * scale);
@@ -188,6 +207,7 @@ std::string box_plots(const Results& results) {
 }
 
 std::string test_text(const ComparisonResult& result) {
+    if (result.n == 0) return "no participant with all values";
     if (result.friedman)
         return fmt::format("Friedman χ²({}) = {}, W = {}", result.friedman->conditions - 1,
                            plot::number(result.friedman->chi_squared, 2),
@@ -202,11 +222,20 @@ std::string test_text(const ComparisonResult& result) {
                        plot::number(result.rank_sum->rank_biserial, 2));
 }
 
+// In English, else in the form's first language.
+std::vector<std::string> shown_labels(const content::Questionnaire& form,
+                                      const content::QuestionnaireItem& item) {
+    const std::vector<std::string> labels = content::answer_labels(form, item, "en");
+    return labels.empty() && !form.titles.empty()
+               ? content::answer_labels(form, item, form.titles.begin()->first)
+               : labels;
+}
+
 // How often each answer was given to an item, with the answer's label.
 std::string answer_counts(const content::Questionnaire& form, const content::QuestionnaireItem& item,
                           const std::string& step, const StudyData& data) {
     const content::AnswerScale& scale = content::answer_scale_of(form, item);
-    const std::vector<std::string> labels = content::answer_labels(form, item, "en");
+    const std::vector<std::string> labels = shown_labels(form, item);
     std::string text;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const double answer = scale.low + scale.step * static_cast<double>(i);
@@ -230,7 +259,7 @@ std::string participants_table(const content::Study& study, const StudyData& dat
         const content::Questionnaire& form = study.questionnaires[i];
         for (const content::QuestionnaireItem& item : form.items) {
             const std::size_t answers = content::answer_count(content::answer_scale_of(form, item));
-            if (content::answer_labels(form, item, "en").size() != answers) continue;
+            if (shown_labels(form, item).size() != answers) continue;
             const std::string counts = answer_counts(form, item, "before/" + form.id, data);
             if (!counts.empty())
                 put(rows, "<tr><td class=\"w\">{}</td><td class=\"w\">{}</td></tr>\n",
@@ -281,18 +310,23 @@ std::string learning_curve(const StudyData& data, const MeasureInfo& info) {
     plot::Plot plot;
     plot.title = info.title + " over the lessons";
     double low = 0.0, high = 1.0;
-    std::size_t lessons = 0;
+    std::size_t lessons = 0, per_part = 0;
+    for (const Observation& o : data.observations)
+        if (o.lesson != no_index) per_part = std::max(per_part, o.lesson + 1);
+    const auto lesson_number = [&](const Observation& o) {
+        return static_cast<double>(o.part * per_part + o.lesson + 1);
+    };
     for (std::size_t i = 0; i < data.participants.size(); ++i) {
         plot::PlotLine line{{}, "ln p1"};
         for (const Observation& o : data.observations)
             if (o.participant == i && o.measure == info.id && o.time == ObservationTime::condition &&
                 o.lesson != no_index)
-                line.points.push_back({static_cast<double>(line.points.size() + 1), o.value * info.scale});
+                line.points.push_back({lesson_number(o), o.value * info.scale});
         for (const plot::SvgPoint& point : line.points) {
             low = std::min(low, point.y);
             high = std::max(high, point.y);
         }
-        lessons = std::max(lessons, line.points.size());
+        if (!line.points.empty()) lessons = std::max(lessons, static_cast<std::size_t>(line.points.back().x));
         plot.lines.push_back(std::move(line));
     }
     if (lessons < 2) return {};
@@ -313,10 +347,22 @@ std::string learning_curves(const StudyData& data) {
            "average.</p>\n";
 }
 
+std::string planning_text(const content::Study& study, const StudyData& data) {
+    const std::string changed = changed_plans(data);
+    if (changed.empty())
+        return fmt::format("The {} comparisons were planned before the first participant.",
+                           study.comparisons.size());
+    return fmt::format(
+        "The plan was changed after participants had begun ({}), so it is not certain that the {} "
+        "comparisons "
+        "were planned before the data were seen.",
+        changed, study.comparisons.size());
+}
+
 std::string methods(const content::Study& study, const StudyData& data, const Results& results) {
     std::string out = "<h2>Methods</h2>\n<p>";
-    put(out, "{} participants took part{}; {} did every step and {} withdrew. ", data.participants.size(),
-        data.simulated() ? " (simulated)" : "", data.completed(), data.withdrawn);
+    put(out, "{} participants are analysed{}; {} did every step. {} others withdrew. ",
+        data.participants.size(), data.simulated() ? " (simulated)" : "", data.completed(), data.withdrawn);
     put(out, "The design had {}. ", design_text(study));
     if (study.training)
         put(out, "Before the first condition each participant trained for {} in lessons. ",
@@ -333,14 +379,15 @@ std::string methods(const content::Study& study, const StudyData& data, const Re
             plot::escape(study.questionnaires[i].source));
     put(out,
         ". Samples are described by median and quartiles (type 7) and by the mean with a percentile "
-        "bootstrap interval of 95 % ({} resamples, seed {}). The {} comparisons were planned before the "
-        "first participant; two related samples were compared by Wilcoxon's signed rank test (exact, zero "
+        "bootstrap interval of 95 % ({} resamples, seed {}). {} Two related samples were compared by "
+        "Wilcoxon's signed rank test (exact below 100 values, zero "
         "differences dropped, midranks for ties), more than two by Friedman's test, independent samples by "
-        "the rank sum test (exact), all two-sided, with Holm's correction. Effect sizes are the "
+        "the rank sum test (exact below 100 values), all two-sided, with Holm's correction. Effect sizes are "
+        "the "
         "rank-biserial "
         "correlation and Kendall's W; differences are Hodges and Lehmann's estimates. Analysed with "
         "Boltwright.</p>\n",
-        results.bootstrap.resamples, results.bootstrap.seed, study.comparisons.size());
+        results.bootstrap.resamples, results.bootstrap.seed, planning_text(study, data));
     return out;
 }
 
@@ -355,9 +402,10 @@ std::string comments(const StudyData& data) {
            rows + "</tbody></table>\n";
 }
 
-// The due step without anything that tells the condition.
+// The due step, without anything that reveals the condition.
 std::string step_text(const ParticipantState& state) {
-    if (state.withdrawn) return "withdrew";
+    if (state.withdrawn) return state.problem ? "withdrew, data left" : "withdrew";
+    if (state.problem) return "damaged";
     if (state.due == state.steps.size()) return "complete";
     const Step& step = state.steps[state.due];
     return step.id;
@@ -366,17 +414,17 @@ std::string step_text(const ParticipantState& state) {
 std::string conditions_text(const content::Study& study, const ParticipantState& state) {
     if (study.design.blind || state.withdrawn) return "–";
     std::string text;
-    for (const std::size_t condition : content::conditions_of(study, state.progress.place))
+    for (const std::size_t condition : state.conditions)
         text += (text.empty() ? "" : ", ") + study.conditions[condition].id;
     return text;
 }
 
 std::string waiting_text(const content::Study& study, const ParticipantState& state, std::int64_t now) {
+    if (state.problem) return state.problem->message();
     if (state.withdrawn) return {};
     const auto due = retention_due(study, state.progress);
     if (due && state.due < state.steps.size() && state.steps[state.due].kind == StepKind::retention)
-        return (*due > now ? "retention test from " : "retention test since ") +
-               time_text(*due).substr(0, 10);
+        return (*due > now ? "retention test from " : "retention test since ") + local_date(*due);
     return "last entry " + time_text(state.progress.latest);
 }
 
@@ -403,7 +451,7 @@ std::string progress_text(const content::Study& study, const std::vector<Partici
     std::size_t complete = 0, withdrawn = 0;
     for (const ParticipantState& state : states) {
         withdrawn += state.withdrawn;
-        complete += !state.withdrawn && state.due == state.steps.size();
+        complete += !state.withdrawn && !state.problem && state.due == state.steps.size();
         put(out, "{:<5} {:>2} of {:<3} {:<26} {:<24} {}{}\n", state.participant, state.due,
             state.steps.size(), step_text(state), conditions_text(study, state),
             waiting_text(study, state, now), state.progress.simulated ? " (simulated)" : "");

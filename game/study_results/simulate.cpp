@@ -39,11 +39,12 @@ struct Simulation {
 Status answer_form(const Simulation& simulation, SimulatedPerson& person, const Step& step) {
     const content::Questionnaire& form = simulation.study.questionnaires[step.form];
     const std::vector<double>& effects = simulation.options.effects;
-    const double effect = step.condition < effects.size() ? effects[step.condition] : 0.0;
-    for (const content::QuestionnaireItem& item : form.items) {
+    const bool between = simulation.study.design.subjects == content::StudySubjects::between;
+    const std::size_t condition = between ? person.participation.conditions().front() : step.condition;
+    const double effect = condition < effects.size() ? effects[condition] : 0.0;
+    for (std::size_t item = 0; item < form.items.size(); ++item) {
         const double latent = person.trait + effect + person.random.normal();
-        BOLT_TRY(person.participation.answer(item.id,
-                                             simulated_answer(content::answer_scale_of(form, item), latent)));
+        BOLT_TRY(person.participation.answer(form.items[item].id, simulated_answer(form, item, latent)));
     }
     *person.now += static_cast<std::int64_t>(5 * form.items.size());
     return person.participation.complete();

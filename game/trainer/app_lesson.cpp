@@ -126,9 +126,11 @@ Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
     outcome_.reset();
     tour_ = tour_requested_ ? std::optional(Tour{}) : std::nullopt;
     screen_ = ShownScreen::lesson;
-    menu_.first_start = false;
-    log(fmt::format("lesson begun: {} {}, {}, law {}", context_->assembly.name, context_->assembly.variant,
-                    lesson::name(context_->options.mode), joint::name(context_->options.law)));
+    menu_.first_start = false;  // The settings would tell the experimenter the condition.
+    log(study_ ? "lesson begun"
+               : fmt::format("lesson begun: {} {}, {}, law {}", context_->assembly.name,
+                             context_->assembly.variant, lesson::name(context_->options.mode),
+                             joint::name(context_->options.law)));
     return {};
 }
 
@@ -198,9 +200,11 @@ Status App::end_lesson() {
     if (active.clock.lag > 1.0)
         log(fmt::format("drawing was too slow: the lesson lagged {:.0f} s behind real time",
                         active.clock.lag));
-    if (options_.on_end)
-        BOLT_TRY(options_.on_end(active.session->assembly(), context_->options, *outcome_, folder_));
     if (study_ && !interrupted_) count_study_lesson();
+    if (!options_.on_end) return {};
+    const Status written = options_.on_end(active.session->assembly(), context_->options, *outcome_, folder_);
+    if (written || !study_) return written;
+    log(written.error().message());  // the report can be made again; the study goes on
     return {};
 }
 

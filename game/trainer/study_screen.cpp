@@ -266,11 +266,11 @@ ScreenAction StudyScreen::draw_lesson(const ScreenContext& context, const study:
         ready = participation_.wait() <= 0.0;
         const auto date = study::retention_due(study, participation_.progress());
         if (!ready && date)
-            draw_wrapped(words::format_text(context.words, "study.come_again",
-                                            {{"date", study::time_text(*date).substr(0, 10)}}),
-                         warning_text);
+            draw_wrapped(
+                words::format_text(context.words, "study.come_again", {{"date", study::local_date(*date)}}),
+                warning_text);
     } else {
-        const std::size_t parts = content::conditions_of(study, participation_.progress().place).size();
+        const std::size_t parts = participation_.conditions().size();
         draw_heading(context, words::format_text(context.words, "study.part",
                                                  {{"part", Number{static_cast<double>(step.part + 1), 0}},
                                                   {"of", Number{static_cast<double>(parts), 0}}}));

@@ -41,7 +41,7 @@ class StudyScreen {
   private:
     enum class StopDialog : std::uint8_t { closed, choice, withdrawal, withdrawn };
 
-    // What a page's row of buttons offers.
+    // The buttons below a page.
     struct PageButtons {
         words::TextKey forward;
         bool enabled = true, back = false;

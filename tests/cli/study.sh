@@ -27,7 +27,8 @@ cp "$sources/content/questionnaires/ssq.json" texts/questionnaires/
 expect 3 'to add: texts/questionnaires/ssq.json: 16 of 16 items have no text in "de"' "${study[@]}" check texts
 expect 3 'no language in which everything can be read' "${study[@]}" run texts --trainee Ada
 expect 3 'nowhere/study.json: ' "${study[@]}" status nowhere
-change 's/"participants": 20/"participants": 18/' uneven
+change 's/"participants": 20/"participants": 18/; s/"cover-m8"/"first-nut"/' uneven
+"${study[@]}" simulate uneven --participants 1 --quiet > /dev/null
 expect 0 'consider: 18 participants do not balance the design; expected a multiple of 4' "${study[@]}" check uneven
 
 # grim and power.
@@ -51,6 +52,7 @@ check 'the table has the four conditions' test "$(cut -d, -f3 small/results.csv 
 check 'the numbers can be read' python3 -c 'import json; r = json.load(open("small/results.json")); assert r["simulated"] and len(r["comparisons"]) == 6'
 expect 2 'everything that P01 answered and did is deleted; expected --yes' "${study[@]}" withdraw small P01
 expect 0 'P01 withdrew' "${study[@]}" withdraw small P01 --yes
+check 'and the pages with the values' test ! -e small/results.html
 check 'only the mark of the withdrawal is left' test "$(ls small/participants/P01)" = withdrawn.txt
 expect 0 '^P01 .*withdrew' "${study[@]}" status small
 expect 1 'has withdrawn the consent' "${study[@]}" withdraw small P01 --yes
@@ -59,6 +61,9 @@ expect 1 'the plan or a form was changed after P02 began' "${study[@]}" results 
 
 # run: in a window, which a second program cannot join, and which loses nothing when it is killed.
 expect 2 'nobody takes part; expected --trainee NAME' "${study[@]}" run guiding
+expect 4 'window' env -u DISPLAY "${study[@]}" run guiding --trainee Ada
+check 'without a display nobody is enrolled' test ! -e guiding/participants/P01
+expect 1 'people and simulated participants are never mixed' "${study[@]}" run uneven --trainee Ada
 expect 1 'there is no such participant' "${study[@]}" run guiding --participant P07
 "${study[@]}" run guiding --trainee Ada --silent 2> log &
 player=$!
@@ -69,7 +74,8 @@ kill -KILL $player
 wait $player 2> /dev/null
 player=
 expect 0 '^P01 +0 of .* language' "${study[@]}" status guiding
-check 'the name is not in the journal' bash -c '! grep -q Ada guiding/participants/P01/journal.db'
+check 'the code is in the journal' grep -q T- guiding/participants/P01/journal.db
+check 'and not the name' bash -c '! grep -q Ada guiding/participants/P01/journal.db'
 rm guiding/progress.html
 "${study[@]}" run guiding --trainee Ada --silent 2> log &
 player=$!

@@ -271,7 +271,9 @@ TEST_CASE("GRIM: none of the paper's means comes from 20 scores, two of them com
             CAPTURE(step);
             CHECK_FALSE(is_possible_mean(mean, 3, 20, step));
         }
-    CHECK(is_possible_mean(8.263, 3, 19, 1.0));  // 157/19
+    CHECK(is_possible_mean(8.263, 3, 19, 1.0));      // 157/19
+    CHECK(is_possible_mean(1.667, 3, 3, 2.0, 1.0));  // 1, 1 and 3
+    CHECK_FALSE(is_possible_mean(1.667, 3, 3, 2.0));
     CHECK(is_possible_mean(6.684, 3, 19, 1.0));  // 127/19
     CHECK_FALSE(is_possible_mean(8.103, 3, 19, 1.0));
     CHECK_FALSE(is_possible_mean(7.514, 3, 19, 1.0));

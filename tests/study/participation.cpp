@@ -60,7 +60,9 @@ TEST_CASE("Study: the steps are those of the plan, in its order") {
                                           "end-of-visit"};
     CHECK(do_all(participation) == second);
     CHECK(participation.due()->kind == StepKind::retention);
-    CHECK(participation.wait() == doctest::Approx(7 * 86400.0));
+    // From the beginning of that day on, in local time.
+    CHECK(participation.wait() <= 7 * 86400.0);
+    CHECK(participation.wait() > 6 * 86400.0 - 7200.0);
     CHECK_FALSE(participation.begin_lesson());
     folder.now += 7 * 86400;
     CHECK(do_all(participation) == std::vector<std::string>{"retention", "retention/paper", "farewell"});
@@ -143,7 +145,9 @@ TEST_CASE("Study: one program at a time leads a participant, and two can enrol a
         if (child == 0) {
             // The lock of the enrolment does not wait.
             for (int attempt = 0; attempt < 2000; ++attempt) {
-                if (Participation::enrol(study, folder.path(), "T-2", false, folder.clock())) _exit(0);
+                if (Participation::enrol(study, folder.path(), fmt::format("T-2{}", i), false,
+                                         folder.clock()))
+                    _exit(0);
                 usleep(2000);
             }
             _exit(1);
@@ -231,13 +235,15 @@ TEST_CASE("Study: a clock that is set back is recorded and does not lengthen a b
     Participation participation = enrolled(folder, study);
     do_all(participation);
     REQUIRE(participation.due()->kind == StepKind::pause);
+    folder.now += 20;
+    CHECK(participation.wait() == 100.0);
     folder.now -= 3600;
-    CHECK(participation.wait() == 120.0);
+    CHECK(participation.wait() == 100.0);
     REQUIRE(participation.comment("early"));
-    CHECK(participation.progress().clock_set_back == 3600.0);
-    folder.now += 3600 + 120;
+    CHECK(participation.progress().clock_set_back == 3580.0);
+    folder.now += 100;
     CHECK(participation.complete());
-    CHECK(participation.progress().clock_set_back == 3600.0);
+    CHECK(participation.progress().clock_set_back == 3580.0);
 }
 
 TEST_CASE("Study: a plan that was changed is refused, or accepted and recorded") {
@@ -254,7 +260,7 @@ TEST_CASE("Study: a plan that was changed is refused, or accepted and recorded")
     CHECK_FALSE(resumed(folder, study, "P01"));
 }
 
-TEST_CASE("Study: a damaged journal is an error that names the file") {
+TEST_CASE("Study: a damaged journal is an error that names the file, and stops nobody else") {
     StudyFolder folder;
     const content::Study study = folder.load();
     { Participation participation = enrolled(folder, study); }
@@ -262,14 +268,122 @@ TEST_CASE("Study: a damaged journal is an error that names the file") {
     const std::string text = required(read_file(file, 1U << 20U, ErrorCode::failed));
     for (const std::string& damaged : {std::string("no database"), std::string(), text.substr(0, 5000)}) {
         REQUIRE(write_file(file, damaged));
-        for (const auto& error : {list_participants(study, folder.path()).map([](auto&&) {}),
-                                  resumed(folder, study, "P01").map([](auto&&) {})}) {
-            REQUIRE_FALSE(error);
-            CHECK(error.error().message().starts_with(file.string()));
-        }
+        const auto states = required(list_participants(study, folder.path()));
+        REQUIRE(states.at(0).problem);
+        CHECK(states[0].problem->message().starts_with(file.string()));
+        const auto refused = resumed(folder, study, "P01");
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().message().starts_with(file.string()));
+        // The others go on.
+        const Participation other = enrolled(folder, study, "T-" + std::to_string(damaged.size()));
+        CHECK(other.due()->kind == StepKind::language);
     }
     REQUIRE(write_file(file, text));
     CHECK(resumed(folder, study, "P01"));
+}
+
+TEST_CASE("Study: a journal whose writer was killed in the middle of an entry can be read at once") {
+    StudyFolder folder;
+    const content::Study study = folder.load();
+    { Participation participation = enrolled(folder, study); }
+    int with_rest = 0;
+    for (int round = 0; round < 40; ++round) {
+        int begun[2];
+        REQUIRE(pipe(begun) == 0);
+        const pid_t child = fork();
+        if (child == 0) {
+            auto participation = resumed(folder, study, "P01");
+            while (participation && participation->comment(std::string(3000, 'x')))
+                if (write(begun[1], "x", 1) != 1) _exit(1);
+            _exit(1);
+        }
+        close(begun[1]);
+        char byte = 0;
+        REQUIRE(read(begun[0], &byte, 1) == 1);
+        usleep(static_cast<useconds_t>(97 * round));
+        kill(child, SIGKILL);
+        waitpid(child, nullptr, 0);
+        close(begun[0]);
+        with_rest += std::filesystem::exists(folder.path() / "participants/P01" /
+                                             (std::string(journal_file_name) + "-journal"));
+        const auto states = required(list_participants(study, folder.path()));
+        if (states.at(0).problem) FAIL(states[0].problem->message());
+        CHECK(states[0].progress.comment.size() == 3000);
+    }
+    CHECK(with_rest > 0);
+}
+
+TEST_CASE("Study: an accepted change of the plan leaves the lessons with their conditions") {
+    StudyFolder folder;
+    const content::Study study = folder.load();
+    std::vector<std::string> before;
+    {
+        Participation participation = enrolled(folder, study);
+        do_until(participation, "part-1/tlx");
+        before = participation.progress().conditions;
+    }
+    // The two conditions change their places, and another seed would assign others.
+    folder.edit(R"("id": "a", "title": { "en": "A" })",
+                R"("id": "z", "title": { "en": "A" }, "lesson": { "task": "loosen" } },
+    { "id": "a", "title": { "en": "A" })");
+    folder.edit(R"("sessions": 2)", R"("sessions": 2, "seed": 77)");
+    const content::Study changed = folder.load();
+    CHECK_FALSE(Participation::enrol(changed, folder.path(), "T-2", false, folder.clock()));
+    {
+        const Participation participation = required(resumed(folder, changed, "P01", true));
+        CHECK(participation.progress().conditions == before);
+        CHECK(participation.due()->id == "part-1/tlx");
+        for (std::size_t i = 0; i < before.size(); ++i)
+            CHECK(changed.conditions[participation.conditions()[i]].id == before[i]);
+        CHECK(participation.progress().plan_changes == 1);
+    }
+    CHECK(Participation::enrol(changed, folder.path(), "T-2", false, folder.clock()));
+    folder.edit(R"("id": "a")", R"("id": "renamed")");
+    const auto refused = resumed(folder, folder.load(), "P01", true);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message().find("does not have condition \"a\"") != std::string::npos);
+}
+
+TEST_CASE("Study: a participant whose language is removed from the plan chooses again") {
+    StudyFolder folder;
+    const content::Study study = folder.load();
+    {
+        Participation participation = enrolled(folder, study);
+        do_until(participation, "before/background");
+    }
+    folder.edit(R"(, "de": "Zweck.")", "");
+    const content::Study changed = folder.load();
+    Participation participation = required(resumed(folder, changed, "P01", true));
+    CHECK(participation.due()->kind == StepKind::language);
+    REQUIRE(participation.choose_language("en"));
+    CHECK(participation.due()->id == "before/background");
+}
+
+TEST_CASE("Study: an interrupted withdrawal is shown and can be completed; its pages are deleted") {
+    StudyFolder folder;
+    const content::Study study = folder.load();
+    { Participation participation = enrolled(folder, study); }
+    const auto own = folder.path() / "participants/P01";
+    REQUIRE(mark_withdrawn(own, folder.now));
+    REQUIRE(write_file(folder.path() / "results.csv", "P01"));
+    const auto states = required(list_participants(study, folder.path()));
+    CHECK(states.at(0).withdrawn);
+    REQUIRE(states[0].problem);
+    REQUIRE(withdraw(folder.path(), "P01", folder.now));
+    CHECK_FALSE(std::filesystem::exists(own / journal_file_name));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "results.csv"));
+    CHECK_FALSE(required(list_participants(study, folder.path())).at(0).problem);
+    CHECK_FALSE(withdraw(folder.path(), "P01", folder.now));
+    CHECK_FALSE(withdraw(folder.path(), "../P01", folder.now));
+}
+
+TEST_CASE("Study: people and simulated participants are not mixed, and nobody takes part twice") {
+    StudyFolder folder;
+    const content::Study study = folder.load();
+    { Participation participation = enrolled(folder, study, "T-1"); }
+    CHECK_FALSE(Participation::enrol(study, folder.path(), "T-1", false, folder.clock()));
+    CHECK_FALSE(Participation::enrol(study, folder.path(), "simulated-1", true, folder.clock()));
+    CHECK(Participation::enrol(study, folder.path(), "T-2", false, folder.clock()));
 }
 
 }  // namespace participation_test

@@ -26,17 +26,17 @@ StudyData data_of(const content::Study& study, const std::string& measure,
         ParticipantState state;
         state.participant = "P" + std::to_string(i + 1);
         state.progress.place = i;
-        state.steps = steps_of(study, i);
+        state.conditions = content::conditions_of(study, i);
+        state.steps = steps_of(study, state.conditions);
         data.participants.push_back(std::move(state));
         for (std::size_t k = 0; k < rows[i].size(); ++k) {
             Observation o;
             o.participant = i;
             o.condition = k;
             o.part = k;
-            o.lesson = 0;
             o.measure = measure;
             o.value = rows[i][k];
-            data.observations.push_back(o);
+            for (o.lesson = 0; o.lesson < study.design.sessions; ++o.lesson) data.observations.push_back(o);
         }
     }
     return data;
@@ -108,6 +108,24 @@ TEST_CASE("Study results: participants without a value in every condition are le
     CHECK(duration->conditions[0].quartiles.low == 1.75);  // type 7
 }
 
+TEST_CASE("Study results: who misses a lesson of a factor's level is left out of the test of the factor") {
+    StudyFolder folder;
+    folder.edit(R"({ "id": "a", "title": { "en": "A" } },)",
+                R"({ "id": "a", "title": { "en": "A" }, "levels": { "f": "on" } },
+                   { "id": "c", "title": { "en": "C" }, "lesson": { "task": "loosen" }, "levels": { "f": "off" } },
+                   { "id": "d", "title": { "en": "D" }, "lesson": { "mode": "assessment" }, "levels": { "f": "on" } },)");
+    folder.edit(R"("lesson": { "mode": "guided" } })",
+                R"("lesson": { "mode": "guided" }, "levels": { "f": "off" } })");
+    folder.edit(R"({ "measure": "duration_s" })", R"({ "measure": "duration_s", "factor": "f" })");
+    const content::Study study = folder.load();
+    StudyData data = data_of(study, "duration_s", {{1, 2, 3, 4}, {3, 5, 2, 1}, {4, 1, 2, 2}});
+    CHECK(compare(study, data)[2].n == 3);
+    std::erase_if(data.observations, [](const Observation& o) {
+        return o.participant == 1 && o.condition == 3 && o.lesson == 1;
+    });
+    CHECK(compare(study, data)[2].n == 2);
+}
+
 TEST_CASE("Study results: three conditions are compared by Friedman's test of the rounding times") {
     StudyFolder folder;
     folder.edit(R"({ "id": "a", "title": { "en": "A" } },)",
@@ -136,7 +154,7 @@ TEST_CASE("Study results: groups of different people are compared by the rank su
     std::vector<double> groups[2];
     for (Observation& o : data.observations) {
         o.condition = content::conditions_of(study, o.participant).front();
-        groups[o.condition].push_back(o.value);
+        if (o.lesson == 0) groups[o.condition].push_back(o.value);
     }
     REQUIRE(groups[0].size() == 3);
     const ComparisonResult result = compare(study, data)[2];
@@ -152,7 +170,7 @@ TEST_CASE("Study results: the means printed in 2018 cannot come from twenty answ
     const Results results = analyse(paper.study, {}, {.resamples = 10});
     int impossible = 0;
     for (const MeasureResult& measure : results.measures)
-        if (measure.published != nullptr) impossible += !measure.published_is_possible;
+        if (measure.published != nullptr) impossible += measure.published_is_possible == false;
     CHECK(impossible == 4);
     const std::string page = results_page(paper.study, {}, results);
     CHECK(count(page, "impossible mean") == 4);
@@ -227,6 +245,18 @@ TEST_CASE("Study results: every objective measure has a definition, a value, and
         CHECK(values.contains(infos[i].id));
         CHECK(has(std::string(content::study_schema_text()), infos[i].id));
     }
+}
+
+TEST_CASE("Study results: the page says whose plan was changed, and claims no planning before the data") {
+    StudyFolder folder;
+    const content::Study study = folder.load();
+    StudyData data = data_of(study, "duration_s", {{1, 2}, {2, 3}});
+    const std::string planned = "were planned before the first participant";
+    CHECK(has(results_page(study, data, analyse(study, data, {.resamples = 10})), planned));
+    data.participants[1].progress.plan_changes = 1;
+    const std::string page = results_page(study, data, analyse(study, data, {.resamples = 10}));
+    CHECK_FALSE(has(page, planned));
+    CHECK(has(page, "after participants had begun (P2)"));
 }
 
 TEST_CASE("Study results: a comment cannot change the page") {
