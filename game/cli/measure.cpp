@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -15,6 +16,7 @@
 #include "game/cli/commands.hpp"
 #include "game/measure/import.hpp"
 #include "game/measure/simulated_rig.hpp"
+#include "game/measure/validation.hpp"
 #include "game/report/report.hpp"
 #include "haptics/joint/group.hpp"
 
@@ -152,6 +154,76 @@ void add_measure_simulate(CLI::App& measure, int& exit_code) {
     command->callback([options, &exit_code] { exit_code = run_measure_simulate(*options); });
 }
 
+struct ValidateOptions {
+    std::string data, out = "out/validation";
+};
+
+constexpr std::size_t largest_validation_file = 4U << 20U;  // bytes
+
+// The section of one joint; writes the comparison page of a loosening record.
+Result<std::string> joint_validation(const content::AssemblyJoint& joint, const ValidateOptions& options) {
+    const std::filesystem::path file = std::filesystem::path(options.data) / (joint.design.id + ".csv");
+    BOLT_TRY_ASSIGN(const auto text, read_file(file, largest_validation_file, ErrorCode::bad_content));
+    if (joint.design.id.starts_with("retightening"))
+        return measure::retightening_text(joint.design, joint.spec.torque.target, text, file.string());
+    BOLT_TRY_ASSIGN(const auto record, analysis::parse_measured(text, file.string()));
+    BOLT_TRY_ASSIGN(const auto validation, measure::validate_loosening(joint.design, record));
+    BOLT_TRY(write_file(std::filesystem::path(options.out) / (joint.design.id + ".html"),
+                        report::comparison_page(validation.comparison)));
+    return measure::loosening_text(validation);
+}
+
+Result<std::string> validation_text(const ValidateOptions& options) {
+    const std::filesystem::path data(options.data);
+    std::vector<std::filesystem::path> assemblies;
+    std::error_code problem;
+    for (const auto& entry : std::filesystem::directory_iterator(data, problem))
+        if (entry.path().extension() == ".json") assemblies.push_back(entry.path());
+    std::sort(assemblies.begin(), assemblies.end());
+    if (assemblies.empty())
+        return fail(ErrorCode::usage, options.data + ": there are no joints in this folder",
+                    "a folder with assembly files (.json) and a CSV for each of their joints");
+    std::string out =
+        "# The mechanistic law against published data\n\nMade by `boltwright measure validate "
+        "docs/validation --out "
+        "docs/validation`. The .json files describe the joints, with what is known and what is assumed about "
+        "them.\n\n";
+    for (const std::filesystem::path& file : assemblies) {
+        const content::LoadedAssembly loaded = content::load_assembly(file);
+        if (!loaded.ok()) return fail(loaded.errors.front());
+        for (const content::AssemblyJoint& joint : loaded.assembly.joints) {
+            BOLT_TRY_ASSIGN(const auto section, joint_validation(joint, options));
+            out += section;
+        }
+    }
+    const std::filesystem::path table = data / "vdi2230_a1.csv";
+    BOLT_TRY_ASSIGN(const auto rows, read_file(table, largest_validation_file, ErrorCode::bad_content));
+    BOLT_TRY_ASSIGN(const auto section, measure::preload_table_text(rows, table.string()));
+    return out + section;
+}
+
+int run_measure_validate(const ValidateOptions& options) {
+    std::error_code ignored;  // write_file reports the error
+    std::filesystem::create_directories(options.out, ignored);
+    Result<std::string> text = validation_text(options);
+    if (!text) return print_error(text.error());
+    text->pop_back();  // the blank line at the end
+    const std::filesystem::path page = std::filesystem::path(options.out) / "README.md";
+    if (Status written = write_file(page, *text); !written) return print_error(written.error());
+    const Status printed = print(*text + "\n" + page.string() + "\n");
+    return printed ? 0 : print_error(printed.error());
+}
+
+void add_measure_validate(CLI::App& measure, int& exit_code) {
+    auto options = std::make_shared<ValidateOptions>();
+    CLI::App* command = measure.add_subcommand(
+        "validate", "Compare the mechanistic law with published measurements and tables");
+    command->add_option("data", options->data, "Folder with the data and its joints, such as docs/validation")
+        ->required();
+    command->add_option("--out", options->out, "Folder to write into")->capture_default_str();
+    command->callback([options, &exit_code] { exit_code = run_measure_validate(*options); });
+}
+
 }  // namespace
 
 void add_measure(CLI::App& app, int& exit_code) {
@@ -159,6 +231,7 @@ void add_measure(CLI::App& app, int& exit_code) {
     measure->require_subcommand(1);
     add_measure_import(*measure, exit_code);
     add_measure_simulate(*measure, exit_code);
+    add_measure_validate(*measure, exit_code);
 }
 
 }  // namespace bolt::cli

@@ -43,8 +43,9 @@ double low_pass_gain(double frequency, double cut_off, double rate) {
 std::vector<double> zero_phase_low_pass(std::span<const double> samples, double cut_off, double rate) {
     if (samples.size() < 2) return {samples.begin(), samples.end()};
     // Three periods of the cut-off: transients of the ends have decayed to 10⁻⁵ by then.
-    const std::size_t n = samples.size(),
-                      pad = std::min(n - 1, static_cast<std::size_t>(std::ceil(3.0 * rate / cut_off)));
+    const std::size_t n = samples.size();
+    const auto pad =
+        static_cast<std::size_t>(std::min(static_cast<double>(n - 1), std::ceil(3.0 * rate / cut_off)));
     std::vector<double> x;
     x.reserve(n + 2 * pad);
     for (std::size_t i = pad; i > 0; --i) x.push_back(2.0 * samples[0] - samples[i]);

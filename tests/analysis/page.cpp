@@ -73,7 +73,8 @@ TEST_CASE("Comparison page: a record of another joint has a label and no errors"
     c.joints = {*joint};
     c.errors = joint->errors;
     for (const std::string& text : {console_text(c), comparison_page(c)}) {
-        CHECK(has(text, "another joint, or tightened very differently: the peak torques differ by a factor of 5"));
+        CHECK(has(text,
+                  "another joint, or tightened very differently: the peak torques differ by a factor of 5"));
         CHECK_FALSE(has(text, "MAPE 0"));
         CHECK_FALSE(has(text, "all stages"));
     }

@@ -54,7 +54,7 @@ TEST_CASE("Landmarks: the standard error covers the slope") {
 TEST_CASE("Landmarks: the published law has its printed slope, seat and yield") {
     const joint::PublishedParameters p;
     joint::CurveOptions options;
-    const auto samples = joint::torque_angle_curve(joint::make_published_group(p), options);
+    const auto samples = joint::torque_angle_curve(joint::make_published_group({p}), options);
     std::vector<double> angles, torques;
     for (const joint::CurveSample& s : samples) {
         angles.push_back(s.angle);
