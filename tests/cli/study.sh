@@ -25,7 +25,7 @@ change 's/"form": "sus"/"form": "ssq"/' texts
 expect 3 'texts/questionnaires/ssq.json: .*No such file' "${study[@]}" check texts
 cp "$sources/content/questionnaires/ssq.json" texts/questionnaires/
 expect 3 'to add: texts/questionnaires/ssq.json: 16 of 16 items have no text in "de"' "${study[@]}" check texts
-expect 3 'no language in which everything can be read' "${study[@]}" run texts --trainee Ada
+expect 3 'no language of the program in which everything can be read' "${study[@]}" run texts --trainee Ada
 expect 3 'nowhere/study.json: ' "${study[@]}" status nowhere
 change 's/"participants": 20/"participants": 18/; s/"cover-m8"/"first-nut"/' uneven
 "${study[@]}" simulate uneven --participants 1 --quiet > /dev/null
