@@ -57,7 +57,8 @@ StageBand stage_band(std::span<const CycleComparison> cycles, const Pick& pick) 
 
 statistics::Interval mean_interval(const std::vector<double>& values) {
     if (values.size() < min_repetitions) return {};
-    return statistics::bootstrap_interval(values, mean_of, band_options);
+    return statistics::bootstrap_interval(
+        values, [](std::span<const double> v) { return mean_of(v); }, band_options);
 }
 
 double torque_at(const TorqueCurve& curve, double angle) {
