@@ -37,9 +37,9 @@ void check_thread_length(const LayeredObject& layers, const joint::JointDesign& 
     if (grip < design.bolt_length - thread - length_tolerance)
         reader.report(
             thread_node ? thread_node.pointer : layers.find("bolt_length_mm").pointer,
-            fmt::format("the nut cannot reach its seat: the thread ends {:g} mm under the head, the grip is "
-                        "{:g} mm",
-                        (design.bolt_length - thread) / mm, grip / mm),
+            fmt::format(
+                "the nut cannot reach its seat: the thread ends {:g} mm under the head, the grip is {:g} mm",
+                (design.bolt_length - thread) / mm, grip / mm),
             fmt::format("a shorter bolt, or bolt_thread_length_mm of at least {:g}",
                         (design.bolt_length - grip) / mm));
 }
@@ -148,10 +148,9 @@ void check_prevailing(const LayeredObject& layers, const JointType& type, double
     if (prevailing >= pass_torque)
         layers.reader().report(
             node.pointer,
-            fmt::format(
-                "a nut that takes {:g} N·m to turn never loads its bolt in a pass that tightens to {:g} N·m "
-                "({:g} percent of {:g})",
-                prevailing, pass_torque, smallest_pass_fraction * 100.0, target),
+            fmt::format("a nut that takes {:g} N·m to turn never loads its bolt in a pass that tightens to "
+                        "{:g} N·m ({:g} percent of {:g})",
+                        prevailing, pass_torque, smallest_pass_fraction * 100.0, target),
             max_torque < pass_torque
                 ? fmt::format("at most {:g} N·m", max_torque)
                 : fmt::format("less than {:g} N·m{}", pass_torque,

@@ -68,6 +68,13 @@ std::vector<std::string> answer_labels(const Questionnaire& questionnaire, const
     return found == labels.end() ? std::vector<std::string>{} : found->second;
 }
 
+const std::string& text_in(const std::map<std::string, std::string>& texts, const std::string& language) {
+    static const std::string none;
+    for (const std::string& code : {language, std::string("en")})
+        if (const auto found = texts.find(code); found != texts.end()) return found->second;
+    return texts.empty() ? none : texts.begin()->second;
+}
+
 bool is_answer(const AnswerScale& scale, double number) {
     const double steps = (number - scale.low) / scale.step;
     return number >= scale.low && number <= scale.high &&

@@ -89,6 +89,10 @@ struct LoadedQuestionnaire {
 LoadedQuestionnaire parse_questionnaire(std::string_view text, const std::string& file);
 LoadedQuestionnaire load_questionnaire(const std::filesystem::path& path);
 
+// The text in a language, else in English, else in the first language; empty without texts.
+const std::string& text_in(const std::map<std::string, std::string>& texts,
+                           const std::string& language = "en");
+
 bool is_answer(const AnswerScale& scale, double number);
 
 // The functions below need a questionnaire without mistakes.

@@ -88,11 +88,13 @@ AnswerLabels read_labels(JsonReader& reader, const JsonNode& object, std::option
         std::vector<std::string>& texts = labels[last_token(list.pointer)];
         for (const JsonNode& text : reader.items(list)) texts.push_back(reader.text(text).value_or(""));
         if (count && list && texts.size() != 2 && texts.size() != *count)
-            reader.report(list.pointer, fmt::format("{} labels", texts.size()),
-                          *count == 2 ? "2 labels, one for each answer"
-                                      : fmt::format("2 labels, for the lowest and the highest answer, or {}, "
-                                                    "one for each answer",
-                                                    *count));
+            reader.report(
+                list.pointer, fmt::format("{} labels", texts.size()),
+                *count == 2
+                    ? "2 labels, one for each answer"
+                    : fmt::format(
+                          "2 labels, for the lowest and the highest answer, or {}, one for each answer",
+                          *count));
     }
     return labels;
 }

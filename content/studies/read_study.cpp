@@ -15,8 +15,8 @@ namespace bolt::content {
 namespace {
 
 constexpr std::size_t max_study_size = 1U << 20U;  // bytes
-constexpr std::string_view form_time_names[form_times] = {
-    "before", "after_training", "after_session", "after_condition", "after", "retention"};
+constexpr std::string_view form_time_names[form_times] = {"before",          "after_training", "after_lesson",
+                                                          "after_condition", "after",          "retention"};
 
 // A study while it is read.
 struct StudyReader {
@@ -84,7 +84,7 @@ void read_design(StudyReader& reader) {
         json.report(order.pointer, "each participant gets one condition between subjects, so it has no order",
                     "no such member", JsonPart::key);
     design.participants = whole(json, node, "participants", 1);
-    design.sessions = whole(json, node, "sessions", 1);
+    design.lessons = whole(json, node, "lessons", 1);
     design.seed = whole(json, node, "seed", 1);
     design.blind = boolean(json, node, "blind", false);
     design.shortest_break = 60.0 * json.number(json.member(node, "break_minutes")).value_or(0.0);
@@ -169,14 +169,14 @@ std::string read_measure(StudyReader& reader, const JsonNode& object, std::optio
         const bool has_time =
             required
                 ? form.is_at(*required)
-                : form.is_at(FormTime::after_session) || form.is_at(FormTime::after_condition) ||
+                : form.is_at(FormTime::after_lesson) || form.is_at(FormTime::after_condition) ||
                       (reader.study.design.subjects == StudySubjects::between && form.is_at(FormTime::after));
         if (dot != std::string::npos && measure.substr(0, dot) == form.id && !has_time)
             reader.json.report(node.pointer,
                                fmt::format("form {} is not presented {}", in_quotes(form.id),
                                            required ? "after the retention test" : "in the conditions"),
                                required ? R"("retention" among its times)"
-                                        : R"("after_session" or "after_condition" among its times)");
+                                        : R"("after_lesson" or "after_condition" among its times)");
         if (reader.questionnaires == nullptr) {
             if (dot != std::string::npos && measure.substr(0, dot) == form.id) return measure;
             continue;

@@ -33,7 +33,7 @@ struct StudyDesign {
     StudySubjects subjects = StudySubjects::within;
     StudyOrder order = StudyOrder::williams;  // within subjects
     std::size_t participants = 1;             // planned
-    std::size_t sessions = 1;                 // lessons in each condition
+    std::size_t lessons = 1;                  // lessons in each condition
     std::uint64_t seed = 1;
     bool blind = false;
     double shortest_break = 0.0;  // s, between two conditions
@@ -68,7 +68,7 @@ struct StudyCondition {
 enum class FormTime : std::uint8_t {
     before,           // after consent
     after_training,   // needs a training
-    after_session,    // after each lesson of a condition
+    after_lesson,     // after each lesson of a condition
     after_condition,  // after its last lesson
     after,            // at the end of the first visit
     retention,        // after the retention test

@@ -116,7 +116,7 @@ IdentifiedPerson identify_person(const PersonFolders& folders, std::string_view 
     if (identified.person.name.empty())
         identified.similar_code = similar_code(folders.people, identified.person.code);
     else
-        identified.unadopted_files = adopt_files(folders, identified.person);
+        identified.adoption_errors = adopt_files(folders, identified.person);
     return identified;
 }
 

@@ -1,4 +1,5 @@
-// Who trains: the person of a typed text, with the files that older programs stored under the typed name.
+// Finds the person that a typed name or code means, with the files that older programs stored under the typed
+// name.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +26,7 @@ struct IdentifiedPerson {
     // but nothing connects it with the person's other lessons.
     std::optional<Error> names_error{};
     std::string similar_code{};  // a known code that differs from the typed, unknown one in a character
-    std::vector<Error> unadopted_files{};  // files of older programs that could not be renamed
+    std::vector<Error> adoption_errors{};  // files of older programs that could not be renamed
 };
 
 // Finds or adds the person (find_or_add_person), and adopts files under the person's name.

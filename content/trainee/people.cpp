@@ -175,7 +175,8 @@ std::string unused_code(std::span<const Person> people) {
 }  // namespace
 
 std::string name_and_code(const Person& person) {
-    return person.name.empty() ? person.code : fmt::format("{} ({})", person.name, person.code);
+    if (person.name.empty() || person.code.empty()) return person.code + person.name;
+    return fmt::format("{} ({})", person.name, person.code);
 }
 
 std::string make_person_code() {

@@ -21,7 +21,7 @@ struct Person {
     friend bool operator==(const Person&, const Person&) = default;
 };
 
-// "Ada (T-7K3M9Q)", or the code of a person without a name.
+// "Ada (T-7K3M9Q)", or the code or the name alone.
 std::string name_and_code(const Person& person);
 
 // A new code, such as T-7K3M9Q: "T-" and six random characters of Crockford's base 32, which has no I, L, O

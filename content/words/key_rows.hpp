@@ -362,6 +362,7 @@ inline constexpr KeyRow key_rows[] = {
     // The end of a lesson.
     {"result.score", "points"},
     // The pages of a study (game/trainer/study_screen.cpp).
+    {"study.language", ""},
     {"study.next", ""},
     {"study.back", ""},
     {"study.stop", ""},

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <vector>
 
 namespace bolt {
@@ -26,6 +27,15 @@ constexpr double square(double x) { return x * x; }
 
 // Returns true if no component is infinite or NaN.
 inline bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// Piecewise linear interpolation of y over ascending x, of the same size of at least 2. Beyond the ends the
+// value is that of the end.
+inline double interpolate(std::span<const double> x, std::span<const double> y, double at) {
+    const auto after = std::upper_bound(x.begin(), x.end(), at) - x.begin();
+    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, std::ssize(x) - 1));
+    const double part = std::clamp((at - x[i - 1]) / (x[i] - x[i - 1]), 0.0, 1.0);
+    return y[i - 1] + part * (y[i] - y[i - 1]);
+}
 
 // Returns the angle reduced to [-period/2, period/2].
 inline double wrap(double angle, double period) { return std::remainder(angle, period); }

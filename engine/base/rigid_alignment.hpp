@@ -72,10 +72,10 @@ struct PivotFit {
     Vec3 tip{0.0};     // m, in the frame of the tool
     Vec3 pivot{0.0};   // m, the point, in the frame of the poses
     double rms = 0.0;  // m, of the distances between the tip and the point
-    // Measure of how much the orientations differ: the least standard deviation over the poses that a unit
-    // vector fixed to the tool can have. Noise of standard deviation s on each axis of n poses gives an error
-    // of the tip below s / (√n · orientation_spread) on each axis. 0: all turns have one axis, and the tip
-    // may be anywhere along it.
+    // Measure of how much the orientations differ: for each unit vector fixed to the tool, its standard
+    // deviation over the poses; this is the least of them. Noise of standard deviation s on each axis of n
+    // poses gives an error of the tip below s / (√n · orientation_spread) on each axis. 0: all turns have one
+    // axis, and the tip may be anywhere along it.
     double orientation_spread = 0.0;
 };
 // PivotFit::orientation_spread of turns that are spread evenly from −15° to 15° about each of two axes.

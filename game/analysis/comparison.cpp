@@ -280,8 +280,7 @@ std::string different_peaks(const TorqueCurve& simulated, const std::vector<Meas
     if (ratio <= largest_peak_ratio) return {};
     return fmt::format(
         "the peak torques differ by a factor of {:.2f} (virtual {:.4g} N·m, measured {:.4g} N·m); expected "
-        "at "
-        "most {:g} for one joint",
+        "at most {:g} for one joint",
         ratio, own, median, largest_peak_ratio);
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/csv.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/math.hpp"
 #include "engine/base/nearest.hpp"
@@ -18,67 +19,6 @@
 namespace bolt::analysis {
 
 namespace {
-
-// A field of one CSV line.
-struct CsvField {
-    std::string text;  // unquoted, without surrounding blanks
-    int column = 1;    // 1-based, of the first character
-};
-
-bool blank(char c) { return c == ' ' || c == '\t'; }
-
-tl::unexpected<Error> error_at(std::size_t position, std::string what, std::string expected) {
-    Error error;
-    error.code = ErrorCode::bad_content;
-    error.column = static_cast<int>(position) + 1;
-    error.what = std::move(what);
-    error.expected = std::move(expected);
-    return fail(std::move(error));
-}
-
-// Reads the quoted text that begins at `at` and sets `at` after its closing quote.
-Result<std::string> quoted(std::string_view line, std::size_t& at) {
-    const std::size_t open = at++;
-    std::string text;
-    for (; at < line.size(); ++at) {
-        if (line[at] != '"') {
-            text += line[at];
-        } else if (at + 1 < line.size() && line[at + 1] == '"') {
-            text += '"';
-            ++at;
-        } else {
-            ++at;
-            return text;
-        }
-    }
-    return error_at(open, "this quote is not closed on its line", "a closing '\"'");
-}
-
-// Splits one line as in RFC 4180. Errors have the column, but not the file and line.
-Result<std::vector<CsvField>> split_line(std::string_view line) {
-    std::vector<CsvField> fields;
-    std::size_t at = 0;
-    while (true) {
-        while (at < line.size() && blank(line[at])) ++at;
-        CsvField field;
-        field.column = static_cast<int>(at) + 1;
-        if (at < line.size() && line[at] == '"') {
-            BOLT_TRY_ASSIGN(auto text, quoted(line, at));
-            field.text = std::move(text);
-            while (at < line.size() && blank(line[at])) ++at;
-            if (at < line.size() && line[at] != ',')
-                return error_at(at, "there is text after a quoted field", "a comma or the end of the line");
-        } else {
-            const std::size_t end = std::min(line.find(',', at), line.size());
-            field.text = line.substr(at, end - at);
-            while (!field.text.empty() && blank(field.text.back())) field.text.pop_back();
-            at = end;
-        }
-        fields.push_back(std::move(field));
-        if (at >= line.size()) return fields;
-        ++at;  // the comma
-    }
-}
 
 constexpr std::size_t largest_file = std::size_t{64} << 20U;
 constexpr double largest_angle = 1e7, largest_torque = 1e6;  // degrees, N·m; more is not a measurement
@@ -210,7 +150,7 @@ struct CsvParser {
             return {};
         }
         if (text.ends_with('\r')) text.remove_suffix(1);
-        Result<std::vector<CsvField>> fields = split_line(text);
+        Result<std::vector<CsvField>> fields = split_csv_line(text);
         if (!fields)
             return position.error(fields.error().column, fields.error().what, fields.error().expected);
         if (has_header) return row(*fields, text.size());

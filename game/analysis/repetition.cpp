@@ -11,12 +11,6 @@ namespace {
 constexpr std::size_t band_points = 121;
 constexpr statistics::BootstrapOptions band_options{.resamples = 2000, .confidence = 0.95, .seed = band_seed};
 
-double mean_of(std::span<const double> values) {
-    double sum = 0.0;
-    for (const double v : values) sum += v;
-    return values.empty() ? nan : sum / static_cast<double>(values.size());
-}
-
 // Pools what resampled repetitions contribute. The values of a sample are indices of repetitions.
 template <class Pick>
 StageBand stage_band(std::span<const CycleComparison> cycles, const Pick& pick) {
@@ -58,16 +52,7 @@ StageBand stage_band(std::span<const CycleComparison> cycles, const Pick& pick) 
 statistics::Interval mean_interval(const std::vector<double>& values) {
     if (values.size() < min_repetitions) return {};
     return statistics::bootstrap_interval(
-        values, [](std::span<const double> v) { return mean_of(v); }, band_options);
-}
-
-double torque_at(const TorqueCurve& curve, double angle) {
-    const auto after = std::upper_bound(curve.angle.begin(), curve.angle.end(), angle) - curve.angle.begin();
-    const auto i =
-        static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, std::ssize(curve.angle) - 1));
-    const double part =
-        std::clamp((angle - curve.angle[i - 1]) / (curve.angle[i] - curve.angle[i - 1]), 0.0, 1.0);
-    return curve.torque[i - 1] + part * (curve.torque[i] - curve.torque[i - 1]);
+        values, [](std::span<const double> v) { return statistics::mean_deviation(v).mean; }, band_options);
 }
 
 }  // namespace
@@ -85,8 +70,8 @@ RepetitionBands repetition_bands(std::span<const CycleComparison> cycles) {
         if (std::isfinite(cycle.slope_error)) slopes.push_back(cycle.slope_error);
         if (std::isfinite(cycle.breakaway_error)) breakaways.push_back(cycle.breakaway_error);
     }
-    bands.slope_error = mean_of(slopes);
-    bands.breakaway_error = mean_of(breakaways);
+    bands.slope_error = statistics::mean_deviation(slopes).mean;
+    bands.breakaway_error = statistics::mean_deviation(breakaways).mean;
     bands.slope_interval = mean_interval(slopes);
     bands.breakaway_interval = mean_interval(breakaways);
     return bands;
@@ -108,10 +93,11 @@ CurveBand curve_band(std::span<const MeasuredCurve> measured, std::span<const Cy
         const double angle =
             low + (high - low) * static_cast<double>(k) / static_cast<double>(band_points - 1);
         for (std::size_t i = 0; i < count; ++i)
-            torques[i] = torque_at(measured[i].curve, angle - cycles[i].alignment.shift);
+            torques[i] = interpolate(measured[i].curve.angle, measured[i].curve.torque,
+                                     angle - cycles[i].alignment.shift);
         const statistics::Interval interval = mean_interval(torques);
         band.angle.push_back(angle);
-        band.mean.push_back(mean_of(torques));
+        band.mean.push_back(statistics::mean_deviation(torques).mean);
         band.low.push_back(interval.low);
         band.high.push_back(interval.high);
     }

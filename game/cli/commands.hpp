@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "content/studies/study.hpp"
 #include "content/trainee/people.hpp"
 #include "engine/base/result.hpp"
 #include "haptics/device/connected_devices.hpp"
@@ -40,7 +41,7 @@ void add_displays(CLI::App& app, int& exit_code);
 void add_study(CLI::App& app, int& exit_code);
 void add_trainees(CLI::App& app, int& exit_code);
 
-// What happens to a name that is not known yet: it gets a code, or not.
+// The treatment of a name that is not known yet: `added` gives it a code.
 enum class NewPerson : std::uint8_t { unchanged, added };
 // The person that --trainee names, for commands that use calibrations of gloves in the folder `gloves`: those
 // of older programs get the code. An unknown name stays without a code if it is not added. Prints what the
@@ -50,6 +51,12 @@ Result<content::Person> person_argument(const std::string& typed, const std::fil
 
 // Adds the subcommand `register` to `station`.
 void add_station_register(CLI::App& station, int& exit_code);
+
+// Adds the subcommand `run` to `study`.
+void add_study_run(CLI::App& study, int& exit_code);
+// Loads the study of a folder. If its files have several mistakes, prints all but the last one and returns
+// that one.
+Result<content::Study> load_study_folder(const std::filesystem::path& folder);
 
 // Adds the subcommand `test` to `displays`.
 void add_displays_test(CLI::App& displays, int& exit_code);

@@ -255,11 +255,10 @@ void add_doctor(CLI::App& app, int& exit_code) {
         ->add_option("assembly", station.assembly, "Assembly that the servo simulates: folder, file or name")
         ->capture_default_str();
     doctor
-        ->add_option(
-            "--device", station.devices,
-            "Id of a device to try, as listed by `boltwright devices`; may be given twice, for one that "
-            "moves "
-            "the tool and one that turns the wrench. A device renders no force unless its button is held")
+        ->add_option("--device", station.devices,
+                     "Id of a device to try, as listed by `boltwright devices`; may be given twice, for one "
+                     "that moves the tool and one that turns the wrench. A device renders no force unless "
+                     "its button is held")
         ->expected(1)
         ->take_all();
     doctor->add_option(
@@ -276,8 +275,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
         ->needs(trainee);
     doctor->add_flag("--yes", station.yes,
                      "Permit an arm to move by itself and to push the hand; without this option the terminal "
-                     "asks. Keep the "
-                     "room around it free, and hold its handle and its button");
+                     "asks. Keep the room around it free, and hold its handle and its button");
     doctor
         ->add_option("--seconds", options->seconds,
                      "Duration of the trial (5), or of the timing at each rate of the servo (2; 0: none)")

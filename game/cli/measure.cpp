@@ -93,12 +93,13 @@ Result<analysis::MeasuredRecord> simulate_record(const content::Assembly& assemb
     return analysis::read_measured(record_file);
 }
 
-// The published law as the virtual joint, against the record.
+// The published law of one joint type against the runs of its joints.
 Result<analysis::Comparison> compare_published(const content::Assembly& assembly,
-                                               const analysis::MeasuredRecord& record) {
+                                               const analysis::MeasuredRecord& record,
+                                               const content::AssemblyJoint& type) {
     analysis::TorqueCurveBuilder builder(joint::Direction::tighten);
     for (const joint::CurveSample& s :
-         joint::torque_angle_curve(joint::make_published_group({assembly.joints.front().published.law}), {}))
+         joint::torque_angle_curve(joint::make_published_group({type.published.law}), {}))
         builder.add(s.angle, s.torque, s.stage);
     analysis::Comparison c;
     c.title = assembly.name;
@@ -106,12 +107,26 @@ Result<analysis::Comparison> compare_published(const content::Assembly& assembly
     c.variant = assembly.variant;
     c.measured_file = record.file;
     c.source = record.source;
-    c.measured = analysis::measured_curves(record);
-    BOLT_TRY_ASSIGN(auto joint,
-                    analysis::compare_joint("published law", builder.finish(), c.measured, c.options));
+    const std::vector<analysis::MeasuredCurve> all = analysis::measured_curves(record);
+    for (std::size_t i = 0; i < all.size(); ++i)  // one run for each joint, in their order
+        if (assembly.joints[i].type == type.type) c.measured.push_back(all[i]);
+    BOLT_TRY_ASSIGN(auto joint, analysis::compare_joint(type.type, builder.finish(), c.measured, c.options));
     c.errors = joint.errors;
     c.joints.push_back(std::move(joint));
     return c;
+}
+
+Result<report::MaterialComparison> compare_material(const content::Assembly& assembly,
+                                                    const analysis::MeasuredRecord& record) {
+    report::MaterialComparison material;
+    material.variant = assembly.variant;
+    for (const content::AssemblyJoint& joint : assembly.joints) {
+        const auto same = [&](const analysis::Comparison& c) { return c.joints.front().joint == joint.type; };
+        if (std::any_of(material.types.begin(), material.types.end(), same)) continue;
+        BOLT_TRY_ASSIGN(auto type, compare_published(assembly, record, joint));
+        material.types.push_back(std::move(type));
+    }
+    return material;
 }
 
 int run_measure_simulate(SimulateOptions options) {
@@ -122,13 +137,13 @@ int run_measure_simulate(SimulateOptions options) {
         if (options.variants.empty()) options.variants.emplace_back();
     }
     const std::filesystem::path out(options.out);
-    std::vector<analysis::Comparison> materials;
+    std::vector<report::MaterialComparison> materials;
     for (const std::string& variant : options.variants) {
         const content::LoadedAssembly loaded = content::load_assembly(options.assembly, variant);
         if (!loaded.ok()) return print_error(loaded.errors);
         const auto record = simulate_record(loaded.assembly, out / variant, options.seed);
         if (!record) return print_error(record.error());
-        Result<analysis::Comparison> comparison = compare_published(loaded.assembly, *record);
+        Result<report::MaterialComparison> comparison = compare_material(loaded.assembly, *record);
         if (!comparison) return print_error(comparison.error());
         materials.push_back(std::move(*comparison));
     }
@@ -185,9 +200,8 @@ Result<std::string> validation_text(const ValidateOptions& options) {
                     "a folder with assembly files (.json) and a CSV for each of their joints");
     std::string out =
         "# The mechanistic law against published data\n\nMade by `boltwright measure validate "
-        "docs/validation --out "
-        "docs/validation`. The .json files describe the joints, with what is known and what is assumed about "
-        "them.\n\n";
+        "docs/validation --out docs/validation`. The .json files describe the joints, with what is known and "
+        "what is assumed about them.\n\n";
     for (const std::filesystem::path& file : assemblies) {
         const content::LoadedAssembly loaded = content::load_assembly(file);
         if (!loaded.ok()) return fail(loaded.errors.front());

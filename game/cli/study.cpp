@@ -9,9 +9,9 @@
 
 #include "content/format/folders.hpp"
 #include "content/format/json_document.hpp"
+#include "content/studies/study.hpp"
 #include "engine/base/file.hpp"
 #include "game/cli/commands.hpp"
-#include "game/cli/study_folder.hpp"
 #include "game/study/study_lesson.hpp"
 #include "game/study_results/results.hpp"
 #include "game/study_results/simulate.hpp"
@@ -308,10 +308,9 @@ void add_simulations(CLI::App& study, const Arguments& options, int& exit_code) 
             ->check(CLI::Range(1, 1000));
         command->add_option("--seed", options->seed, "Seed of the answers")->capture_default_str();
         command
-            ->add_option(
-                "--effect", options->effects,
-                "CONDITION=SHIFT: raises all answers in the condition by so many standard deviations "
-                "of one person's answers; may be given several times")
+            ->add_option("--effect", options->effects,
+                         "CONDITION=SHIFT: raises all answers in the condition by so many standard "
+                         "deviations of one person's answers; may be given several times")
             ->take_all();
     }
 }

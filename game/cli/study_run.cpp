@@ -4,12 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "content/studies/study.hpp"
 #include "content/words/words.hpp"
 #include "engine/base/file.hpp"
 #include "engine/platform/window.hpp"
 #include "game/cli/commands.hpp"
-#include "game/cli/study_folder.hpp"
 #include "game/cli/train_arguments.hpp"
+#include "game/study/measures.hpp"
 #include "game/study/study_lesson.hpp"
 #include "game/study_results/results.hpp"
 #include "game/trainer/app.hpp"
@@ -68,14 +69,15 @@ Status run(const StudyRunArguments& options) {
     if (!any)
         return fail(ErrorCode::bad_content,
                     "there is no language of the program in which everything can be read",
-                    "what `boltwright study check` lists");  // What the window needs is checked before
-                                                             // anybody is enrolled.
+                    "the texts that `boltwright study check` lists");
+    // Nobody is enrolled if the window cannot open.
     BOLT_TRY(equipment_of(options.window));
     BOLT_TRY(platform::Desktop::open());
     BOLT_TRY_ASSIGN(auto participation, find_participation(study, options));
     if (participation.progress().simulated)
         return fail(ErrorCode::usage, participation.participant() + " is a simulated participant",
                     "a person");
+    BOLT_TRY(study::count_finished_lesson(participation));
     if (participation.due() == nullptr && options.accept_change) {
         (void)std::fputs(
             fmt::format("{} has done every step; the change is recorded\n", participation.participant())

@@ -162,7 +162,7 @@ struct Surroundings {
     view::Walls* walls = nullptr;
 };
 
-// What a window shows: a lesson, the menu, or a study.
+// The content of a window: a lesson, the menu, or a study.
 struct WindowRequest {
     const TrainArguments& options;
     const trainees::TrainOptions& train;

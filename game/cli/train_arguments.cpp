@@ -52,10 +52,9 @@ void add_lesson_options(CLI::App& train, TrainArguments& options) {
                      "Material variant of the assembly; default: the assembly's own");
     train.add_option("--tool", options.tool, "One of the assembly's tools; default: the first");
     train
-        .add_option(
-            "--mode", options.mode,
-            "guided: a force guides the hand to the nut, and a step lasts until it is done; practice: no "
-            "guidance; assessment: a joint is judged as it is when the tool leaves it")
+        .add_option("--mode", options.mode,
+                    "guided: a force guides the hand to the nut, and a step lasts until it is done; "
+                    "practice: no guidance; assessment: a joint is judged as it is when the tool leaves it")
         ->check(CLI::IsMember({"guided", "practice", "assessment"}))
         ->capture_default_str();
     train.add_option("--task", options.task, "Tighten loose joints, or loosen tightened joints")
@@ -68,10 +67,9 @@ void add_lesson_options(CLI::App& train, TrainArguments& options) {
 void add_device_options(CLI::App& train, TrainArguments& options) {
     train.add_option(
         "--device", options.devices,
-        "auto (a connected device, else the mouse), mouse, simulated-arm (the mouse moves the hand "
-        "that holds a simulated arm), simulated (keys move the tool of a station without a device), "
-        "or an id listed by boltwright devices; may be given twice, for a device that moves the "
-        "tool and for a wheel");
+        "auto (a connected device, else the mouse), mouse, simulated-arm (the mouse moves the hand that "
+        "holds a simulated arm), simulated (keys move the tool of a station without a device), or an id "
+        "listed by boltwright devices; may be given twice, for a device that moves the tool and for a wheel");
     train
         .add_option("--hand", options.hand,
                     "The hand of the mouse: helped (it finds the nut by itself) or free (the mouse moves and "
@@ -87,10 +85,9 @@ void add_device_options(CLI::App& train, TrainArguments& options) {
                      "Port of a CyberGlove calibrated for --trainee, auto, or none; default: the station "
                      "file's, else none");
     train
-        .add_option(
-            "--hmd", options.hmd,
-            "Display in a headset (OpenXR). With optional, a headset is used as soon as there is one, "
-            "and until then the window")
+        .add_option("--hmd", options.hmd,
+                    "Display in a headset (OpenXR). With optional, a headset is used as soon as there is "
+                    "one, and until then the window")
         ->expected(0, 1)
         ->type_name("[optional]");
     train.add_option(
@@ -129,10 +126,9 @@ void add_session_options(CLI::App& train, TrainArguments& options) {
         ->check(whole_number)
         ->capture_default_str();
     train.add_option("--out", options.out, "Folder for session, summary and report")->capture_default_str();
-    auto* obstacles =
-        train.add_flag("--obstacles", options.obstacles,
-                       "Fail if the assembly has no contact model; if it has one, contacts with "
-                       "casing, bolts and nuts are simulated by default");
+    auto* obstacles = train.add_flag("--obstacles", options.obstacles,
+                                     "Fail if the assembly has no contact model; if it has one, contacts "
+                                     "with casing, bolts and nuts are simulated by default");
     train
         .add_flag("--no-obstacles", options.no_obstacles,
                   "Do not simulate contacts: the wrench passes through everything")

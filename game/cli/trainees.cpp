@@ -32,7 +32,7 @@ std::string local_text(std::time_t time) { return fmt::format("{:%Y-%m-%d %H:%M}
 // Prints why some files or names are not known. They do not count as errors of a command that only reads.
 void print_problems(const people::Inventory& inventory) {
     if (inventory.names_error) (void)print_error(*inventory.names_error);
-    for (const Error& error : inventory.unknown_files) (void)print_error(error);
+    for (const Error& error : inventory.file_errors) (void)print_error(error);
 }
 
 struct FoundTrainee {
@@ -92,7 +92,7 @@ int list_trainees(const TraineesArguments& options) {
 int show_trainee(const TraineesArguments& options) {
     const auto found = find_trainee(options);
     if (!found) return print_error(found.error());
-    std::string text = people::shown(found->data.person) + "\n";
+    std::string text = content::name_and_code(found->data.person) + "\n";
     for (const people::PersonFile& file : found->data.files) {
         text += fmt::format("  {:<11}  {}  {}\n", people::name(file.kind), local_text(file.modified),
                             file.path.string());
@@ -121,7 +121,7 @@ int export_trainee(const TraineesArguments& options) {
 
 // Asks before files are deleted. Fails without a terminal.
 Result<bool> confirm(const TraineesArguments& options, const people::PersonData& data) {
-    const std::string person = people::shown(data.person);
+    const std::string person = content::name_and_code(data.person);
     const std::string question = options.name_only ? fmt::format("Delete the name of {}?", person)
                                                    : fmt::format("Delete {} file{} of {}?", data.files.size(),
                                                                  data.files.size() == 1 ? "" : "s", person);
@@ -137,7 +137,7 @@ int erase_trainee(const TraineesArguments& options) {
     if (options.name_only && (data.person.code.empty() || data.person.name.empty()))
         return print_error(
             fail(ErrorCode::usage,
-                 fmt::format("{} has no entry in the file of names", people::shown(data.person)),
+                 fmt::format("{} has no entry in the file of names", content::name_and_code(data.person)),
                  "a person with a name, or no --name-only")
                 .value());
     const Result<bool> confirmed = confirm(options, data);
@@ -154,8 +154,7 @@ int erase_trainee(const TraineesArguments& options) {
     const Status printed = print(text);
     (void)print_error(erasure.kept);
     // A file whose person cannot be read may be this person's.
-    const bool complete =
-        erasure.kept.empty() && (options.name_only || found->inventory.unknown_files.empty());
+    const bool complete = erasure.kept.empty() && (options.name_only || found->inventory.file_errors.empty());
     if (!printed) return print_error(printed.error());
     return complete ? 0 : static_cast<int>(ErrorCode::failed);
 }
@@ -180,7 +179,7 @@ Result<content::Person> person_argument(const std::string& typed, const fs::path
     if (!identified.similar_code.empty())
         fmt::print(stderr, "{} is new here; did you mean {}?\n", identified.person.code,
                    identified.similar_code);
-    (void)print_error(identified.unadopted_files);
+    (void)print_error(identified.adoption_errors);
     return identified.person;
 }
 

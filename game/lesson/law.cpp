@@ -22,8 +22,8 @@ double angle_from_snug(const PublishedParameters& law, double snug_torque, doubl
     return to_radians(joint::published_angle(law, torque) - joint::published_angle(law, snug_torque));
 }
 
-// Targets that follow from the law. The torque reached by a pull contains some inertia, so the torque decides
-// about LOW and the smallest angle is a little looser.
+// Targets that follow from the law. Inertia adds to the torque of a pull, so the same pull reaches a smaller
+// angle. Therefore the torque decides about LOW, and the lower limit of the angle is wider.
 content::Specification derived_targets(const PublishedParameters& law) {
     content::Specification s;
     s.strategy = content::Strategy::torque_angle;
@@ -39,7 +39,8 @@ content::Specification derived_targets(const PublishedParameters& law) {
 }
 
 // Lowers the targets so that a click-type torque wrench within `accuracy` of them clicks before the end of
-// the yield stage. The recorded torque can be lower than that of the click by the growth within a tick.
+// the yield stage. The torque may grow between the last recorded tick and the click; click_margin allows for
+// it.
 void fit_to_clicks(const PublishedParameters& law, double accuracy, content::Specification& s) {
     const double highest = torque_before_end(law, 0.1) / (1.0 + accuracy);
     if (s.torque.target <= highest) return;

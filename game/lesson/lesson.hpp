@@ -31,19 +31,19 @@ struct LessonStep {
     int pass = 0;
 };
 
-// How an assembly is adapted to the published law. Sessions before format 6 were recorded with the older way;
-// their replays and reports need it.
+// The adaptation of an assembly to the published law: the current one, and that of sessions before format 6,
+// which their replays and reports need.
 enum class LawAdaptation : std::uint8_t { yield_end, before_format_6 };
 
 // Returns the assembly with `law` in force and its specifications adapted to it. The specifications of joint
 // types hold under the mechanistic law. Under the published law a joint ends at its T_max
 // (haptics/joint/published.hpp) and the torque stays there, so these targets replace them:
 //   - the joint's own published targets, if the file has them
-//   - otherwise targets in the last third of the yield stage, and an angle window that also ends a third of
-//     the stage beyond it, because the torque cannot be too high
+//   - otherwise targets in the last third of the yield stage, and an angle window whose upper limit lies a
+//   third of the stage beyond its end, because the torque cannot be too high
 // A torque wrench is set so low that it clicks before the end of the yield stage, whatever its deviation, and
 // the lower limits are at most at the lowest click. The target clamp force follows from the target torque.
-// Where the file gives no θ_max, it becomes that of a nut that starts at design.start_gap. `before_format_6`:
+// Without θ_max in the file, θ_max is computed for a nut that starts at design.start_gap. `before_format_6`:
 // without own targets, torques above 98 % of T_max are lowered to 98 %; no angle is judged; θ_max and the
 // torque wrench are not adapted. Idempotent.
 content::Assembly apply_law(content::Assembly assembly, joint::Law law,
@@ -110,8 +110,8 @@ content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& s
 bool requires_yield(const Lesson& lesson, const LessonStep& step);
 
 // True if the step ends with the click of the torque wrench: under the published law, where the torque grows
-// so slowly in the yield stage that a stroke can end within the window before the wrench clicks. False for a
-// set torque that some wrench would not reach (sessions before format 6).
+// so slowly in the yield stage that a stroke can end within the window before the wrench clicks. False if a
+// wrench within its tolerance might not click at this set torque (sessions before format 6).
 bool requires_click(const Lesson& lesson, const LessonStep& step);
 
 // Set torque of the torque wrench for the due step, N·m; 0 for other tools and for steps without a torque.

@@ -53,14 +53,9 @@ std::optional<double> solve(double low, double high, double value, const Functio
     return std::sqrt(low * high);
 }
 
-std::optional<FittedValue> fitted(const std::vector<double>& values) {
+std::optional<statistics::MeanDeviation> measured(const std::vector<double>& values) {
     if (values.empty()) return std::nullopt;
-    FittedValue v;
-    v.runs = values.size();
-    for (const double x : values) v.mean += x / static_cast<double>(v.runs);
-    for (const double x : values) v.deviation += square(x - v.mean);
-    if (v.runs > 1) v.deviation = std::sqrt(v.deviation / static_cast<double>(v.runs - 1));
-    return v;
+    return statistics::mean_deviation(values);
 }
 
 void collect(std::span<const Landmarks> runs, joint::Direction direction, JointFit& fit) {
@@ -71,11 +66,11 @@ void collect(std::span<const Landmarks> runs, joint::Direction direction, JointF
         if (run.free) free.push_back(std::abs(run.free->mean));
         if (direction == joint::Direction::loosen) breakaways.push_back(std::abs(run.peak.torque));
     }
-    fit.slope = fitted(slopes);
+    fit.slope = measured(slopes);
     // A few runs that yield among many that do not are no yield load of the joint.
-    if (2 * yields.size() > runs.size()) fit.yield = fitted(yields);
-    fit.breakaway = fitted(breakaways);
-    fit.running = fitted(free);
+    if (2 * yields.size() > runs.size()) fit.yield = measured(yields);
+    fit.breakaway = measured(breakaways);
+    fit.running = measured(free);
 }
 
 double slope_of(const joint::JointDesign& design, double torque) {
@@ -93,8 +88,7 @@ std::optional<double> fitted_modulus(const joint::JointDesign& design, double sl
 void tell_combination(const joint::JointDesign& design, double slope, double torque, JointFit& fit) {
     std::string text =
         "Friction and compliance cannot be told apart: without yield only their ratio (lever / compliance) "
-        "is "
-        "known. The compliance is";
+        "is known. The compliance is";
     for (const double friction : {0.08, 0.12, 0.16, 0.20}) {
         const joint::JointDesign assumed = with_friction(design, friction);
         const auto E = fitted_modulus(assumed, slope, torque);
@@ -111,8 +105,7 @@ void fit_friction(JointFit& fit) {
     if (!friction) {
         fit.unknown.push_back(
             fmt::format("No friction from {} to {} makes a bolt of class {} yield at {:.4g} N·m: check the "
-                        "class and the size "
-                        "of the design. The friction is that of the design.",
+                        "class and the size of the design. The friction is that of the design.",
                         least_friction, most_friction, fit.design.bolt_class.name, fit.yield->mean));
         return;
     }
@@ -132,26 +125,24 @@ void tell_strength(JointFit& fit) {
     };
     fit.unknown.push_back(
         fmt::format("The friction assumes the nominal strength of class {}: {:.3f} if the bolt is 10 % "
-                    "weaker, {:.3f} if it is "
-                    "10 % stronger.",
+                    "weaker, {:.3f} if it is 10 % stronger.",
                     fit.design.bolt_class.name, with_strength(0.9), with_strength(1.1)));
 }
 
 void fit_tightening(std::span<const Landmarks> runs, JointFit& fit) {
     std::vector<double> peaks;
     for (const Landmarks& run : runs) peaks.push_back(run.peak.torque);
-    const double torque = fit.yield ? 0.0 : fitted(peaks)->mean;
+    const double torque = fit.yield ? 0.0 : statistics::mean_deviation(peaks).mean;
     const joint::JointDesign given = fit.design;
     if (fit.yield) fit_friction(fit);
     // The yield torque depends a little on the compliance: a second round settles both.
     for (int round = 0; round < 2; ++round) {
         const auto E = fitted_modulus(fit.design, fit.slope->mean, torque);
         if (!E) {
-            fit.unknown.push_back(
-                fmt::format("No modulus of the members from 1 to 1000 GPa gives the measured slope of {:.4g} "
-                            "N·m/°; the bolt alone "
-                            "may be too soft or too stiff: check size, length and friction of the design.",
-                            to_radians(fit.slope->mean)));
+            fit.unknown.push_back(fmt::format(
+                "No modulus of the members from 1 to 1000 GPa gives the measured slope of {:.4g} N·m/°; the "
+                "bolt alone may be too soft or too stiff: check size, length and friction of the design.",
+                to_radians(fit.slope->mean)));
             break;
         }
         fit.members_E = *E;
@@ -166,8 +157,7 @@ void fit_tightening(std::span<const Landmarks> runs, JointFit& fit) {
     if (fit.compliance > 0.0)
         fit.unknown.emplace_back(
             "The compliance is that of the whole joint with its fixture; it is written as the modulus of the "
-            "members, "
-            "which need not be their material's.");
+            "members, which need not be their material's.");
     fit.unknown.emplace_back(
         "Breakaway, embedding and wear: tightening alone does not show them; loosen, rest, and tighten "
         "again.");
@@ -182,11 +172,10 @@ void fit_loosening(JointFit& fit) {
         return fit.breakaway->mean / (d.friction.static_ratio * levers.friction() - levers.lead);
     };
     fit.preload = preload(fit.friction);
-    fit.unknown.push_back(
-        fmt::format("Preload and friction cannot be told apart by a breakaway torque: {:.3g} kN with "
-                    "friction 0.08, {:.3g} kN "
-                    "with 0.12, {:.3g} kN with 0.20 (static / running friction {:g} as in the design).",
-                    preload(0.08) / 1e3, preload(0.12) / 1e3, preload(0.20) / 1e3, d.friction.static_ratio));
+    fit.unknown.push_back(fmt::format(
+        "Preload and friction cannot be told apart by a breakaway torque: {:.3g} kN with friction 0.08, "
+        "{:.3g} kN with 0.12, {:.3g} kN with 0.20 (static / running friction {:g} as in the design).",
+        preload(0.08) / 1e3, preload(0.12) / 1e3, preload(0.20) / 1e3, d.friction.static_ratio));
     fit.unknown.emplace_back("Compliance and yield: loosening runs do not determine them.");
 }
 
@@ -230,8 +219,7 @@ Result<JointFit> fit_joint(const joint::JointDesign& design, std::span<const Lan
     }
     fit.unknown.emplace_back(
         "Friction of thread and of bearing: torque and angle show only their sum; both are set equal. The "
-        "clamp force "
-        "is not measured.");
+        "clamp force is not measured.");
     return fit;
 }
 
@@ -278,16 +266,17 @@ std::string fit_text(const JointFit& fit) {
     const auto line = [&](std::string_view name, const std::string& text) {
         out += fmt::format("  {:<18} {}\n", name, text);
     };
-    const auto measured = [&](std::string_view name, const std::optional<FittedValue>& v, double factor,
-                              std::string_view unit) {
-        if (v)
-            line(name, fmt::format("{:.4g} ± {:.2g} {}, {} runs", factor * v->mean, factor * v->deviation,
-                                   unit, v->runs));
+    const auto measured_line = [&](std::string_view name, const std::optional<statistics::MeanDeviation>& v,
+                                   double factor, std::string_view unit) {
+        if (!v) return;
+        const std::string spread = v->n > 1 ? fmt::format(" ± {:.2g}", factor * v->deviation) : "";
+        line(name, fmt::format("{:.4g}{} {}, {} run{}", factor * v->mean, spread, unit, v->n,
+                               v->n == 1 ? "" : "s"));
     };
-    measured("measured slope", fit.slope, to_radians(1.0), "N·m/°");
-    measured("measured yield", fit.yield, 1.0, "N·m");
-    measured("measured breakaway", fit.breakaway, 1.0, "N·m");
-    measured("measured running", fit.running, 1.0, "N·m");
+    measured_line("measured slope", fit.slope, to_radians(1.0), "N·m/°");
+    measured_line("measured yield", fit.yield, 1.0, "N·m");
+    measured_line("measured breakaway", fit.breakaway, 1.0, "N·m");
+    measured_line("measured running", fit.running, 1.0, "N·m");
     line("friction", fmt::format("{:.3f}, {}", fit.friction,
                                  fit.friction_fitted ? "fitted to the yield torque" : "of the design"));
     if (fit.compliance > 0.0)

@@ -22,28 +22,24 @@
 #include <vector>
 
 #include "game/measure/landmarks.hpp"
+#include "game/statistics/summary.hpp"
 #include "haptics/joint/design.hpp"
 
 namespace bolt::measure {
 
-// Mean of the runs and the standard deviation between them.
-struct FittedValue {
-    double mean = 0.0, deviation = 0.0;
-    std::size_t runs = 0;
-};
-
+// Measured values are means over the runs, with the standard deviation between them.
 struct JointFit {
-    joint::JointDesign design;             // with the fitted values
-    std::optional<FittedValue> slope;      // N·m/rad
-    std::optional<FittedValue> yield;      // N·m at which yield begins
-    std::optional<FittedValue> breakaway;  // N·m, positive
-    std::optional<FittedValue> running;    // N·m, of the free nut
-    double friction = 0.0;                 // of thread and bearing
-    bool friction_fitted = false;          // otherwise it is the design's
-    double compliance = 0.0;               // m/N; 0: not fitted
-    double members_E = 0.0;                // Pa, of all members, that gives the compliance; 0: none gives it
-    double preload = 0.0;                  // N, from the breakaway at the design's friction; loosening only
-    std::vector<std::string> unknown;      // what the data cannot tell, one sentence each
+    joint::JointDesign design;                           // with the fitted values
+    std::optional<statistics::MeanDeviation> slope;      // N·m/rad
+    std::optional<statistics::MeanDeviation> yield;      // N·m at which yield begins
+    std::optional<statistics::MeanDeviation> breakaway;  // N·m, positive
+    std::optional<statistics::MeanDeviation> running;    // N·m, of the free nut
+    double friction = 0.0;                               // of thread and bearing
+    bool friction_fitted = false;                        // otherwise it is the design's
+    double compliance = 0.0;                             // m/N; 0: not fitted
+    double members_E = 0.0;            // Pa, of all members, that gives the compliance; 0: none gives it
+    double preload = 0.0;              // N, from the breakaway at the design's friction; loosening only
+    std::vector<std::string> unknown;  // what the data cannot tell, one sentence each
 };
 
 // The torque at which the mechanistic law of this design begins to yield (half of the linear slope), N·m, if
@@ -58,7 +54,7 @@ Result<JointFit> fit_joint(const joint::JointDesign& design, std::span<const Lan
 // properties of the design. Its specification has only the target torque (N·m).
 std::string joint_type_json(const JointFit& fit, const std::string& name, double target_torque);
 
-// What was fitted and what the data cannot tell, for the terminal.
+// The fitted values, and those that the data cannot tell, for the terminal.
 std::string fit_text(const JointFit& fit);
 
 }  // namespace bolt::measure

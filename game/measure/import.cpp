@@ -37,12 +37,11 @@ Status check_times(const Table& table, const Rows& rows, std::size_t column, con
     std::vector<double> steps;
     for (std::size_t i = 1; i < time.size(); ++i) {
         if (time[i] <= time[i - 1])
-            return fail(
-                table.error(rows[i], column,
-                            fmt::format("the time {} is not after {}", quantity(time[i], "s"),
-                                        quantity(time[i - 1], "s")),
-                            "ascending times; give each run its own file or a \"cycle\" column, or use "
-                            "\"rate_Hz\" if the clock is too coarse"));
+            return fail(table.error(rows[i], column,
+                                    fmt::format("the time {} is not after {}", quantity(time[i], "s"),
+                                                quantity(time[i - 1], "s")),
+                                    "ascending times; give each run its own file or a \"cycle\" column, or "
+                                    "use \"rate_Hz\" if the clock is too coarse"));
         steps.push_back(time[i] - time[i - 1]);
     }
     if (steps.empty()) return {};
@@ -133,12 +132,6 @@ Status subtract_tare(const Rig& rig, const Table& table, const Rows& rows, const
     return {};
 }
 
-double interpolate(std::span<const double> x, std::span<const double> y, double at) {
-    const auto after = std::upper_bound(x.begin(), x.end(), at) - x.begin();
-    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, std::ssize(x) - 1));
-    return y[i - 1] + (y[i] - y[i - 1]) * (at - x[i - 1]) / (x[i] - x[i - 1]);
-}
-
 // Angles over time from another source than the run's own table.
 struct AngleTrack {
     std::vector<double> time, angle;
@@ -159,9 +152,9 @@ Status join_angles(const Table& table, const AngleTrack& track, RigRun& run) {
     if (2 * joined.time.size() < run.time.size())
         return fail(table.error(
             0,
-            fmt::format("the angles are known from {:.6g} s to {:.6g} s, but the run lasts from {:.6g} s to "
-                        "{:.6g} s",
-                        track.time.front(), track.time.back(), run.time.front(), run.time.back()),
+            fmt::format(
+                "the angles are known from {:.6g} s to {:.6g} s, but the run lasts from {:.6g} s to {:.6g} s",
+                track.time.front(), track.time.back(), run.time.front(), run.time.back()),
             "times of one clock; \"delay_s\" shifts those of a second file"));
     if (joined.unjoined > 0)
         joined.notes.push_back(
@@ -273,13 +266,12 @@ Status check_angle(const Rig& rig, const RigRun& run) {
     const RigPosition sign =
         rig.angle.kind == AngleKind::points ? rig.angle.position : rig.angle.channel.reversed_position;
     if (tighten && run.angle[peak] <= run.angle.front())
-        return fail(
-            rig.error(sign,
-                      fmt::format("the angle of {} falls by {} up to the highest torque", run.name,
-                                  quantity(to_degrees(run.angle.front() - run.angle[peak]), "degrees")),
-                      fmt::format("an angle that rises while the nut is tightened; {} \"reversed\" of the "
-                                  "angle",
-                                  rig.angle.channel.reversed ? "remove" : "set")));
+        return fail(rig.error(
+            sign,
+            fmt::format("the angle of {} falls by {} up to the highest torque", run.name,
+                        quantity(to_degrees(run.angle.front() - run.angle[peak]), "degrees")),
+            fmt::format("an angle that rises while the nut is tightened; {} \"reversed\" of the angle",
+                        rig.angle.channel.reversed ? "remove" : "set")));
     return {};
 }
 

@@ -60,7 +60,7 @@ void name_uniquely(std::vector<RigRun>& runs);
 inline constexpr double record_step = 0.02;  // degrees
 std::string record_csv(const Rig& rig, const std::vector<RigRun>& runs);
 
-// What was found, for the terminal.
+// The landmarks and the uncertainty of each run, for the terminal.
 std::string summary_text(const Rig& rig, const std::vector<RigRun>& runs);
 
 }  // namespace bolt::measure

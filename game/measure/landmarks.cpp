@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/math.hpp"
+#include "game/statistics/summary.hpp"
 
 namespace bolt::measure {
 
@@ -37,7 +38,7 @@ class GradientTable {
         }
     }
 
-    // Of the samples [begin, end).
+    // The regression line of the samples [begin, end).
     [[nodiscard]] Regression regression(std::size_t begin, std::size_t end) const {
         Regression r;
         r.count = end - begin;
@@ -90,11 +91,9 @@ Rise rise_between(const analysis::TorqueCurve& curve, std::size_t peak, double l
 std::optional<FreeTurning> free_turning(const analysis::TorqueCurve& curve, std::size_t begin,
                                         std::size_t end) {
     if (end < begin + 3) return std::nullopt;
-    FreeTurning free{0.0, 0.0, curve.angle[begin], curve.angle[end - 1], end - begin};
-    for (std::size_t i = begin; i < end; ++i) free.mean += curve.torque[i];
-    free.mean /= static_cast<double>(free.samples);
-    for (std::size_t i = begin; i < end; ++i) free.deviation += square(curve.torque[i] - free.mean);
-    free.deviation = std::sqrt(free.deviation / static_cast<double>(free.samples - 1));
+    const statistics::MeanDeviation torque =
+        statistics::mean_deviation(std::span(curve.torque).subspan(begin, end - begin));
+    const FreeTurning free{torque.mean, torque.deviation, curve.angle[begin], curve.angle[end - 1], torque.n};
     return free;
 }
 

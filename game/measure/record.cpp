@@ -5,21 +5,14 @@
 #include <set>
 #include <span>
 
+#include "engine/base/csv.hpp"
 #include "engine/base/math.hpp"
 #include "game/measure/import.hpp"
+#include "game/statistics/summary.hpp"
 
 namespace bolt::measure {
 
 namespace {
-
-// A field of the CSV; in quotes where it must be.
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"#") == std::string::npos && text.find_first_not_of(' ') != std::string::npos)
-        return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
 
 // The samples to write: see record_step.
 std::vector<std::size_t> recorded_samples(const RigRun& run) {
@@ -36,20 +29,6 @@ std::vector<std::size_t> recorded_samples(const RigRun& run) {
         begin = end;
     }
     return kept;
-}
-
-struct Spread {
-    double mean = 0.0, deviation = 0.0;
-    std::size_t count = 0;
-};
-
-Spread spread_of(std::span<const double> values) {
-    Spread s;
-    s.count = values.size();
-    for (const double v : values) s.mean += v / static_cast<double>(s.count);
-    for (const double v : values) s.deviation += square(v - s.mean);
-    if (s.count > 1) s.deviation = std::sqrt(s.deviation / static_cast<double>(s.count - 1));
-    return s;
 }
 
 double u_at_peak(const RigRun& run) {
@@ -78,8 +57,8 @@ void put_tightening(std::string& out, const Landmarks& l) {
     line("seat", fmt::format("{:.2f}°{}", to_degrees(*l.seat),
                              l.free ? "" : ", if the nut turned freely without torque"));
     line("linear part",
-         fmt::format("{:.4g} ± {:.2g} N·m/° (standard error) from {:.2f}° to {:.2f}°, {:.1f} N·m to "
-                     "{:.1f} N·m, {} samples",
+         fmt::format("{:.4g} ± {:.2g} N·m/° (standard error) from {:.2f}° to {:.2f}°, {:.1f} N·m to {:.1f} "
+                     "N·m, {} samples",
                      to_radians(l.linear->slope), to_radians(l.linear->slope_error),
                      to_degrees(l.linear->begin), to_degrees(l.linear->end), l.linear->at(l.linear->begin),
                      l.linear->at(l.linear->end), l.linear->samples));
@@ -120,9 +99,9 @@ void put_run(std::string& out, const Rig& rig, const RigRun& run) {
 
 std::string spread_line(std::string_view name, std::span<const double> values, std::string_view unit) {
     if (values.empty()) return {};
-    const Spread s = spread_of(values);
-    if (s.count < 2) return {};
-    return fmt::format("  {:<12} {:.4g} ± {:.2g} {}, {} runs\n", name, s.mean, s.deviation, unit, s.count);
+    const statistics::MeanDeviation s = statistics::mean_deviation(values);
+    if (s.n < 2) return {};
+    return fmt::format("  {:<12} {:.4g} ± {:.2g} {}, {} runs\n", name, s.mean, s.deviation, unit, s.n);
 }
 
 }  // namespace

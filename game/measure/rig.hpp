@@ -20,7 +20,7 @@
 
 namespace bolt::measure {
 
-// Of a value in the description, for messages; line 0: the description does not have it.
+// The position of a value in the description, for messages; line 0: the description does not have it.
 struct RigPosition {
     int line = 0, column = 0;
 };

@@ -50,7 +50,7 @@ std::vector<SensorRow> simulate_run(const joint::JointDesign& design, double tor
 std::string sensor_csv(const std::vector<SensorRow>& rows);
 std::string simulated_rig_json(const SensorModel& model, const std::string& title, const std::string& thread);
 
-// What stands as the source wherever such data is shown.
+// The source that is shown with such data.
 inline constexpr const char* simulated_source = "SIMULATED with the mechanistic law, not measured";
 
 }  // namespace bolt::measure

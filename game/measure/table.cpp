@@ -6,16 +6,14 @@
 #include <charconv>
 #include <cmath>
 
+#include "engine/base/csv.hpp"
 #include "engine/base/nearest.hpp"
 
 namespace bolt::measure {
 
 namespace {
 
-struct RawField {
-    std::string_view text;  // without quotes and surrounding blanks
-    std::size_t offset = 0;
-};
+std::size_t offset_of(const CsvField& field) { return static_cast<std::size_t>(field.column) - 1; }
 
 class TableParser {
   public:
@@ -63,27 +61,13 @@ class TableParser {
         return fail(std::move(e));
     }
 
-    // Quotes only enclose a field: a logger writes no quotes within one.
     Status split(std::string_view line) {
-        fields_.clear();
-        std::size_t at = 0;
-        while (true) {
-            while (at < line.size() && line[at] == ' ') ++at;
-            std::size_t end = std::min(line.find(format_.separator, at), line.size());
-            RawField field{line.substr(at, end - at), at};
-            if (field.text.starts_with('"')) {
-                const std::size_t close = line.find('"', at + 1);
-                if (close == std::string_view::npos)
-                    return error(at, "this quote is not closed on its line", "a closing '\"'");
-                field.text = line.substr(at + 1, close - at - 1);
-                end = std::min(line.find(format_.separator, close), line.size());
-            }
-            while (!field.text.empty() && (field.text.back() == ' ' || field.text.back() == '\t'))
-                field.text.remove_suffix(1);
-            fields_.push_back(field);
-            if (end == line.size()) return {};
-            at = end + 1;
-        }
+        auto fields = split_csv_line(line, format_.separator);
+        if (!fields)
+            return error(static_cast<std::size_t>(fields.error().column) - 1, fields.error().what,
+                         fields.error().expected);
+        fields_ = std::move(*fields);
+        return {};
     }
 
     Status find_column(const std::string& name, std::size_t& index) const {
@@ -93,7 +77,7 @@ class TableParser {
             names.emplace_back(fields_[i].text);
             if (fields_[i].text != name) continue;
             if (count++ > 0)
-                return error(fields_[i].offset, fmt::format("column '{}' appears twice", name),
+                return error(offset_of(fields_[i]), fmt::format("column '{}' appears twice", name),
                              "each column once");
             index = i;
         }
@@ -128,10 +112,10 @@ class TableParser {
         return {};
     }
 
-    Result<double> number(const RawField& field, const std::string& name) const {
+    Result<double> number(const CsvField& field, const std::string& name) const {
         const auto wrong = [&](std::string what) {
             return error(
-                field.offset, std::move(what),
+                offset_of(field), std::move(what),
                 fmt::format("a number such as {}; remove the row, or repair the channel and measure again",
                             format_.decimal_comma ? "-12,5" : "-12.5"));
         };
@@ -142,9 +126,9 @@ class TableParser {
         double value = 0.0;
         const auto [end, problem] = std::from_chars(text.data() + begin, text.data() + text.size(), value);
         if (problem != std::errc() || end != text.data() + text.size() || text.starts_with("+-")) {
-            const bool comma = !format_.decimal_comma && field.text.find(',') != std::string_view::npos;
+            const bool comma = !format_.decimal_comma && field.text.find(',') != std::string::npos;
             if (comma)
-                return error(field.offset, fmt::format("'{}' has a decimal comma", text),
+                return error(offset_of(field), fmt::format("'{}' has a decimal comma", text),
                              "\"decimal\": \"comma\" in the rig's \"table\"");
             return wrong(fmt::format("'{}' is not a number for '{}'", text, name));
         }
@@ -162,7 +146,7 @@ class TableParser {
         for (std::size_t i = 0; i < wanted_.size(); ++i) {
             BOLT_TRY_ASSIGN(const auto value, number(fields_[indices_[i]], wanted_[i]));
             table_.columns[i].push_back(value);
-            table_.places[i].push_back(static_cast<int>(fields_[indices_[i]].offset) + 1);
+            table_.places[i].push_back(fields_[indices_[i]].column);
         }
         if (!label_.empty()) table_.labels.emplace_back(fields_[label_index_].text);
         table_.lines.push_back(line_);
@@ -179,7 +163,7 @@ class TableParser {
     std::span<const std::string> wanted_;
     std::string label_;
     Table table_;
-    std::vector<RawField> fields_;
+    std::vector<CsvField> fields_;
     std::vector<std::size_t> indices_;
     std::size_t label_index_ = 0, field_count_ = 0;
     int line_ = 0, after_header_ = 0;

@@ -19,19 +19,6 @@ namespace bolt::measure {
 
 namespace {
 
-struct MeanDeviation {
-    double mean = nan, deviation = nan;
-};
-
-MeanDeviation mean_deviation(const std::vector<double>& values) {
-    MeanDeviation m{0.0, 0.0};
-    if (values.empty()) return {};
-    for (const double v : values) m.mean += v / static_cast<double>(values.size());
-    for (const double v : values) m.deviation += square(v - m.mean);
-    m.deviation = values.size() > 1 ? std::sqrt(m.deviation / static_cast<double>(values.size() - 1)) : nan;
-    return m;
-}
-
 // The law's loosening curve after tightening to `torque`, and the preload it starts from.
 struct LooseningCurve {
     analysis::TorqueCurve curve;
@@ -129,14 +116,14 @@ Result<LooseningValidation> validate_loosening(const joint::JointDesign& design,
         if (run.curve.size() > 1)
             steps.push_back(run.curve.angle.back() / static_cast<double>(run.curve.size() - 1));
     }
-    const MeanDeviation breakaway = mean_deviation(breakaways);
+    const statistics::MeanDeviation breakaway = statistics::mean_deviation(breakaways);
     const statistics::Quartiles release = statistics::quartiles(releases);
     v.breakaway = breakaway.mean;
     v.breakaway_deviation = breakaway.deviation;
     v.release_low = release.low;
     v.release = release.median;
     v.release_high = release.high;
-    v.resolution = mean_deviation(steps).mean;
+    v.resolution = statistics::mean_deviation(steps).mean;
     auto law = curve_with_breakaway(design, v.breakaway);
     if (!law || record.direction != joint::Direction::loosen)
         return fail(ErrorCode::failed, record.file + ": no preload gives the measured breakaway torque",
@@ -175,14 +162,11 @@ std::string loosening_text(const LooseningValidation& v) {
                                    : "The law's release angle agrees with most runs within a sample";
     out += fmt::format(
         "Verdict: the breakaway is no test, because preload, friction and joint are unknown; the law does "
-        "not predict "
-        "its scatter of {:.0f} % between runs either. {}: of {} runs {} take more than one sample longer "
-        "than the law and {} "
-        "are more than one sample shorter. The bolt's length and the parts are assumptions; a softer joint "
-        "releases "
-        "later, so a difference is no proof against the law. With samples every {:.1f}° the peak itself may "
-        "lie between "
-        "two samples, so errors of single samples say little.\n\n",
+        "not predict its scatter of {:.0f} % between runs either. {}: of {} runs {} take more than one "
+        "sample longer than the law and {} are more than one sample shorter. The bolt's length and the parts "
+        "are assumptions; a softer joint releases later, so a difference is no proof against the law. With "
+        "samples every {:.1f}° the peak itself may lie between two samples, so errors of single samples say "
+        "little.\n\n",
         100.0 * v.breakaway_deviation / v.breakaway, course, runs, v.longer, v.shorter,
         to_degrees(v.resolution));
     return out;
@@ -199,8 +183,7 @@ Result<std::string> retightening_text(const joint::JointDesign& design, double t
         "## {}: re-tightening to {:g} N·m\n\nActa Polytechnica Hungarica 21(2) (2024) 133–150, figures "
         "digitised. K = T/(F d).\n\n"
         "| lubrication | friction, fitted to the first | first K | last K measured | last K law | MAPE of K "
-        "| largest "
-        "error |\n|---|---|---|---|---|---|---|\n",
+        "| largest error |\n|---|---|---|---|---|---|---|\n",
         design.id, torque);
     double worst = 0.0;
     for (const auto& [name, measured] : series) {
@@ -224,13 +207,11 @@ Result<std::string> retightening_text(const joint::JointDesign& design, double t
                         measured.front(), measured.back(), law.back(),
                         measured.size() > 1 ? sum / static_cast<double>(measured.size() - 1) : nan, largest);
     }
-    return out +
-           fmt::format(
-               "\nVerdict: the law's wear was chosen after this very series (signs and sizes), so this shows "
-               "how well "
-               "its two terms describe the series, up to {:.0f} % off, and is no independent test. Another "
-               "lubricant, size or torque is not covered.\n\n",
-               100.0 * worst);
+    return out + fmt::format(
+                     "\nVerdict: the law's wear was chosen after this very series (signs and sizes), so this "
+                     "shows how well its two terms describe the series, up to {:.0f} % off, and is no "
+                     "independent test. Another lubricant, size or torque is not covered.\n\n",
+                     100.0 * worst);
 }
 
 Result<std::string> preload_table_text(std::string_view table, const std::string& file) {
@@ -265,12 +246,11 @@ Result<std::string> preload_table_text(std::string_view table, const std::string
                            s[3], s[2] / s[0], s[4]);
         worst = std::max({worst, s[3], s[4]});
     }
-    return out +
-           fmt::format(
-               "\nVerdict: nothing is fitted; the largest error of {:.1f} % contains the rounding of the "
-               "printed "
-               "figures. The table is computed itself, not measured: it tests our formulas, not bolts.\n\n",
-               100.0 * worst);
+    return out + fmt::format(
+                     "\nVerdict: nothing is fitted; the largest error of {:.1f} % contains the rounding of "
+                     "the printed figures. The table is computed itself, not measured: it tests our "
+                     "formulas, not bolts.\n\n",
+                     100.0 * worst);
 }
 
 }  // namespace bolt::measure

@@ -137,7 +137,7 @@ class Collector {
     void add_session(const fs::path& path, const fs::path& root) {
         const auto header = session::read_header(path);
         if (header) return add(person_of(*header, registered_), path, FileKind::session, root);
-        inventory_.unknown_files.push_back(header.error());
+        inventory_.file_errors.push_back(header.error());
     }
     void add_summary(const fs::path& path, const fs::path& root) {
         if (const auto text = read_file(path, max_summary_size, ErrorCode::failed))
@@ -147,7 +147,7 @@ class Collector {
         const auto journal = study::read_journal(path);
         if (journal)
             return add(person_of(study::person_of(*journal), registered_), path, FileKind::answers, root);
-        inventory_.unknown_files.push_back(journal.error());
+        inventory_.file_errors.push_back(journal.error());
     }
     void add_page(const fs::path& path, const fs::path& root) {
         const auto text = read_file(path, max_html_size, ErrorCode::failed);
@@ -168,7 +168,7 @@ class Collector {
         Error error;
         error.file = folder.string();
         error.what = "this folder cannot be searched: " + problem.message();
-        inventory_.unknown_files.push_back(error);
+        inventory_.file_errors.push_back(error);
     }
 
     const DataFolders& folders_;
@@ -216,10 +216,6 @@ std::optional<std::time_t> PersonData::last_lesson() const {
     for (const PersonFile& file : files)
         if (file.kind == FileKind::session) last = std::max(last.value_or(file.modified), file.modified);
     return last;
-}
-
-std::string shown(const Person& person) {
-    return person.code.empty() ? person.name : content::name_and_code(person);
 }
 
 Inventory take_inventory(const DataFolders& folders) { return Collector(folders).collect(); }

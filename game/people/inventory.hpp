@@ -51,14 +51,11 @@ struct PersonData {
     [[nodiscard]] std::optional<std::time_t> last_lesson() const;  // end of its newest session
 };
 
-// "Ada (T-7K3M9Q)", the code or the name alone.
-std::string shown(const content::Person& person);
-
 struct Inventory {
     std::vector<PersonData> people;    // those with a name first, in the order of names.json; then by code
     std::optional<Error> names_error;  // names.json is damaged: nobody has a name
     std::vector<Error>
-        unknown_files;  // files whose owner cannot be determined, and folders that cannot be searched
+        file_errors;  // files whose owner cannot be determined, and folders that cannot be searched
 };
 
 // Symbolic links inside the folders are not followed. A file that an older program stored under a typed name

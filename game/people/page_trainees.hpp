@@ -16,10 +16,10 @@ namespace bolt::people {
 // without a name.
 std::string people_list(const std::set<std::string>& people);
 
-// The inverse, for a page of `boltwright report` or `train`. Pages of older programs have no list: there the
-// facts of their sessions count, without simulated trainees; an empty text also stands for a trainee of whom
-// it is not recorded whether it was a person. None: this is no such page, or it lists nobody, as an overview
-// of an older program.
+// The inverse, for a page of `boltwright report` or `train`. Pages of older programs have no list: for them,
+// returns the trainees shown in their sections, without simulated ones. An empty text also stands for a
+// trainee of unknown kind. Returns none for another page, and for one that names nobody, such as an old
+// overview.
 std::optional<std::vector<std::string>> page_trainees(std::string_view html);
 
 }  // namespace bolt::people

@@ -43,25 +43,26 @@ std::string trainee_note(std::span<const Attempt> attempts) {
 std::string attempts_table(std::span<const Attempt> attempts, bool alone) {
     std::string out =
         "<div class=\"scroll\"><table><thead><tr><th "
-        "class=\"n\">#</th><th>assembly</th><th>task</th><th>variant</th><th>trainee</th><th>mode</th>"
-        "<th>law</th><th class=\"n\">seed</th><th class=\"n\">score</th><th class=\"n\">joints OK</th>"
-        "<th class=\"n\">mean |torque<br/>error|</th><th class=\"n\">duration</th></tr></thead><tbody>\n";
+        "class=\"n\">#</th><th>assembly</th><th>task</th><th>variant</th><th>trainee</th><th>mode</"
+        "th><th>law</th><th class=\"n\">seed</th><th class=\"n\">score</th><th class=\"n\">joints OK</th><th "
+        "class=\"n\">mean |torque<br/>error|</th><th class=\"n\">duration</th></tr></thead><tbody>\n";
     for (std::size_t i = 0; i < attempts.size(); ++i) {
         const Attempt& a = attempts[i];
         const std::string number_text =
             alone ? fmt::format("{}", i + 1) : fmt::format("<a href=\"#session-{0}\">{0}</a>", i + 1);
-        fmt::format_to(std::back_inserter(out),
-                       "<tr><td class=\"n\">{0}</td><td class=\"w\">{1}</td><td>{2}</td>"
-                       "<td>{3}</td><td>{4}</td><td>{5}{6}</td><td>{7}</td><td class=\"n\">{8}</td>"
-                       "<td class=\"n\">{9}</td><td class=\"n\">{10} <span class=\"of\">of {11}</span></td>"
-                       "<td class=\"n\">{12}</td><td class=\"n\">{13}</td></tr>\n",
-                       number_text, plot::escape(a.title), plot::escape(a.task), plot::escape(a.variant),
-                       plot::escape(a.trainee),
-                       plot::escape(a.mode + (a.mode == "guided" && !a.guided ? ", no force" : "") +
-                                    (a.view_help ? ", view help" : "")),
-                       a.complete ? "" : " (cut short)", plot::escape(a.law), a.seed,
-                       plot::number(a.score, 1), a.summary.ok, a.summary.joints,
-                       percent(a.summary.mean_torque_error), plot::duration_text(a.duration));
+        fmt::format_to(
+            std::back_inserter(out),
+            "<tr><td class=\"n\">{0}</td><td "
+            "class=\"w\">{1}</td><td>{2}</td><td>{3}</td><td>{4}</td><td>{5}{6}</td><td>{7}</td><td "
+            "class=\"n\">{8}</td><td class=\"n\">{9}</td><td class=\"n\">{10} <span class=\"of\">of "
+            "{11}</span></td><td class=\"n\">{12}</td><td class=\"n\">{13}</td></tr>\n",
+            number_text, plot::escape(a.title), plot::escape(a.task), plot::escape(a.variant),
+            plot::escape(a.trainee),
+            plot::escape(a.mode + (a.mode == "guided" && !a.guided ? ", no force" : "") +
+                         (a.view_help ? ", view help" : "")),
+            a.complete ? "" : " (cut short)", plot::escape(a.law), a.seed, plot::number(a.score, 1),
+            a.summary.ok, a.summary.joints, percent(a.summary.mean_torque_error),
+            plot::duration_text(a.duration));
     }
     return out + "</tbody></table></div>\n" + trainee_note(attempts);
 }
@@ -89,7 +90,7 @@ std::string trainee_text(const session::Header& header, const TraineeNames& name
         case session::TraineeKind::person: {
             const content::Person person = people::person_of(header, names.people);
             if (person == content::Person{}) return std::string(unnamed_person);
-            return names.show || person.code.empty() ? people::shown(person) : person.code;
+            return names.show || person.code.empty() ? content::name_and_code(person) : person.code;
         }
         case session::TraineeKind::simulated:
             return name.empty() ? header.trainee_profile + " (simulated)"
@@ -201,21 +202,20 @@ struct StudyFactor {
 
 constexpr StudyFactor guiding{"guiding",    "with and without guiding", "guided",
                               "not guided", &Attempt::guided,           ""};
-constexpr StudyFactor view{"view help",
-                           "with and without view help",
-                           "view help",
-                           "by hand",
-                           &Attempt::view_help,
-                           " A trainee that sees less of nut and jaw than it wants presses V: after a glance "
-                           "of 0.3 s and a transition of 0.35 s the eye is in the view that the program "
-                           "found. If that shows too little as well, the trainee moves its head as without "
-                           "the help. Without the help the eye begins in the assembly's first view and "
-                           "moves about the nut at 60° a second. After a glance of 0.3 s it moves up, down "
-                           "or to a side at random, and continues while more becomes visible. After 30° "
-                           "without gain it moves back and tries another direction, until enough is "
-                           "visible or every direction is worse. The hand waits meanwhile. The less is "
-                           "visible, the less accurately the wrench is placed. Nothing else differs: that "
-                           "people forget the key, tire, or lose their way in a view is not modelled."};
+constexpr StudyFactor view{
+    "view help",
+    "with and without view help",
+    "view help",
+    "by hand",
+    &Attempt::view_help,
+    " A trainee that sees less of nut and jaw than it wants presses V: after a glance of 0.3 s and a "
+    "transition of 0.35 s the eye is in the view that the program found. If that shows too little as well, "
+    "the trainee moves its head as without the help. Without the help the eye begins in the assembly's first "
+    "view and moves about the nut at 60° a second. After a glance of 0.3 s it moves up, down or to a side at "
+    "random, and continues while more becomes visible. After 30° without gain it moves back and tries "
+    "another direction, until enough is visible or every direction is worse. The hand waits meanwhile. The "
+    "less is visible, the less accurately the wrench is placed. Nothing else differs: that people forget the "
+    "key, tire, or lose their way in a view is not modelled."};
 
 using AttemptList = std::vector<const Attempt*>;
 
@@ -306,9 +306,8 @@ std::string study_part(const AttemptList& with, const AttemptList& without, cons
         return std::count_if(group.begin(), group.end(), [](const Attempt* a) { return a->finished; });
     };
     put(out, "<p>{}n = {} {} and {} {}; finished: {} and {}.{}</p>\n",
-        simulated
-            ? "<strong>These trainees are simulated:</strong> this shows what the program does to a model of "
-              "a hand, not what it does to people. "
+        simulated ? "<strong>These trainees are simulated:</strong> this shows what the program does to a "
+                    "model of a hand, not what it does to people. "
         : first.trainee_kind == session::TraineeKind::unrecorded
             ? "These sessions do not record whether a person or a simulated trainee held the tool. "
             : "",

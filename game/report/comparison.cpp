@@ -126,13 +126,13 @@ std::string share_text(double share, const statistics::Interval& i) {
 std::string error_table(const analysis::TorqueErrors& errors, const analysis::RepetitionBands* bands) {
     std::string out =
         "<div class=\"scroll\"><table><thead><tr><th>stage</th><th class=\"n\">MRE</th><th "
-        "class=\"n\">MAPE</th><th class=\"n\">RMSE, N·m</th>"
-        "<th class=\"n\">samples</th><th class=\"n\">below the floor</th></tr></thead><tbody>\n";
+        "class=\"n\">MAPE</th><th class=\"n\">RMSE, N·m</th><th class=\"n\">samples</th><th "
+        "class=\"n\">below the floor</th></tr></thead><tbody>\n";
     const auto row = [&](std::string_view name, const analysis::StageError& e,
                          const analysis::StageBand* band, std::string_view style) {
         plot::put(out,
-                  "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}{}</td><td class=\"n\">{}{}</td>"
-                  "<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+                  "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}{}</td><td "
+                  "class=\"n\">{}{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
                   style, name, error_value(e, e.mre), error_value(e, e.mape),
                   band != nullptr ? interval_text(band->mape, 3) : "",
                   e.count + e.below > 0 ? number(e.rmse, 3) : "–",
@@ -160,7 +160,7 @@ std::string feature_text(const analysis::RepetitionBands& bands) {
     return out;
 }
 
-// What a joint's section has instead of errors if the record is of another joint.
+// The text in place of errors if the record is of another joint.
 std::string other_joint_text(const analysis::JointComparison& joint) {
     return fmt::format(
         "another joint, or tightened very differently: {}. Errors of torque, slope and breakaway would have "
@@ -170,8 +170,8 @@ std::string other_joint_text(const analysis::JointComparison& joint) {
 
 std::string cycle_table(const analysis::Comparison& c, const analysis::JointComparison& joint) {
     std::string out =
-        "<details><summary>Every cycle</summary><div class=\"scroll\"><table><thead><tr><th>cycle</th>"
-        "<th class=\"n\">shift</th><th class=\"n\">peak, N·m</th><th class=\"n\">floor, N·m</th>";
+        "<details><summary>Every cycle</summary><div class=\"scroll\"><table><thead><tr><th>cycle</th><th "
+        "class=\"n\">shift</th><th class=\"n\">peak, N·m</th><th class=\"n\">floor, N·m</th>";
     for (int i = 0; i < joint::stage_count; ++i)
         out +=
             fmt::format("<th class=\"n\">{}<br/>MRE / MAPE</th>", joint::name(static_cast<joint::Stage>(i)));
@@ -333,16 +333,12 @@ std::string method_text(const analysis::Comparison& c) {
                           number(100.0 * c.options.share, 0))
             : std::string("by the breakaway peak");
     return fmt::format(
-        "Each curve has an angle only once, from when the nut first reached it; measured curves are shifted "
-        "to match the virtual one {}. "
-        "Error: |virtual − measured| / |measured|; MRE is its maximum, MAPE its mean; stages are those of "
-        "the virtual curve. "
-        "RMSE is the root of their mean square in N·m. "
-        "Samples below {} % of their run’s highest measured torque count for the RMSE only; angles that the "
-        "virtual curve does not have are left out. Brackets: 95 % interval over the repetitions, bootstrap "
-        "of "
-        "whole runs with the seed {}, from {} runs on. Virtual torque: at the wrench, true and unscaled, law "
-        "“{}”.",
+        "Of each angle, only the first visit is used; measured curves are shifted "
+        "to match the virtual one {}. Error: |virtual − measured| / |measured|; MRE is its maximum, MAPE its "
+        "mean; stages are those of the virtual curve. RMSE is the root of their mean square in N·m. Samples "
+        "below {} % of their run’s highest measured torque count for the RMSE only; angles that the virtual "
+        "curve does not have are left out. Brackets: 95 % interval over the repetitions, bootstrap of whole "
+        "runs with the seed {}, from {} runs on. Virtual torque: at the wrench, true and unscaled, law “{}”.",
         aligned, number(100.0 * c.options.floor_share, 1), analysis::band_seed, analysis::min_repetitions,
         c.law);
 }

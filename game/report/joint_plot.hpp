@@ -20,7 +20,7 @@ JointPlotFrame joint_plot_frame(const analysis::SessionData& session, std::size_
 
 plot::Plot joint_plot(const analysis::SessionData& session, std::size_t joint);
 
-// The plot, with a small inset of the whole run from the hand-started nut on if the run-down is cut.
+// The plot. If the run-down is cut, an inset shows the whole run.
 std::string joint_figure(const analysis::SessionData& session, std::size_t joint);
 
 std::string run_down_text(const analysis::RunDown& run);

@@ -2,6 +2,7 @@
 // materials.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -35,13 +36,23 @@ struct TableRow {
     std::string stage, paper_mre, paper_mape, mre, mape, rmse, samples;
 };
 
-std::vector<TableRow> table_rows(const analysis::Comparison& c) {
-    const auto* printed = printed_for(c.variant);
-    const analysis::JointComparison& joint = c.joints.front();
-    const analysis::RepetitionBands bands = analysis::repetition_bands(joint.cycles);
+// The runs of all joint types of a material.
+std::vector<analysis::CycleComparison> all_cycles(const MaterialComparison& material) {
+    std::vector<analysis::CycleComparison> cycles;
+    for (const analysis::Comparison& type : material.types)
+        cycles.insert(cycles.end(), type.joints.front().cycles.begin(), type.joints.front().cycles.end());
+    return cycles;
+}
+
+std::vector<TableRow> table_rows(const MaterialComparison& material) {
+    const auto* printed = printed_for(material.variant);
+    const std::vector<analysis::CycleComparison> cycles = all_cycles(material);
+    const analysis::RepetitionBands bands = analysis::repetition_bands(cycles);
+    analysis::TorqueErrors errors;
+    for (const analysis::CycleComparison& cycle : cycles) errors = analysis::pool(errors, cycle.errors);
     std::vector<TableRow> rows;
-    for (std::size_t i = 0; i < joint.errors.stage.size(); ++i) {
-        const analysis::StageError& e = joint.errors.stage[i];
+    for (std::size_t i = 0; i < errors.stage.size(); ++i) {
+        const analysis::StageError& e = errors.stage[i];
         const analysis::StageBand& band = bands.stage[i];
         TableRow row;
         row.stage = joint::name(static_cast<joint::Stage>(i));
@@ -61,65 +72,69 @@ std::vector<TableRow> table_rows(const analysis::Comparison& c) {
 
 constexpr std::string_view warning =
     "SIMULATED: no joint was measured. The \"measured\" torques come from the mechanistic law through "
-    "simulated "
-    "sensors and an operator. The errors show how far the published law is from the mechanistic law, not "
-    "from "
-    "real joints; the paper's errors were measured on real joints.";
+    "simulated sensors and an operator. The errors show how far the published law is from the mechanistic "
+    "law, not from real joints; the paper's errors were measured on real joints.";
 
-std::string summary_sentence(const analysis::Comparison& c) {
-    double low = 1e300, high = 0.0;
-    for (const analysis::MeasuredCurve& run : c.measured) {
-        const double peak = analysis::torque_floor(run.curve, 1.0);
-        low = std::min(low, peak);
-        high = std::max(high, peak);
+// The highest torque of the runs and of the published law, by joint type.
+std::string summary_sentence(const MaterialComparison& material) {
+    std::string out;
+    for (const analysis::Comparison& type : material.types) {
+        std::vector<double> peaks;
+        for (const analysis::MeasuredCurve& run : type.measured)
+            peaks.push_back(analysis::torque_floor(run.curve, 1.0));
+        const auto [low, high] = std::minmax_element(peaks.begin(), peaks.end());
+        const analysis::JointComparison& joint = type.joints.front();
+        const analysis::RepetitionBands bands = analysis::repetition_bands(joint.cycles);
+        out += fmt::format("{}{}: {} runs, highest torque {} to {} N·m, published law {} N·m",
+                           out.empty() ? "" : " ", joint.joint, peaks.size(), plot::number(*low, 1),
+                           plot::number(*high, 1),
+                           plot::number(analysis::torque_floor(joint.simulated, 1.0), 1));
+        if (std::isfinite(bands.slope_error))
+            out += fmt::format(", slope in its linear stage {} % against the simulated runs",
+                               plot::signed_number(100.0 * bands.slope_error, 0));
+        out += ".";
+        if (!joint.other_joint.empty())
+            out += " Another joint, so there are no errors: " + joint.other_joint + ".";
     }
-    const analysis::RepetitionBands bands = analysis::repetition_bands(c.joints.front().cycles);
-    std::string out = fmt::format("{} runs, highest torque {} to {} N·m, published law {} N·m.",
-                                  c.measured.size(), plot::number(low, 1), plot::number(high, 1),
-                                  plot::number(analysis::torque_floor(c.joints.front().simulated, 1.0), 1));
-    if (std::isfinite(bands.slope_error))
-        out += fmt::format(" Slope over the published law's linear stage: {} % against the simulated runs.",
-                           plot::signed_number(100.0 * bands.slope_error, 0));
-    if (!c.joints.front().other_joint.empty())
-        out += " Another joint, so there are no errors: " + c.joints.front().other_joint + ".";
     return out;
 }
 
 }  // namespace
 
-std::string paper_table_page(std::span<const analysis::Comparison> materials) {
+std::string paper_table_page(std::span<const MaterialComparison> materials) {
     std::string body = fmt::format(
         "<p class=\"over\">Published law against simulated measurement</p>\n<h1>Fig. 9 and Table 2, "
         "simulated</h1>\n<p><strong>{}</strong></p>\n<p class=\"note\">{}</p>\n",
-        plot::escape(warning), materials.empty() ? "" : plot::escape(method_text(materials.front())));
-    for (const analysis::Comparison& c : materials) {
-        plot::put(body, "<h2>{} (simulated)</h2>\n<p>{}</p>\n", plot::escape(c.variant),
-                  plot::escape(summary_sentence(c)));
+        plot::escape(warning),
+        materials.empty() ? "" : plot::escape(method_text(materials.front().types.front())));
+    for (const MaterialComparison& material : materials) {
+        plot::put(body, "<h2>{} (simulated)</h2>\n<p>{}</p>\n", plot::escape(material.variant),
+                  plot::escape(summary_sentence(material)));
         body +=
             "<div class=\"scroll\"><table><thead><tr><th>stage</th><th class=\"n\">paper: MRE</th><th "
             "class=\"n\">paper: MAPE</th><th class=\"n\">simulated: MRE</th><th class=\"n\">simulated: MAPE "
-            "[95 "
-            "%]</th><th class=\"n\">simulated: RMSE, N·m</th><th class=\"n\">samples / below the "
+            "[95 %]</th><th class=\"n\">simulated: RMSE, N·m</th><th class=\"n\">samples / below the "
             "floor</th></tr></thead><tbody>\n";
-        for (const TableRow& r : table_rows(c))
+        for (const TableRow& r : table_rows(material))
             plot::put(
                 body,
                 "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
                 "class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
                 r.stage, r.paper_mre, r.paper_mape, r.mre, r.mape, r.rmse, r.samples);
-        body += "</tbody></table></div>\n" + joint_sections(c);
+        body += "</tbody></table></div>\n";
+        for (const analysis::Comparison& type : material.types) body += joint_sections(type);
     }
     return plot::page("Published law against simulated measurement", body);
 }
 
-std::string paper_table_text(std::span<const analysis::Comparison> materials) {
+std::string paper_table_text(std::span<const MaterialComparison> materials) {
     std::string out(warning);
     out += "\n";
-    for (const analysis::Comparison& c : materials) {
-        out += fmt::format("\n{} (simulated): {}\n", c.variant, summary_sentence(c));
+    for (const MaterialComparison& material : materials) {
+        out += fmt::format("\n{} (simulated): {}\n", material.variant, summary_sentence(material));
         out += fmt::format("{:<12} {:>10} {:>10} {:>10} {:>28} {:>10} {:>16}\n", "stage", "paper MRE",
                            "paper MAPE", "MRE", "MAPE [95 %]", "RMSE, N·m", "samples / floor");
-        for (const TableRow& r : table_rows(c))
+        for (const TableRow& r : table_rows(material))
             out += fmt::format("{:<12} {:>10} {:>10} {:>10} {:>28} {:>10} {:>16}\n", r.stage, r.paper_mre,
                                r.paper_mape, r.mre, r.mape, r.rmse, r.samples);
     }

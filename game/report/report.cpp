@@ -34,14 +34,12 @@ void put_heading(std::string& out, const analysis::SessionData& s, std::size_t i
     if (!s.complete)
         put(out,
             "<div class=\"banner\" role=\"note\"><strong>This session was cut short.</strong> It was "
-            "recorded for "
-            "{}; the results are those known at that moment.</div>\n",
+            "recorded for {}; the results are those known at that moment.</div>\n",
             plot::duration_text(s.recorded));
     else if (!s.finished)
         put(out,
             "<div class=\"banner\" role=\"note\"><strong>The lesson was not finished.</strong> Some steps "
-            "were never "
-            "done.</div>\n");
+            "were never done.</div>\n");
     out += "<dl class=\"facts\">\n";
     out += plot::fact("trainee", trainee_text(s.header, names));
     if (s.header.hand == hand::Side::left) out += plot::fact("hand", "left");
@@ -66,8 +64,7 @@ void put_score(std::string& out, const analysis::SessionData& s) {
     if (s.reasons.empty()) return;
     out +=
         "<h2>Score</h2>\n<table><thead><tr><th class=\"n\" "
-        "style=\"width:5.5em\">points</th><th>reason</th></tr></thead>"
-        "<tbody>\n";
+        "style=\"width:5.5em\">points</th><th>reason</th></tr></thead><tbody>\n";
     for (const lesson::Deduction& reason : s.reasons)
         put(out, "<tr><td class=\"n\">{}</td><td class=\"w\">{}</td></tr>\n",
             plot::signed_number(reason.points, 1), plot::escape(reason.text));
@@ -105,8 +102,8 @@ void put_joint_row(std::string& out, const analysis::SessionData& s, std::size_t
 }
 
 constexpr std::string_view loosening_note =
-    "<p class=\"note\">Breakaway: highest torque at the wrench while the joint was loosened; it does "
-    "not affect the verdict. Clamp: at the end of the session.</p>\n";
+    "<p class=\"note\">Breakaway: highest torque at the wrench while the joint was loosened; it does not "
+    "affect the verdict. Clamp: at the end of the session.</p>\n";
 
 std::string judging_note(const analysis::SessionData& s) {
     const std::vector<content::AssemblyJoint>& joints = s.assembly.joints;
@@ -136,14 +133,14 @@ void put_joints(std::string& out, const analysis::SessionData& s) {
     out +=
         "<h2>Joints</h2>\n<div "
         "class=\"scroll\"><table><thead><tr><th>joint</th><th>verdict</th><th>bolt</th>";
-    out += loosening ? "<th class=\"n\">breakaway,<br/>N·m</th><th class=\"n\">angle<br/>turned back</th>"
-                       "<th class=\"n\">clamp left,<br/>kN</th>"
-                     : "<th class=\"n\">torque, N·m<br/>/ target</th><th class=\"n\">angle<br/>from snug</th>"
-                       "<th class=\"n\">clamp, kN<br/>/ target</th><th class=\"n\">clamp<br/>error</th>";
+    out += loosening
+               ? "<th class=\"n\">breakaway,<br/>N·m</th><th class=\"n\">angle<br/>turned back</th><th "
+                 "class=\"n\">clamp left,<br/>kN</th>"
+               : "<th class=\"n\">torque, N·m<br/>/ target</th><th class=\"n\">angle<br/>from snug</th><th "
+                 "class=\"n\">clamp, kN<br/>/ target</th><th class=\"n\">clamp<br/>error</th>";
     out +=
-        "<th class=\"n\">strokes</th><th class=\"n\">worked<br/>again</th><th "
-        "class=\"n\">out of<br/>turn</th></tr></thead>"
-        "<tbody>\n";
+        "<th class=\"n\">strokes</th><th class=\"n\">worked<br/>again</th><th class=\"n\">out "
+        "of<br/>turn</th></tr></thead><tbody>\n";
     for (std::size_t j = 0; j < s.joints.size(); ++j) put_joint_row(out, s, j);
     out += "</tbody></table></div>\n" + (loosening ? std::string(loosening_note) : judging_note(s));
 }
@@ -310,9 +307,7 @@ void put_method(std::string& out, const analysis::SessionData& s) {
     put(out,
         "<footer>Torque is the true torque at the wrench, about the bolt’s axis and unscaled, not what the "
         "device rendered. Clamp force comes from the joint model, law “{}”: it is computed, not measured. "
-        "Curves keep "
-        "every highest "
-        "and lowest value. {}</footer>\n",
+        "Curves keep every highest and lowest value. {}</footer>\n",
         joint::name(s.header.law),
         plot::escape(s.header.program.empty() ? "" : "Recorded by " + s.header.program + "."));
 }

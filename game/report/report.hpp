@@ -53,11 +53,16 @@ std::string comparison_page(const analysis::Comparison& comparison);
 // HTML: the section of every joint of a comparison.
 std::string joint_sections(const analysis::Comparison& comparison);
 
-// The errors of the published law beside those that the paper of 2018 prints (paper_table.cpp), one
-// comparison for each material with simulated runs as its record; both say that nothing was measured. The
-// paper has the variants "stainless" and "carbon_steel".
-std::string paper_table_page(std::span<const analysis::Comparison> materials);
-std::string paper_table_text(std::span<const analysis::Comparison> materials);
+// Simulated runs of one material, compared with the published law of each joint type: a comparison with one
+// joint for each type.
+struct MaterialComparison {
+    std::string variant;
+    std::vector<analysis::Comparison> types;
+};
+// The errors of the published law beside those that the paper of 2018 prints (paper_table.cpp); page and text
+// say that nothing was measured. The paper has the variants "stainless" and "carbon_steel".
+std::string paper_table_page(std::span<const MaterialComparison> materials);
+std::string paper_table_text(std::span<const MaterialComparison> materials);
 
 // Limits of the comparison: peaks that differ by a large factor, stages without samples.
 std::vector<std::string> remarks(const analysis::Comparison& comparison);

@@ -211,17 +211,16 @@ Result<lesson::LessonResult> SessionReader::result() const {
     result.duration = state_->duration;
     result.score = state_->score;
     result.finished = state_->finished;
-    BOLT_TRY(
-        for_each_row(state_->database, state_->file, "joint_result",
-                     "SELECT ordinal, id, torque_Nm, angle_rad, clamp_N, clamp_at_release_N, torque_verdict, "
-                     "angle_verdict, overall, condition, strokes, rehits, order_errors "
-                     "FROM joint_result ORDER BY ordinal",
-                     [&](const Statement& row) -> std::optional<std::uint64_t> {
-                         auto joint = joint_of(row);
-                         if (!joint) return std::nullopt;
-                         result.joints.push_back(std::move(*joint));
-                         return row_hash(static_cast<std::uint64_t>(row.integer(0)), result.joints.back());
-                     }));
+    BOLT_TRY(for_each_row(
+        state_->database, state_->file, "joint_result",
+        "SELECT ordinal, id, torque_Nm, angle_rad, clamp_N, clamp_at_release_N, torque_verdict, "
+        "angle_verdict, overall, condition, strokes, rehits, order_errors FROM joint_result ORDER BY ordinal",
+        [&](const Statement& row) -> std::optional<std::uint64_t> {
+            auto joint = joint_of(row);
+            if (!joint) return std::nullopt;
+            result.joints.push_back(std::move(*joint));
+            return row_hash(static_cast<std::uint64_t>(row.integer(0)), result.joints.back());
+        }));
     BOLT_TRY(for_each_row(
         state_->database, state_->file, "score_reason",
         "SELECT ordinal, points, text FROM score_reason ORDER BY ordinal", [&](const Statement& row) {

@@ -37,8 +37,8 @@ struct TickRecord {
 
 // The number of an obstacle in a session file, in its ticks and in its table of names: none −1, fixed
 // obstacles 0 to 999, nuts from 1000 on. A fixed obstacle with an index i ≥ 1000 has the number 998 − i
-// (−2, −3, …), which no older file contains. No value for a fixed obstacle with an index of max_fixed or more
-// and for a nut with an index of max_nuts or more.
+// (−2, −3, …), which no older file contains. Returns no value for a fixed obstacle with an index of max_fixed
+// or more and for a nut with an index of max_nuts or more.
 std::optional<std::int16_t> file_number(collision::ObstacleId obstacle);
 collision::ObstacleId obstacle_of_number(std::int16_t number);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/base/random.hpp"
 
@@ -21,6 +22,19 @@ Quartiles quartiles(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return {quantile_of_sorted(values, 0.25), quantile_of_sorted(values, 0.5),
             quantile_of_sorted(values, 0.75), values.size()};
+}
+
+MeanDeviation mean_deviation(std::span<const double> values) {
+    MeanDeviation m;
+    m.n = values.size();
+    if (m.n == 0) return m;
+    const auto n = static_cast<double>(m.n);
+    m.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    if (m.n < 2) return m;
+    double squares = 0.0;
+    for (const double value : values) squares += (value - m.mean) * (value - m.mean);
+    m.deviation = std::sqrt(squares / (n - 1.0));
+    return m;
 }
 
 Interval bootstrap_interval(std::span<const double> values,

@@ -21,6 +21,13 @@ struct Quartiles {
 // Ignores values that are not finite. Without values all are NaN.
 Quartiles quartiles(std::vector<double> values);
 
+// Mean and sample standard deviation. NaN: without values; the deviation also of one value.
+struct MeanDeviation {
+    std::size_t n = 0;
+    double mean = std::numeric_limits<double>::quiet_NaN(), deviation = mean;
+};
+MeanDeviation mean_deviation(std::span<const double> values);
+
 struct Interval {
     double low = std::numeric_limits<double>::quiet_NaN(), high = low;
 };

@@ -56,13 +56,7 @@ std::vector<MeasureInfo> measure_infos(const content::Study& study) {
     std::vector<MeasureInfo> infos;
     for (const content::Questionnaire& form : study.questionnaires)
         for (const content::QuestionnaireScale& scale : form.scales) {
-            const auto title = scale.titles.find("en");
-            infos.push_back({form.id + "." + scale.id,
-                             title != scale.titles.end() ? title->second : scale.titles.begin()->second,
-                             "points",
-                             1.0,
-                             1,
-                             {}});
+            infos.push_back({form.id + "." + scale.id, content::text_in(scale.titles), "points", 1.0, 1, {}});
         }
     const auto objective = objective_measure_infos();
     infos.insert(infos.end(), objective.begin(), objective.end());
@@ -91,6 +85,18 @@ Result<std::map<std::string, double>> measure_session(const std::filesystem::pat
     BOLT_TRY_ASSIGN(const auto reader, session::SessionReader::open(session));
     BOLT_TRY_ASSIGN(const auto data, analysis::read_session(reader));
     return measures_of(data);
+}
+
+Result<bool> count_finished_lesson(Participation& participation) {
+    const std::optional<std::filesystem::path> folder = participation.begun_lesson();
+    std::error_code ignored;
+    if (!folder || !std::filesystem::exists(*folder / lesson_session_name, ignored)) return false;
+    const auto reader = session::SessionReader::open(*folder / lesson_session_name);
+    if (!reader || !reader->complete()) return false;
+    const auto data = analysis::read_session(*reader);
+    if (!data || !data->finished) return false;
+    BOLT_TRY(participation.end_lesson(measures_of(*data)));
+    return true;
 }
 
 }  // namespace bolt::study

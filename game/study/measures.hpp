@@ -10,6 +10,7 @@
 #include "content/studies/study.hpp"
 #include "engine/base/result.hpp"
 #include "game/analysis/session_data.hpp"
+#include "game/study/participation.hpp"
 
 namespace bolt::study {
 
@@ -35,5 +36,11 @@ std::map<std::string, double> measures_of(const analysis::SessionData& session);
 
 // Reads the session of a lesson that has ended.
 Result<std::map<std::string, double>> measure_session(const std::filesystem::path& session);
+
+inline constexpr const char* lesson_session_name = "session.boltwright";
+
+// Counts a lesson of the due step that ended with its last step, but whose end could not be stored, for
+// example on a full disk. Any other lesson begins again. Returns true if it was counted.
+Result<bool> count_finished_lesson(Participation& participation);
 
 }  // namespace bolt::study

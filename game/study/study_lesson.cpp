@@ -37,10 +37,10 @@ void check_texts(const content::Study& study, const fs::path& folder, StudyCheck
     for (const auto& [language, title] : study.titles)
         if (check.additions.empty() &&
             std::find(complete.begin(), complete.end(), language) == complete.end())
-            check.additions.push_back(fmt::format(
-                "{}: something has no text in \"{}\"; expected the information, all statements of "
-                "the consent, and the labels of all answers",
-                folder.string(), language));
+            check.additions.push_back(
+                fmt::format("{}: something has no text in \"{}\"; expected the information, all statements "
+                            "of the consent, and the labels of all answers",
+                            folder.string(), language));
     for (const auto& [language, title] : study.titles)
         if (!study.information.contains(language) || !study.consent.contains(language))
             check.additions.push_back(

@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::int64_t application_id = 0x626F6C74;  // "bolt"; the format is that of the table's name
 constexpr const char* create_tables =
-    "CREATE TABLE study_journal_1 (n INTEGER PRIMARY KEY, kind TEXT NOT NULL, time TEXT NOT NULL, "
-    "step TEXT NOT NULL, item TEXT NOT NULL, value REAL, text TEXT NOT NULL); "
-    "CREATE TABLE study_properties_1 (simulated INTEGER NOT NULL);";
+    "CREATE TABLE study_journal_1 (n INTEGER PRIMARY KEY, kind TEXT NOT NULL, time TEXT NOT NULL, step TEXT "
+    "NOT NULL, item TEXT NOT NULL, value REAL, text TEXT NOT NULL); CREATE TABLE study_properties_1 "
+    "(simulated INTEGER NOT NULL);";
 
 // In the order of JournalKind.
 constexpr std::string_view kind_names[journal_kinds] = {
@@ -42,8 +42,9 @@ Result<ReadJournal> read_entries(session::Database& database, const std::string&
     BOLT_TRY_ASSIGN(const bool has_properties, properties->step());
     ReadJournal read;
     read.simulated = has_properties && properties->integer(0) != 0;
-    BOLT_TRY_ASSIGN(auto rows, database.prepare("SELECT n, kind, time, step, item, value, text FROM "
-                                                "study_journal_1 ORDER BY n"));
+    BOLT_TRY_ASSIGN(
+        auto rows,
+        database.prepare("SELECT n, kind, time, step, item, value, text FROM study_journal_1 ORDER BY n"));
     for (;;) {
         BOLT_TRY_ASSIGN(const bool row, rows.step());
         if (!row) break;
@@ -105,10 +106,10 @@ Result<Journal> Journal::create(const std::filesystem::path& file, bool simulate
         BOLT_TRY_ASSIGN(const auto lock, session::FileLock::acquire(part, name));
         BOLT_TRY_ASSIGN(auto database, session::Database::create(part, name));
         BOLT_TRY(database.execute(durable));
-        BOLT_TRY(database.execute(fmt::format("BEGIN; PRAGMA application_id = {}; {} "
-                                              "INSERT INTO study_properties_1 VALUES ({})",
-                                              application_id, create_tables, simulated ? 1 : 0)
-                                      .c_str()));
+        BOLT_TRY(database.execute(
+            fmt::format("BEGIN; PRAGMA application_id = {}; {} INSERT INTO study_properties_1 VALUES ({})",
+                        application_id, create_tables, simulated ? 1 : 0)
+                .c_str()));
         for (std::size_t i = 0; i < first.size(); ++i) BOLT_TRY(insert(database, i, first[i]));
         BOLT_TRY(database.execute("COMMIT"));
     }

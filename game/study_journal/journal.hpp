@@ -49,9 +49,9 @@ std::string local_date(std::int64_t time);
 
 // A journal that is open for writing. Only one program at a time can have it.
 class Journal {
-  public:  // Creates a journal with its first entries; a program that is killed meanwhile leaves no journal.
-           // Fails if
-    // the file exists. `simulated`: the answers are not a person's.
+  public:
+    // Creates a journal with its first entries; a program that is killed meanwhile leaves no journal. Fails
+    // if the file exists. `simulated`: the answers are not a person's.
     static Result<Journal> create(const std::filesystem::path& file, bool simulated,
                                   std::span<const JournalEntry> first);
     // Fails if another program has it open, or if it is no journal.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/csv.hpp"
 #include "game/study_results/results.hpp"
 
 namespace bolt::study {
@@ -10,14 +11,6 @@ namespace bolt::study {
 namespace {
 
 using nlohmann::ordered_json;
-
-// RFC 4180.
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + "\"";
-}
 
 // JSON has no NaN.
 ordered_json number(double value) {

@@ -52,9 +52,7 @@ Sample sample_of(std::string name, const std::vector<double>& values,
     sample.quartiles = statistics::quartiles(sample.values);
     sample.mean = sample.min = sample.max = nan;
     if (sample.values.empty()) return sample;
-    const auto mean = [](std::span<const double> v) {
-        return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
-    };
+    const auto mean = [](std::span<const double> v) { return statistics::mean_deviation(v).mean; };
     sample.mean = mean(sample.values);
     const auto [low, high] = std::minmax_element(sample.values.begin(), sample.values.end());
     sample.min = *low;
@@ -62,11 +60,6 @@ Sample sample_of(std::string name, const std::vector<double>& values,
     if (bootstrap != nullptr)
         sample.mean_interval = statistics::bootstrap_interval(sample.values, mean, *bootstrap);
     return sample;
-}
-
-std::string title_of(const std::map<std::string, std::string>& titles) {
-    const auto english = titles.find("en");
-    return english != titles.end() ? english->second : titles.begin()->second;
 }
 
 // The scores that one person can have in a scale of one item: low, low + size, ...; size 0: unknown.
@@ -102,7 +95,7 @@ std::vector<double> complete_means(const content::Study& study, const StudyData&
             if (o.measure == selection.measure && o.time == selection.time && o.condition == condition)
                 ++(o.lesson == no_index ? parts : lessons)[o.participant];
         for (std::size_t i = 0; i < means.size(); ++i) {
-            const bool complete = lessons[i] == study.design.sessions || (lessons[i] == 0 && parts[i] > 0);
+            const bool complete = lessons[i] == study.design.lessons || (lessons[i] == 0 && parts[i] > 0);
             const bool once = selection.time == ObservationTime::retention && lessons[i] + parts[i] > 0;
             const bool required = study.design.subjects == content::StudySubjects::within;
             if (required && !complete && !once) means[i] = nan;
@@ -175,7 +168,7 @@ StudyData collect(const content::Study& study, std::vector<ParticipantState> sta
             // Between subjects a form at the end belongs to the participant's only condition, unless the
             // form is presented in the condition too.
             if (between && common.time == ObservationTime::after && step.form != no_index &&
-                !study.forms[step.form].is_at(content::FormTime::after_session) &&
+                !study.forms[step.form].is_at(content::FormTime::after_lesson) &&
                 !study.forms[step.form].is_at(content::FormTime::after_condition))
                 common.time = ObservationTime::condition;
             common.part = step.part;
@@ -245,7 +238,7 @@ std::vector<ComparisonResult> compare(const content::Study& study, const StudyDa
                  group.conditions}));
             std::string name = group.name;
             if (planned.factor.empty())
-                name = title_of(study.conditions[group.conditions.front()].titles);
+                name = content::text_in(study.conditions[group.conditions.front()].titles);
             else
                 name = planned.factor + " " + group.name;
             result.groups.push_back(sample_of(std::move(name), groups.back(), nullptr));
@@ -272,7 +265,7 @@ Results analyse(const content::Study& study, const StudyData& data,
         bool any = false;
         for (std::size_t i = 0; i < study.conditions.size(); ++i) {
             measure.conditions.push_back(
-                sample_of(title_of(study.conditions[i].titles),
+                sample_of(content::text_in(study.conditions[i].titles),
                           participant_means(data, {info.id, ObservationTime::condition, {i}}), &bootstrap));
             any = any || !measure.conditions.back().values.empty();
         }

@@ -1,4 +1,4 @@
-// The pages of a study: its results, and the progress of its participants.
+// The page with the results of a study.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,11 +16,6 @@ namespace {
 using plot::put;
 
 constexpr double high_shift_confidence = 0.95 - 1e-9;  // 1e-9 is for rounding
-
-std::string english(const std::map<std::string, std::string>& texts) {
-    const auto found = texts.find("en");
-    return found != texts.end() ? found->second : texts.empty() ? std::string() : texts.begin()->second;
-}
 
 std::string shown(const MeasureInfo& info, double value) {
     return plot::number(value * info.scale, info.decimals);
@@ -133,16 +128,14 @@ std::string description_table(const Results& results, bool objective) {
     std::string out = fmt::format(
         "<h2>{}</h2>\n<div class=\"scroll\"><table><thead><tr><th>measure</th><th>condition</th><th "
         "class=\"n\">n</th><th class=\"n\">min</th><th class=\"n\">max</th><th class=\"n\">mean [95 "
-        "%]</th><th "
-        "class=\"n\">median</th><th "
+        "%]</th><th class=\"n\">median</th><th "
         "class=\"n\">quartiles</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
         objective ? "Measured in the lessons" : "Judged by the participants", rows);
     if (impossible)
         out +=
             "<p class=\"note\">Impossible mean: no set of that many answers on this scale has this mean "
-            "(GRIM test, Brown and "
-            "Heathers 2017). The printed value rests on other "
-            "data than the publication says.</p>\n";
+            "(GRIM test, Brown and Heathers 2017). The printed value rests on other data than the "
+            "publication says.</p>\n";
     return out;
 }
 
@@ -231,7 +224,7 @@ std::vector<std::string> shown_labels(const content::Questionnaire& form,
                : labels;
 }
 
-// How often each answer was given to an item, with the answer's label.
+// Counts the answers to an item: each label with its number.
 std::string answer_counts(const content::Questionnaire& form, const content::QuestionnaireItem& item,
                           const std::string& step, const StudyData& data) {
     const content::AnswerScale& scale = content::answer_scale_of(form, item);
@@ -263,7 +256,7 @@ std::string participants_table(const content::Study& study, const StudyData& dat
             const std::string counts = answer_counts(form, item, "before/" + form.id, data);
             if (!counts.empty())
                 put(rows, "<tr><td class=\"w\">{}</td><td class=\"w\">{}</td></tr>\n",
-                    plot::escape(english(item.texts)), counts);
+                    plot::escape(content::text_in(item.texts)), counts);
         }
     }
     if (rows.empty()) return {};
@@ -354,8 +347,7 @@ std::string planning_text(const content::Study& study, const StudyData& data) {
                            study.comparisons.size());
     return fmt::format(
         "The plan was changed after participants had begun ({}), so it is not certain that the {} "
-        "comparisons "
-        "were planned before the data were seen.",
+        "comparisons were planned before the data were seen.",
         changed, study.comparisons.size());
 }
 
@@ -367,26 +359,24 @@ std::string methods(const content::Study& study, const StudyData& data, const Re
     if (study.training)
         put(out, "Before the first condition each participant trained for {} in lessons. ",
             plot::duration_text(study.training->duration));
-    put(out, "Each condition had {} lesson{}. ", study.design.sessions,
-        study.design.sessions == 1 ? "" : "s of the same task");
+    put(out, "Each condition had {} lesson{}. ", study.design.lessons,
+        study.design.lessons == 1 ? "" : "s of the same task");
     if (study.design.blind) out += "The experimenter did not see the conditions. ";
     if (study.retention)
         put(out, "A retention test without change of condition followed after {} days. ",
             study.retention->after_days);
     out += "Forms: ";
     for (std::size_t i = 0; i < study.questionnaires.size(); ++i)
-        put(out, "{}{} ({})", i == 0 ? "" : "; ", plot::escape(english(study.questionnaires[i].titles)),
+        put(out, "{}{} ({})", i == 0 ? "" : "; ",
+            plot::escape(content::text_in(study.questionnaires[i].titles)),
             plot::escape(study.questionnaires[i].source));
     put(out,
         ". Samples are described by median and quartiles (type 7) and by the mean with a percentile "
         "bootstrap interval of 95 % ({} resamples, seed {}). {} Two related samples were compared by "
-        "Wilcoxon's signed rank test (exact below 100 values, zero "
-        "differences dropped, midranks for ties), more than two by Friedman's test, independent samples by "
-        "the rank sum test (exact below 100 values), all two-sided, with Holm's correction. Effect sizes are "
-        "the "
-        "rank-biserial "
-        "correlation and Kendall's W; differences are Hodges and Lehmann's estimates. Analysed with "
-        "Boltwright.</p>\n",
+        "Wilcoxon's signed rank test (exact below 100 values, zero differences dropped, midranks for ties), "
+        "more than two by Friedman's test, independent samples by the rank sum test (exact below 100 "
+        "values), all two-sided, with Holm's correction. Effect sizes are the rank-biserial correlation and "
+        "Kendall's W; differences are Hodges and Lehmann's estimates. Analysed with Boltwright.</p>\n",
         results.bootstrap.resamples, results.bootstrap.seed, planning_text(study, data));
     return out;
 }
@@ -402,38 +392,12 @@ std::string comments(const StudyData& data) {
            rows + "</tbody></table>\n";
 }
 
-// The due step, without anything that reveals the condition.
-std::string step_text(const ParticipantState& state) {
-    if (state.withdrawn) return state.problem ? "withdrew, data left" : "withdrew";
-    if (state.problem) return "damaged";
-    if (state.due == state.steps.size()) return "complete";
-    const Step& step = state.steps[state.due];
-    return step.id;
-}
-
-std::string conditions_text(const content::Study& study, const ParticipantState& state) {
-    if (study.design.blind || state.withdrawn) return "–";
-    std::string text;
-    for (const std::size_t condition : state.conditions)
-        text += (text.empty() ? "" : ", ") + study.conditions[condition].id;
-    return text;
-}
-
-std::string waiting_text(const content::Study& study, const ParticipantState& state, std::int64_t now) {
-    if (state.problem) return state.problem->message();
-    if (state.withdrawn) return {};
-    const auto due = retention_due(study, state.progress);
-    if (due && state.due < state.steps.size() && state.steps[state.due].kind == StepKind::retention)
-        return (*due > now ? "retention test from " : "retention test since ") + local_date(*due);
-    return "last entry " + time_text(state.progress.latest);
-}
-
 }  // namespace
 
 std::string results_page(const content::Study& study, const StudyData& data, const Results& results) {
     std::string body;
     put(body, "<p class=\"over\">Boltwright study</p>\n<h1>{}</h1>\n<p>{}.</p>\n",
-        plot::escape(english(study.titles)), plot::escape(design_text(study)));
+        plot::escape(content::text_in(study.titles)), plot::escape(design_text(study)));
     body += simulated_banner(data) + facts(study, data);
     if (data.participants.empty()) body += "<p class=\"banner\">Nobody has taken part yet.</p>\n";
     body += participants_table(study, data) + description_table(results, false) +
@@ -442,46 +406,7 @@ std::string results_page(const content::Study& study, const StudyData& data, con
         body += comparisons_table(results) + box_plots(results) + learning_curves(data);
         body += methods(study, data, results) + comments(data);
     }
-    return plot::page(english(study.titles) + ": results", body);
-}
-
-std::string progress_text(const content::Study& study, const std::vector<ParticipantState>& states,
-                          std::int64_t now) {
-    std::string out;
-    std::size_t complete = 0, withdrawn = 0;
-    for (const ParticipantState& state : states) {
-        withdrawn += state.withdrawn;
-        complete += !state.withdrawn && !state.problem && state.due == state.steps.size();
-        put(out, "{:<5} {:>2} of {:<3} {:<26} {:<24} {}{}\n", state.participant, state.due,
-            state.steps.size(), step_text(state), conditions_text(study, state),
-            waiting_text(study, state, now), state.progress.simulated ? " (simulated)" : "");
-    }
-    put(out, "{} of {} planned participants complete, {} begun, {} withdrew\n", complete,
-        study.design.participants, states.size() - withdrawn, withdrawn);
-    return out;
-}
-
-std::string progress_page(const content::Study& study, const std::vector<ParticipantState>& states,
-                          std::int64_t now) {
-    std::string body;
-    put(body,
-        "<meta http-equiv=\"refresh\" content=\"10\"/>\n<p class=\"over\">Boltwright study, progress at "
-        "{}</p>\n<h1>{}</h1>\n",
-        time_text(now), plot::escape(english(study.titles)));
-    body +=
-        "<div class=\"scroll\"><table><thead><tr><th>participant</th><th class=\"n\">steps done</th><th>due "
-        "step</th><th>conditions</th><th></th></tr></thead><tbody>\n";
-    for (const ParticipantState& state : states)
-        put(body,
-            "<tr><td>{}{}</td><td class=\"n\">{} <span class=\"of\">of "
-            "{}</span></td><td>{}</td><td>{}</td><td "
-            "class=\"w\">{}</td></tr>\n",
-            state.participant, state.progress.simulated ? " (simulated)" : "", state.due, state.steps.size(),
-            step_text(state), plot::escape(conditions_text(study, state)), waiting_text(study, state, now));
-    body += "</tbody></table></div>\n";
-    if (study.design.blind)
-        body += "<p class=\"note\">The study is blind: this page does not show the conditions.</p>\n";
-    return plot::page(english(study.titles) + ": progress", body);
+    return plot::page(content::text_in(study.titles) + ": results", body);
 }
 
 }  // namespace bolt::study

@@ -57,7 +57,7 @@ Status play_lesson(const Simulation& simulation, SimulatedPerson& person, const 
     options.seed = lesson_seed(simulation.study, person.participation.progress().place, step.id);
     options.trainee = person.participation.progress().person;
     BOLT_TRY_ASSIGN(const auto out, person.participation.begin_lesson());
-    const fs::path session = out / "session.boltwright";
+    const fs::path session = out / lesson_session_name;
     BOLT_TRY_ASSIGN(const auto outcome, simulation.options.play({assembly, std::move(options), person.kind,
                                                                  lesson.view_help, session}));
     *person.now += static_cast<std::int64_t>(outcome.result.duration);
@@ -67,10 +67,11 @@ Status play_lesson(const Simulation& simulation, SimulatedPerson& person, const 
 
 Status do_step(const Simulation& simulation, SimulatedPerson& person) {
     const Step& step = *person.participation.due();
-    *person.now += static_cast<std::int64_t>(person.participation.wait());
+    *person.now += static_cast<std::int64_t>(person.participation.remaining_wait());
     switch (step.kind) {
         case StepKind::language:
-            BOLT_TRY(person.participation.choose_language(simulation.study.consent.begin()->first));
+            BOLT_TRY(
+                person.participation.choose_language(content::complete_languages(simulation.study).front()));
             break;
         case StepKind::consent:
             for (std::size_t i = 0; i < simulation.study.consent.begin()->second.size(); ++i)
@@ -120,14 +121,16 @@ Result<std::vector<SimulatedPerson>> enrol_persons(const Simulation& simulation)
 
 Status simulate(const content::Study& study, const fs::path& folder, const SimulationOptions& options,
                 const SimulationProgress& progress) {
+    if (content::complete_languages(study).empty())
+        return fail(ErrorCode::bad_content, "there is no language in which everything can be read",
+                    "the texts that `boltwright study check` lists");
     BOLT_TRY_ASSIGN(const auto present, list_participants(study, folder));
     if (!present.empty()) {
         Error error;
         error.file = (folder / participants_folder_name).string();
         error.what = fmt::format("has {} participants", present.size());
         error.expected =
-            "a folder of the study without participants, because simulated ones are never mixed "
-            "with people";
+            "a folder of the study without participants, because simulated ones are never mixed with people";
         return fail(std::move(error));
     }
     Simulation simulation{study, folder, options, progress};

@@ -212,7 +212,7 @@ Status App::end_lesson() {
 void App::count_study_lesson() {
     screen_ = ShownScreen::study;
     const Status stored =
-        study::measure_session(folder_ / "session.boltwright").and_then([&](const auto& measures) {
+        study::measure_session(folder_ / study::lesson_session_name).and_then([&](const auto& measures) {
             return study_->participation().end_lesson(measures);
         });
     if (!stored)

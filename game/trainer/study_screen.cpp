@@ -164,13 +164,14 @@ StudyScreen::Pressed StudyScreen::draw_buttons(const ScreenContext& context, con
 
 void StudyScreen::draw_language(const ScreenContext& context) {
     draw_heading(context, participation_.text(participation_.study().titles));
+    draw_wrapped(context.words["study.language"], muted_text);
     const std::vector<std::string> readable = content::complete_languages(participation_.study());
     for (const words::Words& language : context.languages) {
         if (std::find(readable.begin(), readable.end(), language.language) == readable.end()) continue;
         if (draw_choice_button(language.name, participation_.progress().language == language.language) &&
             store(participation_.choose_language(language.language)))
             context.selected_language = language.language;
-        note_widget(context, "study.next");
+        note_widget(context, "study.language");
     }
     const bool chosen = !participation_.progress().language.empty();
     if (draw_buttons(context, {"study.next", chosen}) == Pressed::forward) complete();
@@ -263,7 +264,7 @@ ScreenAction StudyScreen::draw_lesson(const ScreenContext& context, const study:
                      muted_text);
     } else if (step.kind == study::StepKind::retention) {
         draw_heading(context, context.words["study.retention"]);
-        ready = participation_.wait() <= 0.0;
+        ready = participation_.remaining_wait() <= 0.0;
         const auto date = study::retention_due(study, participation_.progress());
         if (!ready && date)
             draw_wrapped(
@@ -282,7 +283,7 @@ ScreenAction StudyScreen::draw_lesson(const ScreenContext& context, const study:
 
 void StudyScreen::draw_break(const ScreenContext& context) {
     draw_heading(context, context.words["study.break"]);
-    const double wait = participation_.wait();
+    const double wait = participation_.remaining_wait();
     if (wait > 0.0)
         draw_wrapped(words::format_text(context.words, "study.break_left", {{"time", time_left(wait)}}),
                      muted_text);

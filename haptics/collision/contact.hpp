@@ -59,7 +59,7 @@ struct Contact {
     // index does not change while tool and obstacle move.
     std::uint32_t feature = 0;
     // Contacts with meshes only: a triangle that contains the closest point. If `feature` is of the tool, the
-    // triangle is of the obstacle, and the reverse.
+    // triangle is of the obstacle, and vice versa.
     std::uint32_t triangle = 0;
     // Unit: the normal of the smooth surface that the facets approximate (narrow_phase.hpp). Zero: none;
     // use `normal`.
@@ -78,7 +78,7 @@ struct ContactQueryResult {
 // Two contacts with the same obstacle are merged if their points on the tool are within the merge distance
 // and their normals are nearly parallel; the nearer one is kept. The merge distance starts at
 // `first_merge_distance` and doubles up to `last_merge_distance` until the kept contacts fit the output. The
-// permitted angle grows with the difference of the two distances.
+// permitted angle grows with the difference of the distances of the two contacts.
 //
 // Error bound for a motion that the kept contacts permit and that moves no point by more than `merge_stride`:
 // A merged contact can then penetrate more than the kept one, by at most merge_angle × merge_stride plus the

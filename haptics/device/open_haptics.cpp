@@ -55,10 +55,11 @@ Error arm_error(const OpenHapticsApi& api, const std::string& name, const char* 
     Error error;
     error.code = ErrorCode::no_device;
     error.what = fmt::format("{}: {}: {}", name, problem, text != nullptr ? text : "no reason given");
-    error.expected = code == no_licence          ? "a licence of OpenHaptics for this computer"
-                     : code == already_initiated ? "an arm that no other program uses"
-                                                 : "an arm that is switched on, connected, and set up with "
-                                                   "the vendor's program Touch_Setup";
+    error.expected =
+        code == no_licence ? "a licence of OpenHaptics for this computer"
+        : code == already_initiated
+            ? "an arm that no other program uses"
+            : "an arm that is switched on, connected, and set up with the vendor's program Touch_Setup";
     error.lost = is_lost(code);
     return error;
 }

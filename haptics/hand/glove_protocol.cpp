@@ -287,19 +287,18 @@ std::vector<std::uint8_t> GloveSession::update(std::span<const std::uint8_t> rec
             ++frames_;
             since_ = now;
             unplugged = frame.unplugged;
-            fault_message_ = frame.unplugged ? "the glove is not plugged into its interface unit; expected "
-                                               "its plug in the unit"
-                             : frame.too_slow
-                                 ? "the serial line is too slow for this sample rate; expected a "
-                                   "faster line or fewer samples a second"
+            fault_message_ =
+                frame.unplugged
+                    ? "the glove is not plugged into its interface unit; expected its plug in the unit"
+                : frame.too_slow ? "the serial line is too slow for this sample rate; expected a faster line "
+                                   "or fewer samples a second"
                                  : "";
             if (!frame.unplugged) on_frame(frame);
         });
         identity_.plugged = !unplugged;
         if (now - since_ < options_.silence) return {};
         fault_message_ =
-            "the glove has stopped sending data; expected a glove that is "
-            "switched on and plugged in";
+            "the glove has stopped sending data; expected a glove that is switched on and plugged in";
         return start_handshake(now, GloveState::silent);
     }
     if (state_ == GloveState::rejected) {

@@ -47,7 +47,7 @@ struct Engagement {
 // Centre of the nut in the assembly's frame, m, at `nut_angle` rad.
 Vec3 nut_centre(const NutGeometry& nut, double nut_angle);
 
-// Angle of the jaw or of the fingers about the bolt, rad, tightening positive, not unwrapped.
+// Angle of the jaw or of the fingers about the bolt, rad, tightening positive, in −π … π.
 double tool_azimuth(const Setup& setup, const NutGeometry& nut, const ToolPose& tool, Grip grip);
 
 // One tick. Releases the nut if the grip changes, the tool moves or tilts away, its angle changes by more

@@ -92,7 +92,7 @@ complete_words() {  # complete_words WORD...: the completions of the last word
     echo "${COMPREPLY[*]}"
 }
 . "$prefix/share/bash-completion/completions/boltwright"
-check 'bash completes a command' [ "$(complete_words boltwright tr)" = train ]
+check 'bash completes a command' [ "$(complete_words boltwright tr)" = 'train trainees' ]
 check 'bash completes an option' [ "$(complete_words boltwright train zq350 --hea)" = --headless ]
 check 'bash completes the value of an option' [ "$(complete_words boltwright train --mode pr)" = practice ]
 check 'bash completes a command of a command' [ "$(complete_words boltwright glove cal)" = calibrate ]

@@ -221,7 +221,7 @@ TEST_CASE("Assemblies: every value of a file is converted to SI") {
     CHECK(a.title.at("fr") == "Console");
     CHECK(a.sources == "Made up.");
     CHECK(a.law == joint::Law::published);
-    // Of the file, replaced by the joint type, by the variant and by the joint's override.
+    // The file's value, replaced by the joint type, by the variant and by the joint's override.
     for (const AssemblyJoint& j : a.joints) {
         const content::PublishedJoint& published = j.published;
         const bool overridden = j.design.id == "B";

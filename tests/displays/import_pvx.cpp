@@ -86,10 +86,9 @@ TEST_CASE(".pvx: walls, windows and the eye separation are imported") {
     const auto found = texts(check_displays(file));
     CHECK_MESSAGE(found.empty(), found.front());
     REQUIRE(result.warnings.size() == 1);
-    CHECK(has(
-        result.warnings[0].message(),
-        "c.pvx:8:6: the file does not have the viewer and its tracker: enter them; until then the head is "
-        "fixed at 0.00, 1.60, 0.00 m"));
+    CHECK(has(result.warnings[0].message(),
+              "c.pvx:8:6: the file does not have the viewer and its tracker: enter them; until then the head "
+              "is fixed at 0.00, 1.60, 0.00 m"));
 }
 
 TEST_CASE(".pvx: the Process of the server is used, and another one that is not empty is named") {
@@ -169,9 +168,8 @@ TEST_CASE(".pvx: the display that all walls have is that of the program") {
 TEST_CASE(".pvx: the head is placed where all walls are seen from the front") {
     const ImportedDisplays origin =
         imported(file_of("<Machine LowerLeft=\"-1 -1 -1\" LowerRight=\"1 -1 -1\" UpperRight=\"1 1 -1\" "
-                         "Geometry=\"800x800+0+0\"/>"
-                         "<Machine LowerLeft=\"-1 1 -1\" LowerRight=\"1 1 -1\" UpperRight=\"1 1 1\" "
-                         "Geometry=\"800x800+800+0\"/>"));
+                         "Geometry=\"800x800+0+0\"/><Machine LowerLeft=\"-1 1 -1\" LowerRight=\"1 1 -1\" "
+                         "UpperRight=\"1 1 1\" Geometry=\"800x800+800+0\"/>"));
     CHECK(origin.displays.head.fixed_head.position == Vec3(0.0));  // 1.6 m would be above the ceiling
     CHECK(check_displays(origin.displays).empty());
     const ImportedDisplays away =

@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!read.ok()) return 0;
     const Study& study = read.study;
     const std::size_t n = study.conditions.size();
-    expect(n >= 1 && study.design.participants >= 1 && study.design.sessions >= 1);
+    expect(n >= 1 && study.design.participants >= 1 && study.design.lessons >= 1);
     for (std::size_t place = 0; place < 2 * balanced_participants(study); ++place) {
         std::vector<std::size_t> order = conditions_of(study, place);
         std::sort(order.begin(), order.end());

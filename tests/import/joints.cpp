@@ -240,11 +240,9 @@ TEST_CASE("Import: bolts and nuts that form no joint give a remark each") {
     const std::vector<std::string> remarks(all.begin() + 1, all.end());
     const char* reasons[] = {
         "lonely_bolt: looks like a bolt (cylinder 16.00 mm, hexagon 24.00 mm across flats), but no nut is "
-        "coaxial with "
-        "it: the nearest one, beside, is 1.00 mm off its axis",
+        "coaxial with it: the nearest one, beside, is 1.00 mm off its axis",
         "odd: looks like a bolt (cylinder 16.00 mm, hexagon 20.00 mm across flats), but no metric size has "
-        "both; "
-        "expected M16 with a cylinder 15.36 to 16.64 mm wide and a hexagon 24 mm across flats",
+        "both; expected M16 with a cylinder 15.36 to 16.64 mm wide and a hexagon 24 mm across flats",
         "beside: looks like a nut (hole 13.83 mm, hexagon 24.00 mm across flats), but no bolt is paired with "
         "it",
         "nut_on_pin: looks like a nut", "write their joints into assembly.json by hand"};

@@ -136,8 +136,7 @@ TEST_CASE(
     for (const char* words :
          {"of at most 2 N·m", "the button was held for", "renders no force", "Servo at 1000 ticks a second",
           "because\n  there is no device 256f:c62e",
-          "there is no device 1209:ffb0; expected a connected device; `boltwright devices` "
-          "lists them (from"})
+          "there is no device 1209:ffb0; expected a connected device; `boltwright devices` lists them (from"})
         CHECK_MESSAGE(output.find(words) != std::string::npos, words);
     CHECK(output.find("largest torque 0.00 N·m") == std::string::npos);
     MESSAGE(output);

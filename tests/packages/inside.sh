@@ -23,7 +23,7 @@ as_ada() { su ada -s /bin/bash -c "cd; $1"; }
 check 'bash completes a command and a value' as_ada '
     . /usr/share/bash-completion/completions/boltwright
     COMP_WORDS=(boltwright train --mode pr) COMP_CWORD=3; _boltwright; [[ ${COMPREPLY[*]} == practice ]] || exit
-    COMP_WORDS=(boltwright tr) COMP_CWORD=1; _boltwright; [[ ${COMPREPLY[*]} == train ]]'
+    COMP_WORDS=(boltwright rep) COMP_CWORD=1; _boltwright; [[ ${COMPREPLY[*]} == 'replay report' ]]'
 find /usr -newer /tmp/before -type f >/tmp/installed
 check 'a simulated trainee finishes a lesson' as_ada 'boltwright train cover-m8 --headless --quiet --no-pictures --out lesson'
 check 'bolt-author finds the content' as_ada 'bolt-author validate zq350'

@@ -72,7 +72,7 @@ TEST_CASE("Inventory: each file belongs to the person whose code or typed name i
     const FullStation station;
     const Inventory inventory = take_inventory(station.folders);
     CHECK_FALSE(inventory.names_error);
-    CHECK(inventory.unknown_files.empty());
+    CHECK(inventory.file_errors.empty());
     REQUIRE(inventory.people.size() == 2);
     const PersonData ada = inventory.people[0], bea = inventory.people[1];
     CHECK(ada.person == content::Person{station.ada, "Ada"});
@@ -136,8 +136,8 @@ TEST_CASE("Inventory: a file that cannot be read is reported, and links are not 
     REQUIRE_FALSE(session::SessionReader::open(station.out("damaged.boltwright")));
     station.folders.sessions.push_back(station.out(""));  // twice
     const Inventory inventory = take_inventory(station.folders);
-    CHECK(inventory.unknown_files.size() == 1);
-    CHECK(mentions(inventory.unknown_files, "broken.boltwright", "session"));
+    CHECK(inventory.file_errors.size() == 1);
+    CHECK(mentions(inventory.file_errors, "broken.boltwright", "session"));
     CHECK(inventory.people[0].files.size() == 1);
 }
 

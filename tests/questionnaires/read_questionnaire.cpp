@@ -143,8 +143,7 @@ TEST_CASE("Questionnaires: every kind of mistake in the head has its line, colum
                   "the highest answer 1 is not above the lowest; expected a number above 1");
     check_mistake("\"high\": 4", "\"high\": -4", "-4", "the highest answer -4 is not above the lowest");
     check_mistake("0.5", "0.7", "0.7",
-                  "steps of 0.7 do not lead from 1 to 4; expected a number that "
-                  "divides 3");
+                  "steps of 0.7 do not lead from 1 to 4; expected a number that divides 3");
     check_mistake("0.5", "9", "9,", "steps of 9 do not lead from 1 to 4");
     check_mistake("\"high\": 4", "\"high\": 1.0000000001", "0.5",
                   "steps of 0.5 do not lead from 1 to 1.0000000001");

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/base/math.hpp"
-#include "game/people/page_trainees.hpp"
 #include "game/plot/html.hpp"
 #include "game/report/attempts.hpp"
 #include "game/report/joint_plot.hpp"
@@ -391,41 +390,6 @@ TEST_CASE("Trainees: the kind of operator follows from the session's record, not
     header.trainee_profile = "person";
     CHECK(session::trainee_kind(header) == session::TraineeKind::person);
     CHECK(trainee_text(header) == "person without a name");
-}
-
-TEST_CASE("Trainees: sessions under a code and under the linked name of an older program are one person's") {
-    const content::Person ada{"T-7K3M9Q", "Ada <L>"}, bea{"T-AAAAAA", "Bea"};
-    std::vector<SessionData> sessions;
-    for (const char* trainee : {"Ada <L>", "T-7K3M9Q", "Bea", "T-7K3M9Q", "Cy", "Cy"}) {
-        sessions.push_back(synthetic_session({}).data);
-        sessions.back().header.trainee_profile = "person";
-        sessions.back().header.trainee = trainee;
-    }
-    sessions.push_back(sessions.front());
-    sessions.back().header.trainee_profile = "novice";  // simulated, although it has the person's name
-    const auto curves = [&](const TraineeNames& names) {
-        std::vector<Attempt> attempts;
-        for (const SessionData& session : sessions) attempts.push_back(attempt_of(session, names));
-        return split_by_trainee(attempts, attempt_groups(attempts).front());
-    };
-    using Curves = std::vector<std::vector<std::size_t>>;
-    CHECK(curves({}) == Curves{{0}, {1, 3}, {2}, {4, 5}, {6}});
-    CHECK(curves({{ada, bea}, false}) == Curves{{0, 1, 3}, {2}, {4, 5}, {6}});
-    CHECK(curves({{ada, bea}, true}) == Curves{{0, 1, 3}, {2}, {4, 5}, {6}});
-
-    // Without names a page has codes only; with them both. An unlinked name of an older program stays.
-    const std::string with_codes = make_report(sessions, TraineeNames{{ada, bea}, false});
-    CHECK(markup_fault(with_codes) == "");
-    CHECK_FALSE(has(with_codes, "Bea"));
-    CHECK(count_of(with_codes, "Ada") == count_of(with_codes, "Ada &lt;L&gt; (simulated novice)"));
-    CHECK(has(with_codes, "<h3>T-7K3M9Q <span"));
-    CHECK(has(with_codes, "<h3>Cy <span"));
-    const std::string with_names = make_report(sessions, TraineeNames{{ada, bea}, true});
-    CHECK(markup_fault(with_names) == "");
-    CHECK(has(with_names, "<h3>Ada &lt;L&gt; (T-7K3M9Q) <span"));
-    CHECK(has(with_names, "<dt>trainee</dt><dd>Bea (T-AAAAAA)</dd>"));
-    for (const std::string& page : {with_codes, with_names})
-        CHECK(people::page_trainees(page) == std::vector<std::string>{"Cy", "T-7K3M9Q", "T-AAAAAA"});
 }
 
 TEST_CASE("Report: explains only elements that are drawn") {

@@ -113,8 +113,8 @@ TEST_CASE("Reader: the error names a damaged chunk, and the chunks before it are
     const Folder folder;
     const auto path = script_session(folder / "a.session", 45);
     run_sql(path,
-            "UPDATE tick_chunk SET data = substr(data, 1, 100) || x'00' || substr(data, 102) "
-            "WHERE first_tick = 20");
+            "UPDATE tick_chunk SET data = substr(data, 1, 100) || x'00' || substr(data, 102) WHERE "
+            "first_tick = 20");
     const auto reader = SessionReader::open(path);
     REQUIRE(reader);
     std::size_t seen = 0;
@@ -129,10 +129,9 @@ TEST_CASE("Reader: the error names a damaged chunk, and the chunks before it are
 TEST_CASE("Reader: functions in a file's schema are not called") {
     const Folder folder;
     const auto path = script_session(folder / "a.session", 5);
-    run_sql(
-        path,
-        "DROP TABLE event; CREATE VIEW event AS SELECT 0 AS ordinal, 0 AS tick, '' AS kind, 0 AS joint, 0 "
-        "AS value, hex(randomblob(100000000)) AS text");
+    run_sql(path,
+            "DROP TABLE event; CREATE VIEW event AS SELECT 0 AS ordinal, 0 AS tick, '' AS kind, 0 AS joint, "
+            "0 AS value, hex(randomblob(100000000)) AS text");
     const auto reader = SessionReader::open(path);
     REQUIRE(reader);
     CHECK_FALSE(reader->events());

@@ -113,8 +113,7 @@ TEST_CASE("Event detection: the struck surface follows from the obstacle and its
 
 TEST_CASE(
     "Event detection: no strike in the air, when accelerating, after one delayed tick, on picking up, or "
-    "when "
-    "the hand stops") {
+    "when the hand stops") {
     Script air;
     air.move({0.3, 0, 0}, 50);
     CHECK(air.move({}, 50).empty());

@@ -1,4 +1,4 @@
-// Who gets which conditions in which order.
+// The balanced orders of conditions.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ Study study_of(std::size_t conditions, StudySubjects subjects, StudyOrder order,
     return study;
 }
 
-// How often each number follows each other one in the rows, and how often it is in each position.
+// Counts of each succession of two numbers in the rows, and of each number in each position.
 struct Counts {
     std::map<std::pair<std::size_t, std::size_t>, int> successions, positions;
 };

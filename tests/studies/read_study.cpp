@@ -27,7 +27,7 @@ const std::string everything = R"({
   "title": { "en": "Help" },
   "information": { "en": "Purpose." },
   "consent": { "en": ["I agree.", "I can stop."] },
-  "design": { "subjects": "within", "order": "random", "participants": 12, "sessions": 2, "seed": 5,
+  "design": { "subjects": "within", "order": "random", "participants": 12, "lessons": 2, "seed": 5,
               "blind": true, "break_minutes": 1.5, "show_results": true },
   "lesson": { "assembly": "cover-m8", "variant": "dry", "tool": "click", "mode": "guided", "task": "loosen",
               "law": "published", "hand": "free", "devices": ["simulated-arm"], "force_scale": 0.5 },
@@ -38,7 +38,7 @@ const std::string everything = R"({
     { "id": "c", "title": { "en": "C" }, "lesson": { "view_help": false }, "levels": { "force": "on", "view": "off" } }
   ],
   "forms": [
-    { "form": "tlx", "when": ["before", "after_training", "after_session"] },
+    { "form": "tlx", "when": ["before", "after_training", "after_lesson"] },
     { "form": "paper", "when": ["after_condition", "after", "retention"] }
   ],
   "retention": { "after_days": 7, "lesson": { "mode": "assessment" } },
@@ -93,7 +93,7 @@ TEST_CASE("Studies: every member is read") {
     const Study& study = loaded.study;
     CHECK(study.consent.at("en").size() == 2);
     CHECK(study.design.order == StudyOrder::random);
-    CHECK(study.design.sessions == 2);
+    CHECK(study.design.lessons == 2);
     CHECK(study.design.shortest_break == 90.0);
     CHECK((study.design.blind && study.design.show_results));
     const StudyLesson& b = study.conditions[1].lesson;
@@ -110,7 +110,7 @@ TEST_CASE("Studies: every member is read") {
     CHECK(study.training->duration == 600.0);
     CHECK(study.training->lesson.mode == "practice");
     CHECK(study.retention->lesson.mode == "assessment");
-    CHECK(study.forms[0].is_at(FormTime::after_session));
+    CHECK(study.forms[0].is_at(FormTime::after_lesson));
     CHECK_FALSE(study.forms[0].is_at(FormTime::after));
     CHECK(study.comparisons[0].groups.size() == 3);
     CHECK(study.comparisons[1].groups[0].conditions == std::vector<std::size_t>{2});
@@ -129,8 +129,8 @@ TEST_CASE("Studies: every contradiction has its line and column") {
     check_mistake(R"("mode": "practice", "guide": false)", R"("mode": "practice", "guide": true)",
                   R"(true } },)", "there is no guiding force in mode practice");
     check_mistake(R"("after", "retention"] })",
-                  R"("after", "retention"] }, { "form": "tlx", "when": ["after_session"] })",
-                  R"("tlx", "when": ["after_session"])", "form \"tlx\" is listed twice");
+                  R"("after", "retention"] }, { "form": "tlx", "when": ["after_lesson"] })",
+                  R"("tlx", "when": ["after_lesson"])", "form \"tlx\" is listed twice");
     check_mistake(R"(["c", "a"])", R"(["c", "d"])", R"("d"])", "there is no condition \"d\"");
     check_mistake(R"(["c", "a"])", R"(["c", "c"])", R"("c"])", "\"c\" is listed twice");
     check_mistake(R"("factor": "force")", R"("factor": "fource")", R"("fource")",
@@ -140,14 +140,14 @@ TEST_CASE("Studies: every contradiction has its line and column") {
     check_mistake(R"({ "measure": "paper.stability" })", R"({ "measure": "paper.stabilty" })",
                   R"("paper.stabilty")",
                   "there is no measure \"paper.stabilty\"; did you mean \"paper.stability\"?");
-    check_mistake(R"("after_training", "after_session")", R"("after_training")", R"("tlx.workload")",
+    check_mistake(R"("after_training", "after_lesson")", R"("after_training")", R"("tlx.workload")",
                   "form \"tlx\" is not presented in the conditions");
     check_mistake(R"({ "measure": "paper.stability" })",
                   R"({ "measure": "paper.stability", "retention": true })",
                   "true },\n    { \"measure\": \"bumps\"", "the retention test cannot compare conditions");
     check_mistake(R"("mean": "6.684")", R"("mean": "6,684")", R"("6,684")", "no number");
     check_mistake(R"("id": "help")", R"("id": "he lp")", R"("he lp")", "characters that are not allowed");
-    check_mistake(R"("participants": 12)", R"("participants": 0)", "0, \"sessions\"", "expected");
+    check_mistake(R"("participants": 12)", R"("participants": 0)", "0, \"lessons\"", "expected");
     check_mistake(R"("minutes": 10)", R"("minuets": 10)", R"("minuets")", "did you mean \"minutes\"?");
 }
 

@@ -44,10 +44,10 @@ TEST_CASE("Study: the steps are those of the plan, in its order") {
         "part-1/lesson-2", "part-1/lesson-2/paper", "part-1/tlx"};
     CHECK(do_all(participation) == first);
     CHECK(participation.due()->kind == StepKind::pause);
-    CHECK(participation.wait() == 120.0);
+    CHECK(participation.remaining_wait() == 120.0);
     CHECK_FALSE(participation.complete());
     folder.now += 119;
-    CHECK(participation.wait() == 1.0);
+    CHECK(participation.remaining_wait() == 1.0);
     folder.now += 1;
     const std::vector<std::string> second{"break-1",
                                           "part-2/lesson-1",
@@ -61,8 +61,8 @@ TEST_CASE("Study: the steps are those of the plan, in its order") {
     CHECK(do_all(participation) == second);
     CHECK(participation.due()->kind == StepKind::retention);
     // From the beginning of that day on, in local time.
-    CHECK(participation.wait() <= 7 * 86400.0);
-    CHECK(participation.wait() > 6 * 86400.0 - 7200.0);
+    CHECK(participation.remaining_wait() <= 7 * 86400.0);
+    CHECK(participation.remaining_wait() > 6 * 86400.0 - 7200.0);
     CHECK_FALSE(participation.begin_lesson());
     folder.now += 7 * 86400;
     CHECK(do_all(participation) == std::vector<std::string>{"retention", "retention/paper", "farewell"});
@@ -236,9 +236,9 @@ TEST_CASE("Study: a clock that is set back is recorded and does not lengthen a b
     do_all(participation);
     REQUIRE(participation.due()->kind == StepKind::pause);
     folder.now += 20;
-    CHECK(participation.wait() == 100.0);
+    CHECK(participation.remaining_wait() == 100.0);
     folder.now -= 3600;
-    CHECK(participation.wait() == 100.0);
+    CHECK(participation.remaining_wait() == 100.0);
     REQUIRE(participation.comment("early"));
     CHECK(participation.progress().clock_set_back == 3580.0);
     folder.now += 100;
@@ -326,7 +326,7 @@ TEST_CASE("Study: an accepted change of the plan leaves the lessons with their c
     folder.edit(R"("id": "a", "title": { "en": "A" })",
                 R"("id": "z", "title": { "en": "A" }, "lesson": { "task": "loosen" } },
     { "id": "a", "title": { "en": "A" })");
-    folder.edit(R"("sessions": 2)", R"("sessions": 2, "seed": 77)");
+    folder.edit(R"("lessons": 2)", R"("lessons": 2, "seed": 77)");
     const content::Study changed = folder.load();
     CHECK_FALSE(Participation::enrol(changed, folder.path(), "T-2", false, folder.clock()));
     {

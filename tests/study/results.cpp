@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "content/format/embedded.hpp"
+#include "game/study/study_lesson.hpp"
 #include "game/study_results/simulate.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/study/support.hpp"
@@ -36,7 +37,7 @@ StudyData data_of(const content::Study& study, const std::string& measure,
             o.part = k;
             o.measure = measure;
             o.value = rows[i][k];
-            for (o.lesson = 0; o.lesson < study.design.sessions; ++o.lesson) data.observations.push_back(o);
+            for (o.lesson = 0; o.lesson < study.design.lessons; ++o.lesson) data.observations.push_back(o);
         }
     }
     return data;
@@ -213,6 +214,32 @@ TEST_CASE("Study results: simulated participants do every step, are labelled, an
         CHECK_FALSE(simulate(study, folder.path(), two_simulated(), goes_on));
     }
     CHECK(tables[0] == tables[1]);
+}
+
+TEST_CASE(
+    "Study: a finished lesson whose end could not be stored counts on the next start, another does not") {
+    StudyFolder folder;
+    folder.make_short();
+    const content::Study study = folder.load();
+    Participation participation =
+        required(Participation::enrol(study, folder.path(), "T-1", false, folder.clock()));
+    while (participation.due()->kind != StepKind::lesson) do_step(participation);
+    CHECK_FALSE(required(count_finished_lesson(participation)));
+    const content::StudyLesson& lesson = participation.lesson();
+    for (const bool finishes : {false, true}) {
+        const auto assembly = required(load_lesson_assembly(lesson, folder.path()));
+        trainees::TrainOptions train;
+        train.lesson = lesson_options(lesson, assembly.law);
+        train.trainee = required(trainees::find_profile("expert"));
+        const auto session = required(participation.begin_lesson()) / lesson_session_name;
+        int seconds = 0;
+        (void)required(trainees::train(assembly, train, session,
+                                       [&](const auto&) { return finishes || ++seconds < 5; }));
+        CHECK(required(count_finished_lesson(participation)) == finishes);
+    }
+    CHECK(participation.due()->id == "part-1/paper");
+    CHECK(participation.progress().measures.at("part-1/lesson-1").at("joints_ok") == 1.0);
+    CHECK(participation.progress().interrupted.size() == 1);
 }
 
 TEST_CASE("Study results: the progress of a blind study names no condition") {

@@ -14,7 +14,7 @@ constexpr const char* plan = R"({
   "title": { "en": "Small", "de": "Klein" },
   "information": { "en": "Purpose.", "de": "Zweck." },
   "consent": { "en": ["One.", "Two."], "de": ["Eins.", "Zwei."] },
-  "design": { "subjects": "within", "participants": 4, "sessions": 2, "break_minutes": 2 },
+  "design": { "subjects": "within", "participants": 4, "lessons": 2, "break_minutes": 2 },
   "lesson": { "assembly": "first-nut" },
   "training": { "minutes": 8 },
   "conditions": [
@@ -23,7 +23,7 @@ constexpr const char* plan = R"({
   ],
   "forms": [
     { "form": "background", "when": ["before", "after_training"] },
-    { "form": "paper", "when": ["after_session", "retention"] },
+    { "form": "paper", "when": ["after_lesson", "retention"] },
     { "form": "tlx", "when": ["after_condition", "after"] }
   ],
   "retention": { "after_days": 7 },
@@ -52,6 +52,21 @@ void StudyFolder::edit(const std::string& from, const std::string& to) const {
     const std::filesystem::path file = path() / content::study_file_name;
     const std::string text = required(read_file(file, 1U << 20U, ErrorCode::failed));
     REQUIRE(write_file(file, test::replaced(text, from, to)));
+}
+
+void StudyFolder::make_short() const {
+    edit(R"("lessons": 2, "break_minutes": 2)", R"("lessons": 1)");
+    edit(R"("training": { "minutes": 8 },)", "");
+    edit(R"({ "id": "a", "title": { "en": "A" } },)", "");
+    edit(R"("title": { "en": "B" }, "lesson": { "mode": "guided" })",
+         R"("title": { "en": "Secret B" }, "lesson": { "view_help": false })");
+    edit(R"({ "form": "background", "when": ["before", "after_training"] },)", "");
+    edit(R"(["after_lesson", "retention"])", R"(["after_condition"])");
+    edit(R"("when": ["after_condition", "after"])", R"("when": ["after"])");
+    edit(R"("retention": { "after_days": 7 },)", "");
+    edit(
+        R"("comparisons": [{ "measure": "paper.stability" }, { "measure": "tlx.workload" }, { "measure": "duration_s" }])",
+        R"("comparisons": [])");
 }
 
 void do_step(study::Participation& participation, double lesson_time) {
@@ -84,7 +99,7 @@ void do_step(study::Participation& participation, double lesson_time) {
 
 std::vector<std::string> do_all(study::Participation& participation) {
     std::vector<std::string> ids;
-    while (participation.due() != nullptr && participation.wait() == 0.0) {
+    while (participation.due() != nullptr && participation.remaining_wait() == 0.0) {
         ids.push_back(participation.due()->id);
         do_step(participation);
     }

@@ -20,6 +20,8 @@ class StudyFolder {
     bolt::study::Clock clock() {
         return [this] { return now; };
     }
+    // Reduces the plan to one condition, one lesson of one nut, and a form after it.
+    void make_short() const;
     // Replaces a text in study.json.
     void edit(const std::string& from, const std::string& to) const;
 

@@ -254,7 +254,7 @@ TEST_CASE("Identity: settings and calibrations of older programs are renamed and
 
     const IdentifiedPerson ada = identify_person(folders, "Ada L.");
     CHECK_FALSE(ada.names_error);
-    CHECK(ada.unadopted_files.empty());
+    CHECK(ada.adoption_errors.empty());
     const fs::path now = settings_path(folders.settings, ada.person.code);
     CHECK(now.filename() == ada.person.code + ".settings.json");
     const auto read = load_settings(now, known);

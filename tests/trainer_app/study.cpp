@@ -1,7 +1,6 @@
 // A participant of a study in the trainer: pages, lessons, interruptions.
 #include "game/study_results/results.hpp"
 #include "tests/study/support.hpp"
-#include "tests/support/replaced.hpp"
 #include "tests/trainer_app/headless_trainer.hpp"
 #include "tests/trainer_app/simulated_user.hpp"
 
@@ -13,22 +12,6 @@ using study_test::required;
 using study_test::StudyFolder;
 
 namespace {
-
-// One condition, one lesson of one nut, and a form after it.
-void make_short(const StudyFolder& folder) {
-    folder.edit(R"("sessions": 2, "break_minutes": 2)", R"("sessions": 1)");
-    folder.edit(R"("training": { "minutes": 8 },)", "");
-    folder.edit(R"({ "id": "a", "title": { "en": "A" } },)", "");
-    folder.edit(R"("title": { "en": "B" }, "lesson": { "mode": "guided" })",
-                R"("title": { "en": "Secret B" }, "lesson": { "view_help": false })");
-    folder.edit(R"({ "form": "background", "when": ["before", "after_training"] },)", "");
-    folder.edit(R"(["after_session", "retention"])", R"(["after_condition"])");
-    folder.edit(R"("when": ["after_condition", "after"])", R"("when": ["after"])");
-    folder.edit(R"("retention": { "after_days": 7 },)", "");
-    folder.edit(
-        R"("comparisons": [{ "measure": "paper.stability" }, { "measure": "tlx.workload" }, { "measure": "duration_s" }])",
-        R"("comparisons": [])");
-}
 
 trainer::AppOptions options_of(const StudyFolder& folder) {
     trainer::AppOptions o = options("first-nut", false);
@@ -58,8 +41,8 @@ struct Led {
     }
     // From the page of the language to that of the first lesson.
     void go_to_lesson() {
-        press("study.next");  // the first of the languages
-        while (due() == "language") last_next();
+        press("study.language");  // the first one
+        press("study.next");
         press("study.next");
         while (due() == "consent" && !participation().agreed(1)) agree();
         press("study.next");
@@ -74,15 +57,6 @@ struct Led {
     HeadlessTrainer driver;
 
   private:
-    // The page of the language has several widgets of this label; the last one goes on.
-    void last_next() {
-        glm::dvec2 at{};
-        for (const trainer::DrawnWidget& widget : driver.app().drawn_widgets())
-            if (widget.label == words::TextKey("study.next")) at = widget.middle;
-        driver.press(at);
-        driver.release(at);
-        driver.frame();
-    }
     void agree() {
         for (const trainer::DrawnWidget& widget : driver.app().drawn_widgets())
             if (widget.label == words::TextKey("study.consent")) {
@@ -101,7 +75,7 @@ study::Participation enrolled(const content::Study& study, const StudyFolder& fo
 
 TEST_CASE("Trainer: a participant clicks through a whole study, with its lesson") {
     StudyFolder folder;
-    make_short(folder);
+    folder.make_short();
     const content::Study study = folder.load();
     Led led(enrolled(study, folder), folder);
     CHECK(led.driver.app().screen() == trainer::ShownScreen::study);
@@ -147,7 +121,7 @@ TEST_CASE("Trainer: a participant clicks through a whole study, with its lesson"
 
 TEST_CASE("Trainer: a lesson of a study that the program's end interrupts begins again") {
     StudyFolder folder;
-    make_short(folder);
+    folder.make_short();
     const content::Study study = folder.load();
     {
         Led led(enrolled(study, folder), folder);
@@ -174,7 +148,7 @@ TEST_CASE("Trainer: a lesson of a study that the program's end interrupts begins
 
 TEST_CASE("Trainer: a participant can leave, and can withdraw on any page") {
     StudyFolder folder;
-    make_short(folder);
+    folder.make_short();
     const content::Study study = folder.load();
     {
         Led led(enrolled(study, folder), folder);
@@ -197,7 +171,7 @@ TEST_CASE("Trainer: a participant can leave, and can withdraw on any page") {
 
 TEST_CASE("Trainer: an answer that cannot be stored is shown and asked again") {
     StudyFolder folder;
-    make_short(folder);
+    folder.make_short();
     const content::Study study = folder.load();
     Led led(enrolled(study, folder), folder);
     led.go_to_lesson();

@@ -75,7 +75,7 @@ struct ExitPaths {
     double reach = 0.0;      // m, of the wrench
 };
 
-// Returns the part that blocks the last path tried if every path from every free angle is blocked; no_part if
+// Returns no_part if some path is free; otherwise a part that blocks one; no_part if
 // one is free.
 std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& wrench, const FreeSwing& swing,
                                const ExitPaths& paths);

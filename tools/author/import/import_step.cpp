@@ -245,10 +245,10 @@ class Importer {
 
     void add_advice() {
         if (report().triangles > geometry::near_budget)
-            report().remarks.push_back(fmt::format(
-                "the near level has {} triangles; expected at most {}: import with a larger --deflection or "
-                "--angle",
-                report().triangles, geometry::near_budget));
+            report().remarks.push_back(
+                fmt::format("the near level has {} triangles; expected at most {}: import with a larger "
+                            "--deflection or --angle",
+                            report().triangles, geometry::near_budget));
         for (const FileReport& file : report().files)
             if (file.bytes > geometry::file_budget)
                 report().remarks.push_back(

@@ -1,0 +1,74 @@
+#include "engine/base/csv.hpp"
+
+#include <algorithm>
+
+namespace bolt {
+
+namespace {
+
+tl::unexpected<Error> error_at(std::size_t position, std::string what, std::string expected) {
+    Error error;
+    error.code = ErrorCode::bad_content;
+    error.column = static_cast<int>(position) + 1;
+    error.what = std::move(what);
+    error.expected = std::move(expected);
+    return fail(std::move(error));
+}
+
+// Reads the quoted text that begins at `at` and sets `at` after its closing quote.
+Result<std::string> quoted(std::string_view line, std::size_t& at) {
+    const std::size_t open = at++;
+    std::string text;
+    for (; at < line.size(); ++at) {
+        if (line[at] != '"') {
+            text += line[at];
+        } else if (at + 1 < line.size() && line[at + 1] == '"') {
+            text += '"';
+            ++at;
+        } else {
+            ++at;
+            return text;
+        }
+    }
+    return error_at(open, "this quote is not closed on its line", "a closing '\"'");
+}
+
+}  // namespace
+
+Result<std::vector<CsvField>> split_csv_line(std::string_view line, char separator) {
+    const auto blank = [&](char c) { return (c == ' ' || c == '\t') && c != separator; };
+    std::vector<CsvField> fields;
+    std::size_t at = 0;
+    while (true) {
+        while (at < line.size() && blank(line[at])) ++at;
+        CsvField field;
+        field.column = static_cast<int>(at) + 1;
+        if (at < line.size() && line[at] == '"') {
+            BOLT_TRY_ASSIGN(auto text, quoted(line, at));
+            field.text = std::move(text);
+            while (at < line.size() && blank(line[at])) ++at;
+            if (at < line.size() && line[at] != separator)
+                return error_at(at, "there is text after a quoted field",
+                                separator == ',' ? "a comma or the end of the line"
+                                                 : "the separator or the end of the line");
+        } else {
+            const std::size_t end = std::min(line.find(separator, at), line.size());
+            field.text = line.substr(at, end - at);
+            while (!field.text.empty() && blank(field.text.back())) field.text.pop_back();
+            at = end;
+        }
+        fields.push_back(std::move(field));
+        if (at >= line.size()) return fields;
+        ++at;  // the separator
+    }
+}
+
+std::string csv_field(std::string_view text) {
+    const bool blanks = !text.empty() && (text.front() == ' ' || text.back() == ' ');
+    if (!blanks && text.find_first_of(",;\"#\t\r\n") == std::string_view::npos) return std::string(text);
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+}
+
+}  // namespace bolt

@@ -1,0 +1,26 @@
+// Lines of comma-separated values (RFC 4180), also with other separators. A line is a record: a quoted field
+// with a line break is not supported.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/result.hpp"
+
+namespace bolt {
+
+struct CsvField {
+    std::string text;  // unquoted, without surrounding blanks
+    int column = 1;    // of its first character in the line, counted from 1, in bytes
+};
+
+// Splits one line without its line end. Fails for a quote that is not closed, and for text after a closing
+// quote; the error has the column, but not the file and the line.
+Result<std::vector<CsvField>> split_csv_line(std::string_view line, char separator = ',');
+
+// The text as a field: in quotes if it needs them. Text that would be read as a comment ('#') or that has
+// blanks around it is quoted too.
+std::string csv_field(std::string_view text);
+
+}  // namespace bolt
