@@ -8,9 +8,10 @@
 namespace bolt::collision {
 namespace {
 
-// m; radius searched beyond the necessary one for a piece that had no edge near it.
+// m, added to the search radius of a piece that had no edge within short_lookahead at its last query.
 constexpr double edge_lookahead = 3e-3;
-// m and rad; the edges are searched again when less than this remains of the cached candidates' bounds.
+// m and rad. A new search starts unless the cached search radius, less the motion since that search, exceeds
+// the necessary radius by min_cached_distance, and the remaining turn exceeds min_cached_turn.
 constexpr double min_cached_distance = 0.1e-3, min_cached_turn = 2e-3;
 
 bool nearer_crossing(const Crossing& a, const Crossing& b) {
@@ -103,8 +104,9 @@ EdgePair edge_pair(const EdgeGathering& g, const Ridge& edge) {
     return pair;
 }
 
-// Returns true if the edges do not face each other. Then bounds the turn until they may: turning the piece by
-// φ turns the perpendicular by at most 1.5 φ divided by `sine`, while φ is below a third of it.
+// Returns true if the edges do not face each other. It then lowers `g.turn` to the turn (rad) of the piece up
+// to which that stays so: a turn φ of the piece, below `sine`/3, turns the common perpendicular by at most
+// 1.5 φ/`sine`.
 bool faces_away(EdgeGathering& g, EdgePair& pair, const Vec3& normal) {
     const double excess =
         std::min(facing_excess(pair.edge, *g.piece, normal), facing_excess(pair.edge, *g.piece, -normal));
@@ -121,8 +123,9 @@ bool faces_away(EdgeGathering& g, EdgePair& pair, const Vec3& normal) {
     return true;
 }
 
-// Bounds the motion until the feet of the perpendicular, which lie beyond the ends now, reach them. `apart`
-// and `beyond`: m, the distance of the segments, and how much further than a crossing they are.
+// The feet of the common perpendicular lie beyond the ends of the segments. Bounds the motion up to which the
+// edges cannot cross. `apart`: m, the distance of the segments. `beyond`: m by which `apart` exceeds
+// max_crossing_depth, less a margin.
 void bound_feet(EdgeGathering& g, const EdgePair& pair, const Vec3& normal, double apart, double beyond) {
     const Vec3 between = pair.middle - g.piece->middle;
     const double on_piece = glm::dot(glm::cross(between, pair.half), pair.across) / (pair.size * pair.size);

@@ -74,8 +74,8 @@ SurfacePatch edge_patch(const ContactMesh& mesh, std::uint32_t triangle, const V
     return patch_on(mesh, triangle, at, 6, turn);
 }
 
-// The smooth surface's normal without its component along the crease, in which a crease cannot push. Empty if
-// little remains.
+// The smooth surface's normal without its component along the crease: a crease cannot push along itself.
+// Empty if little remains.
 std::optional<Vec3> normal_across_crease(const Vec3& normal, const Vec3& along) {
     const Vec3 transverse = normal - glm::dot(normal, along) * along;
     const double length = glm::length(transverse);

@@ -130,8 +130,8 @@ OutputCommand render_torque(const TorqueRendering& r, double torque, const Vec3&
 
 double stored_torque_energy(const TorqueRendering& r, double torque, double stiffness, double handle_length) {
     const double whole = 0.5 * torque * torque / stiffness;
-    // A rotation moves the end of the handle by handle_length, so the force's work is as_force ·
-    // handle_length of the torque's.
+    // A rotation moves the end of the handle by handle_length per radian, so the force does as_force ·
+    // handle_length times the work of the torque.
     return whole * (r.scale + r.as_force * handle_length);
 }
 

@@ -68,10 +68,10 @@ struct Pivot {
     Vec3 axis{0.0, 1.0, 0.0};
 };
 
-// The pose of a wrench on a bolt whose handle the hand holds at `lever_end`, `lever_arm` m from the jaw:
-// the pose `held`, turned about the bolt so that the handle points to `lever_end`, and moved so that it
-// ends there. The device's orientation has no effect, because a device without torque cannot hold the wrist.
-// If `lever_end` is on the axis, `held` is moved and not turned.
+// The pose of a wrench that sits on a bolt, while the hand holds its handle at `lever_end`, `lever_arm` m
+// from the jaw: the pose `held`, turned about the bolt so that the handle points to `lever_end`, and moved so
+// that it ends there. The device's orientation has no effect, because a device without torque cannot hold the
+// wrist. If `lever_end` is on the axis, `held` is moved and not turned.
 Pose pivoted(const Pivot& pivot, const Pose& held, double lever_arm, const Vec3& lever_end);
 
 // The smallest scale, at least 1, at which the end of a wrench of `handle_length` m that points to the user

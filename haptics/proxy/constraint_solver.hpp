@@ -1,5 +1,6 @@
-// Constrained least-squares motion of a rigid body: twists, and among the motions that contacts with Coulomb
-// friction permit the one nearest to a wanted motion. It is the small dense problem inside the god-object.
+// Finds the motion of a rigid body that is nearest to a wanted motion, among those that contacts with Coulomb
+// friction permit. A twist represents a motion. This constrained least-squares problem is the small dense
+// problem inside the god-object.
 #pragma once
 
 #include <algorithm>

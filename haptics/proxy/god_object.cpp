@@ -16,7 +16,8 @@ constexpr double small_motion = 50e-6;      // m; after a shorter motion the res
 // m; after the first motion of a tick a shorter one waits for the next tick. It changes the force by less
 // than 0.5 % of the greatest.
 constexpr double tiny_motion = 25e-6;
-// Share of the coupling's energy. A small relative change of the energy is twice that of the force.
+// Share of the coupling's energy. The energy grows with the square of the force, so this is a change of the
+// force by 0.05 %.
 constexpr double imperceptible_energy = 1e-3;
 constexpr double query_margin = 50e-6;       // m, margin of the query's band beyond the skin
 constexpr double min_clearance_share = 0.2;  // of the skin; a motion that ends nearer is rejected
@@ -153,13 +154,13 @@ class Stepper {
         return rows;
     }
 
-    // For a contact that was found at another pose: m by which its point on the tool moves along its normal
-    // from the current pose to that pose. `arm`: as arm_at_pose() returns.
+    // Returns how far (m) the contact's point on the tool moves along the contact normal when the tool moves
+    // from the current pose to the pose at which the contact was found. `arm`: as arm_at_pose() returns.
     [[nodiscard]] double displacement_along_normal(const collision::Contact& c, const Vec3& arm) const {
         return glm::dot(c.normal, c.on_tool - (pose_.position + arm));
     }
-    // For a contact that was found at the pose `at`: the arm of its point on the tool, m from the tool's
-    // origin, with the tool at the current pose.
+    // Returns the vector (m) from the tool's origin to the contact's point on the tool, with the tool at the
+    // current pose. The contact was found at the pose `at`.
     [[nodiscard]] Vec3 arm_at_pose(const collision::Contact& c, const Pose& at) const {
         return pose_.orientation * (glm::conjugate(at.orientation) * (c.on_tool - at.position));
     }

@@ -93,8 +93,8 @@ GodObjectState start_god_object(const Pose& pose);
 
 // Advances by one tick of `dt` (s). A motion is accepted in one of two cases. Either no point of the tool
 // travels further than the distance to the nearest obstacle, less the skin. Or no point travels further than
-// `stride`, and a query at the end of the motion finds no contact below a fifth of the skin to which the
-// motion brought the tool closer. Features that the finder detects up to 0.25 mm late are tolerated. Ignores
+// `stride`, and the query at the end of the motion finds no contact that is nearer than a fifth of the skin
+// and that the motion approached. Features that the finder detects up to 0.25 mm late are tolerated. Ignores
 // a pose that is not finite. Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
                               const Pose& commanded_tool, ContactFinder finder, double dt);

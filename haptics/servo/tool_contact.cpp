@@ -63,9 +63,9 @@ void update_nut_poses(const Setup& setup, ToolContact& contact, std::span<const 
     }
 }
 
-// The pose of the nut in the jaw that contact queries use: beyond the play it turns with the jaw, less a
-// margin that leaves a skin on each flank. Two flanks pressed at once would be contradictory constraints with
-// unlimited friction.
+// Returns the pose that contact queries use for the nut in the jaw. Once the jaw has turned by more than the
+// play, less the room for a skin on each flank, the nut turns with it. Two flanks pressed at once would be
+// contradictory constraints with unlimited friction.
 Pose hexagon_pose_in_jaw(const Setup& setup, const NutGeometry& nut, const Pose& nut_frame,
                          const Pose& wrench) {
     const double off =

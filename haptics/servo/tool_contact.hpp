@@ -29,10 +29,9 @@ struct ToolContactDescription {
 
 // The contacts of the last query with its pose and band: the jaw's with nuts first, then those of meshes.
 struct ContactCache {
-    // Since the query no nut has moved, so the contacts of the jaw are still valid.
+    // No nut has moved since the query, so the jaw contacts are still valid.
     bool nuts_unchanged = false;
-    // Since the query no body has moved or was enabled or disabled, so the contacts of meshes are still
-    // valid.
+    // No body has moved, been enabled or been disabled since the query, so the mesh contacts are still valid.
     bool meshes_unchanged = false;
     Pose pose;
     double band = 0.0;  // m
@@ -66,8 +65,8 @@ void set_coupling(const Setup& setup, ToolContact& contact);
 
 // One tick: places the nuts by their joints' angles and moves the wrench towards `commanded_tool` as far as
 // contacts allow. `engaged_joint` is the joint whose nut the jaw holds, −1 for none: its hexagon turns with
-// the jaw, so that contacts leave that rotation to the joint law (engagement.hpp). If `held` is false the
-// wrench follows the hand and the returned request is zero.
+// the jaw, so that contacts leave that rotation to the joint law (engagement.hpp). If `held` is false, the
+// constrained tool is set to the commanded pose without contact, and the returned request is zero.
 force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& commanded_tool,
                                       bool held, int engaged_joint);

@@ -65,7 +65,8 @@ struct HandThread::Shared {
     TripleBuffer<ToolPoses> tool;
     TripleBuffer<DisplayedHand> displayed;
     std::atomic<bool> held{false}, lost{false};
-    std::jthread thread;  // last member: destroyed first, so it stops before the data go
+    // Last member: destroyed first, so it stops before the data are destroyed.
+    std::jthread thread;
 
     void run(const std::stop_token& stop) {
         HandState state;

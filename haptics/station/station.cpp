@@ -33,7 +33,8 @@ struct Station::Shared {
     TripleBuffer<StationLinkStats> link_stats;
     SpscRing<StationTick> ticks{recorded_ticks};
     std::atomic<std::uint64_t> lost_ticks{0};
-    std::optional<servo::ServoThread> thread;  // last member: destroyed first, so it stops before the data go
+    // Last member: destroyed first, so it stops before the data are destroyed.
+    std::optional<servo::ServoThread> thread;
 
     bool tick(const servo::Deadline& deadline) {
         StationInputs inputs;

@@ -82,7 +82,8 @@ class Station {
     Station& operator=(Station&&) noexcept;
     ~Station();  // stops; the devices are left at zero force
 
-    // Each of the following is for one calling thread; latest_tick() and fault_messages() for the same one.
+    // Call each of the following from one thread only. Call latest_tick() and fault_messages() from the same
+    // thread, because both update the same buffer.
     void set_controls(const StationControls& controls);
     // Queues a command for the next tick. Fails if the queue is full, which means that the servo thread does
     // not run; the command is then not queued.

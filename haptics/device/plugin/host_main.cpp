@@ -30,13 +30,14 @@ int main(int argc, char** argv) {
     if (socket < 0) {
         bolt::Error error;
         error.code = bolt::ErrorCode::usage;
-        error.what = "bolt-arm-host runs a plug-in for Boltwright, which starts it";
-        error.expected = "`boltwright devices`, which lists the arms of plug-ins";
+        error.what = "bolt-arm-host was not started by Boltwright";
+        error.expected = "`boltwright devices`, which starts it and lists the arms of plug-ins";
         return bolt::print_error(error);
     }
     ::dup2(STDERR_FILENO, STDOUT_FILENO);  // a plug-in's output must not mix with results
-    // An interrupt also ends the program, which then closes the arm. A crash ends this process by its signal,
-    // also under sanitizers, because the program's error message names the signal.
+    // Ctrl-C also reaches Boltwright, which ends and then closes the arm, so this process ignores it. A crash
+    // must end this process by its signal, also under sanitizers, because Boltwright's error message names
+    // the signal.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) (void)std::signal(signal, SIG_IGN);
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) (void)std::signal(signal, SIG_DFL);
     bolt::device::run_arm_host(argv[1], socket);
