@@ -1,6 +1,6 @@
-// Averages the pattern of 4 × 4 slices over pixels on the same surface. A pixel belongs to the surface if its
-// depth agrees with the tangent plane: on a plane, depth is linear in the picture, with a slope that follows
-// from the normal.
+// Averages the ambient occlusion of the 4 × 4 slices of shaders/occlusion.glsl over pixels on the same
+// surface. A pixel belongs to the surface if its depth agrees with the tangent plane: on a plane, depth is
+// linear in the picture, with a slope that follows from the normal.
 #include "shaders/frame.glsl"
 #include "shaders/half_size.glsl"
 #include "shaders/surface.glsl"

@@ -155,11 +155,11 @@ Status submit_and_wait(Device& device, const std::function<void(VkCommandBuffer)
 Result<Buffer> upload_buffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
 
 // Fills mip 0 of every layer from `texels` (layers one after the other), generates the other mips by halving,
-// and leaves the image in use `sampled`. The image needs both transfer usages; if it has mips, its format
-// must support linear blits.
+// and leaves the image in ResourceUse::sampled. The image needs both transfer usages; if it has mips, its
+// format must support linear blits.
 Status upload_image(Device& device, Image& image, std::span<const std::byte> texels);
 
-// Reads the texels of one mip of one layer. The image is in use `from` before and afterwards.
+// Reads the texels of one mip of one layer. The image is in the use `from` before and afterwards.
 Result<std::vector<std::byte>> download_image(Device& device, const Image& image, ResourceUse from,
                                               std::uint32_t texel_size, std::uint32_t mip = 0,
                                               std::uint32_t layer = 0);

@@ -47,7 +47,7 @@ using MakeSurface = std::function<Result<Surface>()>;
 
 // A picture for a window, or for a part of it.
 struct ShownPicture {
-    const Image* picture = nullptr;  // in use `transfer_from`, of any size
+    const Image* picture = nullptr;  // in ResourceUse::transfer_from, of any size
     std::uint32_t layer = 0;
     std::optional<VkRect2D> part;   // of the picture; none: all of it
     std::optional<VkRect2D> place;  // in the window, px; none: all of it

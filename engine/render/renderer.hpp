@@ -80,8 +80,8 @@ class Renderer {
     [[nodiscard]] ImageLayer picture(std::uint32_t view, std::uint32_t group = 0) const {
         return groups_.at(group).picture(view);
     }
-    // Returns the depth of each pixel's first sample, without blended parts, in use `transfer_from`. Empty
-    // without RendererOptions::keep_depth.
+    // Returns the depth of each pixel's first sample, without blended parts, in ResourceUse::transfer_from.
+    // Empty without RendererOptions::keep_depth.
     [[nodiscard]] ImageLayer depth(std::uint32_t view, std::uint32_t group = 0) const {
         return options_.keep_depth ? groups_.at(group).depth(view) : ImageLayer{};
     }

@@ -24,8 +24,8 @@
 
 namespace bolt::xr {
 
-// Three corners of each triangle that covers what an eye never sees, because its lens hides it: x right, y
-// up, on the plane 1 m in front of the eye.
+// Triangles, three corners each, that cover the part of an eye's picture that the lens hides: x right, y up,
+// on the plane 1 m in front of the eye.
 using HiddenArea = std::vector<glm::vec2>;
 
 struct EyeView {
@@ -103,8 +103,8 @@ struct EventsLost {};  // the runtime's queue was full; query everything again
 using SessionEvent =
     std::variant<StateChanged, Recentred, BindingsChanged, VisibilityMaskChanged, EventsLost>;
 
-// The picture of one eye. Both images are in use `transfer_from`; `depth` may be null. The picture may be
-// smaller than Session::extent(); the headset then magnifies it.
+// The picture of one eye. Both images must be in gpu::ResourceUse::transfer_from; `depth` may be null. The
+// picture may be smaller than Session::extent(); the headset then magnifies it.
 struct EyePicture {
     const gpu::Image* picture = nullptr;
     std::uint32_t layer = 0;
@@ -153,8 +153,8 @@ class Session {
     struct Drawn {
         const HeadView* view = nullptr;  // the views that were drawn and recorded; null: none
         DepthRange depth;
-        // Show the surroundings behind the pictures, whose colours are multiplied by alpha, if the headset
-        // can.
+        // Show the surroundings behind the pictures if the headset can. The pictures then have premultiplied
+        // alpha.
         bool surroundings = false;
     };
     // Ends the frame.

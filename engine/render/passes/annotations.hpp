@@ -47,7 +47,8 @@ class LabelPass {
     // Call it once per frame, before any view is drawn. Loads the fonts when the first label appears.
     Status prepare(PassContext& context, std::span<const Eye> eyes);
 
-    // Draws onto `targets.picture`, a colour target before and after; `targets.depth` is in use `depth_read`.
+    // Draws onto `targets.picture`, a colour target before and after; `targets.depth` is in
+    // ResourceUse::depth_read.
     Status draw(PassContext& context, const RenderTargets& targets);
 
   private:

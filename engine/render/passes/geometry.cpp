@@ -139,7 +139,8 @@ Result<const gpu::Pipeline*> SurfacePass::pipeline(gpu::Device& device, const Pi
     const auto known = pipelines_.find(key);
     if (known != pipelines_.end()) return &known->second;
     gpu::GraphicsInfo info = part_pipeline(*shaders_, key.kind, views);
-    // Parts of one material leave the material buffer as it is, which saves GPU time.
+    // Parts whose material does not vary over the part do not write the material buffer, which saves GPU
+    // time.
     const bool writes_material = (kind.features & SCENE_PER_PIXEL_MATERIAL) != 0;
     info.fragment = &shaders_->at(writes_material ? "surface_material.frag" : "surface.frag");
     info.colors = color_formats(per_pixel_material);

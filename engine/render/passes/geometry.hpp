@@ -39,7 +39,7 @@ class SurfacePass {
   public:
     static Result<SurfacePass> create(const PassSetup& setup) { return SurfacePass(setup); }
 
-    // Leaves `targets.depth` in use `depth_read` and the geometry buffers in use `sampled`.
+    // Leaves `targets.depth` in ResourceUse::depth_read and the geometry buffers in ResourceUse::sampled.
     Status draw(PassContext& context, RenderTargets& targets, const DrawList& list);
 
     SurfacePass() = default;

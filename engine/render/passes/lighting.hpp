@@ -18,7 +18,7 @@ class LightPass {
     LightPass() = default;
     static Result<LightPass> create(const PassSetup& setup);
 
-    // Leaves `targets.picture` in use `color_target`.
+    // Leaves `targets.picture` in ResourceUse::color_target.
     Status draw(PassContext& context, RenderTargets& targets, const DrawList& list,
                 const LightInputs& inputs);
 

@@ -10,8 +10,8 @@ class OverlayPass {
   public:
     static Result<OverlayPass> create(const PassSetup& setup);
 
-    // The picture is in use `transfer_from` before and after. `white`: an array image of one white texel, for
-    // draws without a texture.
+    // The picture is in ResourceUse::transfer_from before and after. `white`: an array image of one white
+    // texel, for draws without a texture.
     Status draw(gpu::Device& device, gpu::FrameContext& frame, const Overlay& overlay,
                 const ImageLayer& picture, VkImageView white);
 

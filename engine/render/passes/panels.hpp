@@ -9,7 +9,7 @@
 namespace bolt::render {
 
 // The picture of a panel, which an overlay is drawn onto (Renderer::draw_over). Its colours are premultiplied
-// by their alpha. It is in use `transfer_from` except while it is cleared or drawn.
+// by their alpha. It is in ResourceUse::transfer_from except while it is cleared or drawn.
 class PanelPicture {
   public:
     static Result<PanelPicture> create(gpu::Device& device, VkExtent2D extent);
@@ -30,7 +30,8 @@ class PanelPass {
   public:
     static Result<PanelPass> create(const PassSetup& setup);
 
-    // Draws onto `targets.picture`, a colour target before and after; `targets.depth` is in use `depth_read`.
+    // Draws onto `targets.picture`, a colour target before and after; `targets.depth` is in
+    // ResourceUse::depth_read.
     Status draw(PassContext& context, const RenderTargets& targets);
 
   private:

@@ -16,7 +16,7 @@ class ShadowPass {
     static bool set_shadow_view(const Scene& scene, shared::FrameData& frame);
 
     Status draw(PassContext& context);
-    // Returns the map for shaders, in use `depth_read`.
+    // Returns the map for shaders, in ResourceUse::depth_read.
     [[nodiscard]] const gpu::Image& map() const { return moving_ ? combined_map_ : static_map_; }
     // Returns whether the static map was redrawn in the last frame.
     [[nodiscard]] bool static_map_redrawn() const { return static_map_redrawn_; }
@@ -38,7 +38,8 @@ class OcclusionPass {
   public:
     static Result<OcclusionPass> create(const PassSetup& setup, std::uint32_t views);
 
-    // Reads `targets.depth` in use `depth_read`. Leaves its result in `targets.occlusion`, in use `sampled`.
+    // Reads `targets.depth` in ResourceUse::depth_read. Leaves its result in `targets.occlusion`, in
+    // ResourceUse::sampled.
     Status draw(PassContext& context, RenderTargets& targets);
 
   private:
