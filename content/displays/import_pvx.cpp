@@ -127,7 +127,7 @@ void PvxImport::read_machine(pugi::xml_node node) {
 }
 
 // In ParaView every Machine is a process, and its Name may be that of the computer or of the wall. The Names
-// are computers if two machines with different Names would show on the same pixels.
+// denote computers if two machines with different Names would otherwise cover the same pixels.
 void PvxImport::assign_processes() {
     const auto collide = [](const PvxMachine& a, const PvxMachine& b) {
         const DisplayOutput &one = a.wall.output, &other = b.wall.output;
@@ -153,9 +153,9 @@ void PvxImport::assign_processes() {
     }
     messages_.warn_at(
         machines_.front().node, nullptr,
-        fmt::format(
-            "windows of several machines are at the same place, so each Name is a computer: {} processes",
-            hosts.size()));
+        fmt::format("windows of machines with different Names overlap, so each Name is taken as a computer "
+                    "with a process of its own: {} processes",
+                    hosts.size()));
 }
 
 // Assigns monitors to walls without a Geometry: the first such wall of a process is on its first monitor, and

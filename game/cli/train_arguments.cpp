@@ -68,7 +68,7 @@ void add_device_options(CLI::App& train, TrainArguments& options) {
     train.add_option(
         "--device", options.devices,
         "auto (a connected device, else the mouse), mouse, simulated-arm (the mouse moves the hand that "
-        "holds a simulated arm), simulated (keys move the tool of a station without a device), or an id "
+        "holds a simulated arm), simulated (a simulated device: keys move the tool), or an id "
         "listed by boltwright devices; may be given twice, for a device that moves the tool and for a wheel");
     train
         .add_option("--hand", options.hand,

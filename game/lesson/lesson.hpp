@@ -41,11 +41,11 @@ enum class LawAdaptation : std::uint8_t { yield_end, before_format_6 };
 //   - the joint's own published targets, if the file has them
 //   - otherwise targets in the last third of the yield stage, and an angle window whose upper limit lies a
 //   third of the stage beyond its end, because the torque cannot be too high
-// A torque wrench is set so low that it clicks before the end of the yield stage, whatever its deviation, and
-// the lower limits are at most at the lowest click. The target clamp force follows from the target torque.
-// Without θ_max in the file, θ_max is computed for a nut that starts at design.start_gap. `before_format_6`:
-// without own targets, torques above 98 % of T_max are lowered to 98 %; no angle is judged; θ_max and the
-// torque wrench are not adapted. Idempotent.
+// A torque wrench is set so low that it clicks before the end of the yield stage, whatever its deviation. If
+// that lowers the target torque, the lower torque limit stays below the lowest torque at which the wrench can
+// click. The target clamp force follows from the target torque. Without θ_max in the file, θ_max is computed
+// for a nut that starts at design.start_gap. `before_format_6`: without own targets, torques above 98 % of
+// T_max are lowered to 98 %; no angle is judged; θ_max and the torque wrench are not adapted. Idempotent.
 content::Assembly apply_law(content::Assembly assembly, joint::Law law,
                             LawAdaptation adaptation = LawAdaptation::yield_end);
 
@@ -109,9 +109,9 @@ content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& s
 // True if the step tightens to the whole target with strategy `yield`.
 bool requires_yield(const Lesson& lesson, const LessonStep& step);
 
-// True if the step ends with the click of the torque wrench: under the published law, where the torque grows
-// so slowly in the yield stage that a stroke can end within the window before the wrench clicks. False if a
-// wrench within its tolerance might not click at this set torque (sessions before format 6).
+// True if only the click of the torque wrench ends the step. This is so under the published law: there the
+// torque grows so slowly in the yield stage that a stroke can end inside the torque window before the click.
+// False if a wrench within its tolerance might not click at this set torque (sessions before format 6).
 bool requires_click(const Lesson& lesson, const LessonStep& step);
 
 // Set torque of the torque wrench for the due step, N·m; 0 for other tools and for steps without a torque.

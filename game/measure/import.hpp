@@ -9,7 +9,8 @@
 //
 //   u(F)² = a²/12 + (U/2)² + (U% F/2)²,   u(T)² = (r u(F))² + (F u(r))²
 //
-// It does not contain the noise, which a run shows by itself, nor the angle between force and lever.
+// It contains neither the noise, which the scatter of the run already shows, nor the angle between force and
+// lever.
 #pragma once
 
 #include <filesystem>
@@ -45,8 +46,8 @@ struct RunText {
     std::string second_file, second_text;
 };
 
-// Reads all runs of a file. Errors name the place in the file, or in the rig's description where the mistake
-// is most likely there.
+// Reads all runs of a file. An error names the place in the file, or in the rig's description if the mistake
+// is probably there.
 Result<std::vector<RigRun>> import_runs(const Rig& rig, const RunText& text);
 
 // The same from the disk.

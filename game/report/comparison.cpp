@@ -248,7 +248,7 @@ std::string joint_section(const analysis::Comparison& c, std::size_t index) {
     return out;
 }
 
-// Joints that the record may be of.
+// The number of joints that the record may belong to.
 std::size_t compared_joints(const analysis::Comparison& c) {
     return static_cast<std::size_t>(
         std::count_if(c.joints.begin(), c.joints.end(), [](const auto& j) { return j.other_joint.empty(); }));
@@ -333,12 +333,13 @@ std::string method_text(const analysis::Comparison& c) {
                           number(100.0 * c.options.share, 0))
             : std::string("by the breakaway peak");
     return fmt::format(
-        "Of each angle, only the first visit is used; measured curves are shifted "
+        "Only samples at which the nut turns beyond all earlier angles are used; measured curves are shifted "
         "to match the virtual one {}. Error: |virtual − measured| / |measured|; MRE is its maximum, MAPE its "
-        "mean; stages are those of the virtual curve. RMSE is the root of their mean square in N·m. Samples "
-        "below {} % of their run’s highest measured torque count for the RMSE only; angles that the virtual "
-        "curve does not have are left out. Brackets: 95 % interval over the repetitions, bootstrap of whole "
-        "runs with the seed {}, from {} runs on. Virtual torque: at the wrench, true and unscaled, law “{}”.",
+        "mean; stages are those of the virtual curve. RMSE is the root mean square of virtual − measured, in "
+        "N·m. Samples below {} % of their run’s highest measured torque count for the RMSE only; angles that "
+        "the virtual curve does not have are left out. Brackets: 95 % interval over the repetitions, "
+        "bootstrap of whole runs with the seed {}, from {} runs on. Virtual torque: at the wrench, true and "
+        "unscaled, law “{}”.",
         aligned, number(100.0 * c.options.floor_share, 1), analysis::band_seed, analysis::min_repetitions,
         c.law);
 }

@@ -257,8 +257,8 @@ void add_releases(plot::Plot& plot, const analysis::SessionData& session, const 
     }
 }
 
-// Marks the highest torque of re-checks that is not the judged torque, because the nut did not turn or turned
-// at a lower torque.
+// Marks the highest torque among the re-checks whose peak is not the judged torque: the nut did not turn, or
+// it turned at a lower torque.
 void add_breakaway(plot::Plot& plot, const analysis::SessionData& session, std::size_t joint,
                    const JointPlotFrame& frame) {
     const analysis::Visit* highest = nullptr;

@@ -99,7 +99,8 @@ std::string quoted(const std::string& text) {
     return field += '"';
 }
 
-// CSV fields with the names of numbers. −1 gives an empty field; a number without a name gives "#NUMBER".
+// Maps the number of a joint or obstacle to its name as a CSV field. −1 gives an empty field; a number
+// without a name gives "#NUMBER".
 class NamedFields {
   public:
     void add(std::int32_t number, const std::string& name) { names_[number] = quoted(name); }

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// "P07" of a folder's name; 0: the folder is not a participant's.
+// Returns the number in a folder name such as "P07"; 0: the folder is not a participant's.
 std::size_t participant_number(const std::string& name) {
     if (name.size() < 3 || name[0] != 'P') return 0;
     std::size_t number = 0;
@@ -33,7 +33,7 @@ Result<std::map<std::size_t, fs::path>> participant_folders(const fs::path& part
     return folders;
 }
 
-// True if something besides the mark and lock files is left.
+// True if the folder has any entry except the withdrawal mark and lock files.
 bool has_leftovers(const fs::path& folder) {
     std::error_code problem;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem))

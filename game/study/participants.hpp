@@ -30,12 +30,12 @@ Result<std::filesystem::path> add_participant(const content::Study& study,
 Result<std::filesystem::path> find_participant(const std::filesystem::path& study_folder,
                                                const std::string& participant);
 
-// Deletes everything in the folder of a participant but a mark, and the files that were computed from it. The
-// caller holds the lock of the journal.
+// Deletes the files that were computed from the participant's data, and everything in the folder except the
+// withdrawal mark. The caller holds the lock of the journal.
 Status delete_participant(const std::filesystem::path& folder, std::int64_t time);
 
-// Deletes the data of a participant whom no program leads. Completes an earlier withdrawal that was
-// interrupted.
+// Deletes the data of a participant whose journal no program has open. Fails if one has. Completes an earlier
+// withdrawal that was interrupted.
 Status withdraw(const std::filesystem::path& study_folder, const std::string& participant, std::int64_t time);
 
 // A participant as the experimenter sees it.

@@ -32,7 +32,8 @@ constexpr double air_deflection = 0.035;
 
 constexpr double min_depth = 0.15;  // m before the eye
 
-// Sine of the smallest angle between the view and the plane across a bolt in which a drag moves the wrench.
+// Sine of an angle between the view and the plane across the bolt. At a smaller angle a drag moves the wrench
+// in the plane of the picture.
 constexpr double min_slope = 0.25;
 
 // Before the hand releases a wrench on a nut, it yields for a short time. Otherwise the wrench would keep its
@@ -109,8 +110,8 @@ HandShift fingers_to_nut(const DragInput& input, const DragScene& scene) {
     return {share * (scene.nut->centre - scene.tool.position), share * glm::cross(normal, axis)};
 }
 
-// The shift that looks like `shift` in the picture but keeps the height above the bolt. If the view is too
-// flat, that would be too long; then returns `shift` itself.
+// Returns the shift across the bolt that looks like `shift` in the picture. If the view is nearly parallel to
+// the plane across the bolt, this shift would be too long; then returns `shift` itself.
 Vec3 across_bolt(const DragScene& scene, const Vec3& axis, const Vec3& shift) {
     const Vec3 view = glm::normalize(grip_of(scene) - Vec3(scene.projection.eye.position));
     const double slope = glm::dot(view, axis);

@@ -22,7 +22,7 @@ namespace bolt::trainer {
 inline constexpr glm::dvec2 panel_points{1160.0, 760.0};
 inline constexpr double panel_distance = 0.75, point_size = 1.0e-3;  // m
 inline constexpr float panel_scale = 1.5F;                           // px per point
-inline constexpr VkExtent2D panel_extent{1740, 1140};                // px, the product of both
+inline constexpr VkExtent2D panel_extent{1740, 1140};                // px, panel_points × panel_scale
 
 // Where the panel is pointed at.
 struct PanelPointer {
@@ -39,8 +39,7 @@ struct Vignette {
 };
 
 // The state of a room from frame to frame. It is kept while the display is lost for a short time, so that
-// workpiece and panel stay where they are. The state of a room from frame to frame. It is kept while the
-// display is lost for a short time, so that workpiece and panel stay where they are.
+// workpiece and panel stay where they are.
 struct RoomState {
     std::optional<Pose> workpiece;  // pose of the assembly's frame; none: not placed yet
     std::optional<Pose> panel;  // pose of its centre: x right, y up, z towards the user; none: not placed yet

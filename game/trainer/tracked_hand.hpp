@@ -32,8 +32,8 @@ double closing(const xr::HandInput& hand);
 // The pose of the palm (XR_EXT_hand_tracking's or the controller's grip), in the room; none: not tracked.
 std::optional<Pose> palm_of(const xr::HandInput& hand, xr::Side side);
 
-// The pose of the fingertips in the frame of a palm: the tool's frame of a hand without a wrench, whose z
-// axis points back along the fingers.
+// The pose of the fingertips in the frame of the palm (palm_of). Its axes are those of the tool of a hand
+// without a wrench: z points back along the fingers, as the palm's Y does.
 Pose fingertips_at_palm(xr::Side side);
 
 // Call once a frame. A hand that is not tracked keeps its pose and opens.

@@ -138,7 +138,7 @@ TEST_CASE(".pvx: names are computers only if their windows are at the same place
     const ImportedDisplays two = imported(file_of(a + b));
     CHECK(two.displays.walls[0].output.process == 0);
     CHECK(two.displays.walls[1].output.process == 1);
-    CHECK(warns(two, "so each Name is a computer: 2 processes"));
+    CHECK(warns(two, "so each Name is taken as a computer with a process of its own: 2 processes"));
     const ImportedDisplays one = imported(file_of(a + beside));
     CHECK(one.displays.walls[1].output.process == 0);
     CHECK_FALSE(warns(one, "processes"));
@@ -191,7 +191,7 @@ TEST_CASE(".pvx: attributes and elements without a counterpart are named") {
     CHECK_FALSE(warns(result, "ShowBorders"));
 }
 
-TEST_CASE(".pvx: mistakes have their line, column and what is expected") {
+TEST_CASE(".pvx: errors name the line, the column and what is expected") {
     check_error(replaced(cave, "LowerLeft=\"-1 0 1\" ", ""),
                 "c.pvx:8:6: LowerLeft is missing; expected a corner");
     check_error(replaced(cave, "\"-1 0 1\"", "\"-1 0\""),
