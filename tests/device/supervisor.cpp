@@ -195,7 +195,7 @@ TEST_CASE("DeviceSupervisor: when commands stop, the force is released within 20
     }
 }
 
-TEST_CASE("DeviceSupervisor: no force without enable, for NaN, and after close") {
+TEST_CASE("DeviceSupervisor: renders no force while disabled, for a NaN command, and after close") {
     SupervisedDevice supervised;
     supervised.until(0.1);
     REQUIRE(supervised.force() > 3.0);

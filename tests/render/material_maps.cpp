@@ -95,7 +95,7 @@ std::vector<std::uint8_t> traced(const assets::Model& model) {
     return pathtrace::to_srgb8(pathtrace::render(*scene, pathtrace::Environment(), camera, settings), 1.0F);
 }
 
-// Returns the mean difference of all channels, of 255.
+// Returns the mean difference over all channels, in steps of 1/255.
 double difference(const render::Picture& picture, const std::vector<std::uint8_t>& rgb) {
     REQUIRE(picture.rgba.size() / 4 == rgb.size() / 3);
     double sum = 0.0;

@@ -48,7 +48,7 @@ class VirtualBench final : public station_setup::SteppedStation {
         held_ = held;
     }
 
-    // Advances the time by `seconds`. The frames of a lesson do not.
+    // Advances the time by `seconds`. The frames of a lesson do not advance it, because step() does nothing.
     void advance(double seconds) {
         if (!stopped_) run_ticks(seconds);
     }

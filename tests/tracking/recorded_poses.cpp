@@ -38,7 +38,7 @@ TEST_CASE("Recorded poses: rows, comments, blanks and other line ends are read")
     CHECK((*good)[1].pose.orientation == Quat(0, 1, 0, 0));
 }
 
-TEST_CASE("Recorded poses: mistakes have their line and column") {
+TEST_CASE("Recorded poses: errors name the line and the column of the mistake") {
     check_error("", "w.csv:1:1: the recording has no poses; expected t_s,x_m");
     check_error(title, "w.csv:1:1: the recording has no poses");
     check_error("x,y\n", "w.csv:1:1: the column titles are wrong; expected t_s,x_m,y_m,z_m,qw,qx,qy,qz");
@@ -58,7 +58,9 @@ TEST_CASE("Recorded poses: mistakes have their line and column") {
     CHECK(missing.error().message().find("/nonexistent/w.csv") != std::string::npos);
 }
 
-TEST_CASE("Recorded poses: those between two times are found, a gap has none") {
+TEST_CASE(
+    "Recorded poses: poses_between returns the poses after the first time up to the second, and none in a "
+    "gap") {
     const test::Folder folder;
     std::string text = title;
     for (const char* time : {"0", "0.1", "0.2", "1.0", "1.1"}) text += std::string(time) + ",0,0,0,1,0,0,0\n";

@@ -38,8 +38,8 @@ class Program {
     void set_depth_range(const xr::DepthRange& range) { depth_ = range; }
     // Is called in each frame between the recording of the pictures and their submission.
     std::function<void()> while_drawing;
-    // Makes an image with these texels, a layer after the other, in use `transfer_from`. It lives until
-    // disconnect() or the next connect().
+    // Makes an image with these texels, a layer after the other, in gpu::ResourceUse::transfer_from. It lives
+    // until disconnect() or the next connect().
     const gpu::Image& make_image(VkFormat format, VkExtent2D extent, std::uint32_t layers,
                                  const std::vector<std::uint8_t>& texels);
     // Ends the headset and destroys Vulkan's objects.

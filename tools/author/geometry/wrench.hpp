@@ -75,8 +75,7 @@ struct ExitPaths {
     double reach = 0.0;      // m, of the wrench
 };
 
-// Returns no_part if some path is free; otherwise a part that blocks one; no_part if
-// one is free.
+// Returns no_part if at least one path is free, otherwise a part that blocks a path.
 std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& wrench, const FreeSwing& swing,
                                const ExitPaths& paths);
 

@@ -39,8 +39,10 @@ enum class HaplyFault : std::uint8_t {
 };
 
 struct EmulatedHaplyOptions {
-    std::uint16_t port = 0;           // of the states; 0: any. Events are at port + 19.
-    std::string version = "3.5.0.0";  // before 3.5, /version is at port - 1; empty: at no port
+    std::uint16_t port = 0;  // of the states; 0: any. Events are at port + 19.
+    // The version that the service reports at /version: at `port`, before 3.5 at port − 1. Empty: /version is
+    // not served.
+    std::string version = "3.5.0.0";
     HaplyGrip grip = HaplyGrip::wireless;
     bool arm = true;
     bool calibrated = true;

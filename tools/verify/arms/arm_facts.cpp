@@ -88,7 +88,7 @@ Description inverse3() {
     return d;
 }
 
-// An arm behind a plug-in that announces force::OutputLimits as they stand.
+// An arm behind a plug-in that announces the default values of force::OutputLimits.
 Description virtuose() {
     Description d = announced(20.0, 2.0, "plug-in");
     d.half_workspace = Vec3(0.2);
@@ -108,9 +108,9 @@ constexpr std::string_view premium_sheet = "SensAble, PHANTOM Premium 1.5 techni
 constexpr std::string_view falcon_page =
     "github.com/SenseGraphics/h3dapi, wiki page Novint_Falcon: > 400 dpi";
 
-// Makers bound the friction from above ("less than 0.26 N"), but friction damps: half of the bound is used.
-// If no figure was found, 0.05 N is used. Light arms are harder to keep stable than heavy ones, so the
-// assumed masses are low.
+// Makers state an upper bound of the friction ("less than 0.26 N"). Friction helps stability, so half of the
+// bound is used. If no figure was found, 0.05 N is used. Light arms are harder to keep stable than heavy
+// ones, so the assumed masses are low.
 constexpr double wrist_inertia = 1e-4;  // kg·m², of a stylus or a gimbal
 
 const std::array table{
@@ -148,9 +148,9 @@ const ArmFacts* find_arm(std::string_view key) {
 }
 
 // The usual grip is the arm of Fig. 3 in "Haptic perception of force magnitude and its relation to postural
-// arm dynamics in 3D", Sci. Rep. 5 (2015) 18004: 0.554 kg, 6.45 N·s/m, 135 N/m. The loose and the stiff one
-// are near the ends of the ranges in tests/support/random_arm.hpp, and so is all rotation. We chose these
-// values.
+// arm dynamics in 3D", Sci. Rep. 5 (2015) 18004: 0.554 kg, 6.45 N·s/m, 135 N/m. All other values are ours.
+// Those of the three hands lie in the ranges of tests/support/random_arm.hpp, for the loose and the stiff
+// grip near the ends. "no hand" lies outside: only a very soft spring acts on the position.
 const std::array<HandGrip, grip_count>& hand_grips() {
     static constexpr std::array<HandGrip, grip_count> grips{
         HandGrip{"no hand", 0.0, 0.0, 5.0, 1e-4, 2e-3, 0.3, true},

@@ -12,15 +12,17 @@ namespace bolt::arm_validation {
 
 struct FeelOutcome {
     Record record;
-    // m, swing of the grip within 40 ms, less its straight motion: soon after the hand's last motion, and a
-    // second later.
+    // m, largest swing of the point that the hand holds (and, with torque output, of a point 0.1 m from it)
+    // in a window of 40 ms, less the straight motion. `early_swing`: right after the last motion of the hand;
+    // `late_swing`: a second later.
     double early_swing = 0.0, late_swing = 0.0;
     bool touched = false;  // the hand felt the obstacle or the nut at least once
     bool held = true;      // by a hand
 };
 
-// J, bounds of the net energy out of the device: at any time; and at the end if no hand holds the arm (the
-// credit of the passivity controller). A hand that holds the arm must put in more than it gets back.
+// J, upper bounds of the net energy that the device gives: at any time; and at the end of a run without a
+// hand (the credit of the passivity controller). A hand that holds the arm must put in more than it gets
+// back.
 inline constexpr double energy_at_any_time = 1e-3, energy_of_free_arm = force::max_credit;
 inline constexpr double perceptible_swing = 100e-6;  // m
 

@@ -14,7 +14,7 @@ namespace bolt::arm_validation {
 
 // Stiffnesses of one kind of spring.
 struct SpringResult {
-    // In a hand; in a hand without the passivity controller; in no hand.
+    // `held`: held by a hand. `uncontrolled`: held, with the passivity controller off. `free`: not held.
     StableRange held, uncontrolled, free;
 };
 
@@ -50,7 +50,7 @@ struct ValidationResult {
     std::vector<ApproachResult> approaches;  // of those requested arms for which is_approached() is true
 };
 
-// True for the arms that replay the paper's complaint: one of each kind.
+// True for the arms that run the approaches (approaches.hpp): one for each kind of arm.
 bool is_approached(const ArmFacts& arm);
 // Fails if the assembly cannot be loaded.
 Result<ValidationResult> validate(const ValidationOptions& options);
