@@ -28,7 +28,7 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
     description.joints = designs;
     description.law = law;
     description.flange = f.joints_interact ? &plate : nullptr;
-    description.jaw = assembly.wrench.jaw;
+    description.jaw_opening = assembly.wrench.jaw;
     description.head_thickness = assembly.wrench.head_thickness;
     description.jaw_depth = assembly.wrench.jaw_depth;
     description.jaw_tip = assembly.wrench.jaw_tip;

@@ -21,15 +21,15 @@ bool nearer_crossing(const Crossing& a, const Crossing& b) {
 struct EdgeGathering {
     const Solid* solid;
     const EdgePiece* piece;
-    double length;    // m, half the piece's length
-    glm::vec3 along;  // unit
+    double half_length;  // m, of the piece
+    glm::vec3 along;     // unit
     std::array<glm::vec3, 2> inward;
     glm::vec3 low, high;  // m, bounding box of the piece
     float radius_float;   // m, the radius with a margin
     double radius, band;
     std::array<Crossing, 16> found;
     std::size_t count = 0;
-    double clear, turn = infinite_distance;
+    double clear_distance, clear_turn = infinite_distance;
     FacingEdges* facing = nullptr;
     double nearest_dropped = infinite_distance;
 
@@ -86,11 +86,11 @@ bool needs_large_turn(EdgeGathering& g, const Ridge& edge) {
 // An edge and the piece, and where they are closest.
 struct EdgePair {
     const Ridge& edge;
-    Vec3 middle, half;  // of the edge
-    Vec3 across;        // the half of the piece × that of the edge
-    double size;        // of `across`
-    double length;      // m, of `half`
-    double sine;        // of the angle between them
+    Vec3 middle, half;   // of the edge
+    Vec3 across;         // the half of the piece × that of the edge
+    double size;         // of `across`
+    double half_length;  // m, of `half`
+    double sine;         // of the angle between them
     ClosestSegmentParameters at;
 };
 
@@ -99,27 +99,27 @@ EdgePair edge_pair(const EdgeGathering& g, const Ridge& edge) {
     EdgePair pair{edge, 0.5 * (a + b), 0.5 * (b - a), {}, 0.0, 0.0, 0.0, {}};
     pair.across = glm::cross(g.piece->half, pair.half);
     pair.size = glm::length(pair.across);
-    pair.length = glm::length(pair.half);
-    pair.sine = pair.size / (g.length * pair.length);
+    pair.half_length = glm::length(pair.half);
+    pair.sine = pair.size / (g.half_length * pair.half_length);
     return pair;
 }
 
-// Returns true if the edges do not face each other. It then lowers `g.turn` to the turn (rad) of the piece up
-// to which that stays so: a turn φ of the piece, below `sine`/3, turns the common perpendicular by at most
-// 1.5 φ/`sine`.
+// Returns true if the edges do not face each other. It then lowers `g.clear_turn` to the turn (rad) of the
+// piece up to which that stays so: a turn φ of the piece, below `sine`/3, turns the common perpendicular by
+// at most 1.5 φ/`sine`.
 bool faces_away(EdgeGathering& g, EdgePair& pair, const Vec3& normal) {
     const double excess =
         std::min(facing_excess(pair.edge, *g.piece, normal), facing_excess(pair.edge, *g.piece, -normal));
     const double turn = excess * pair.sine / 3.0;
-    if (turn >= g.turn) return true;
+    if (turn >= g.clear_turn) return true;
     if (turn > useful_turn) {
-        g.turn = turn;
+        g.clear_turn = turn;
         return true;
     }
     pair.at = closest_on_segments(g.piece->middle, g.piece->half, pair.middle, pair.half);
     if (excess <= 0.0) return false;
     const Vec3 between = g.piece->middle + pair.at.s * g.piece->half - pair.middle - pair.at.t * pair.half;
-    if (glm::dot(between, between) <= g.radius * g.radius) g.turn = turn;
+    if (glm::dot(between, between) <= g.radius * g.radius) g.clear_turn = turn;
     return true;
 }
 
@@ -134,7 +134,7 @@ void bound_feet(EdgeGathering& g, const EdgePair& pair, const Vec3& normal, doub
     // m by which the feet lie beyond the ends. A displacement moves them by at most 1.12 times itself, a turn
     // by at most 4.8 times the distance times the turn, both divided by the sine.
     const double over =
-        std::max((std::abs(on_piece) - 1.0) * g.length, (std::abs(on_edge) - 1.0) * pair.length);
+        std::max((std::abs(on_piece) - 1.0) * g.half_length, (std::abs(on_edge) - 1.0) * pair.half_length);
     double clear = std::min(apart, 0.4 * over * pair.sine);
     double turn = std::min(0.05 * pair.sine, over * pair.sine * pair.sine / (10.0 * apart));
     // The lines are apart and must touch before they can pass each other. Their distance decreases at most by
@@ -142,13 +142,13 @@ void bound_feet(EdgeGathering& g, const EdgePair& pair, const Vec3& normal, doub
     const double distance = -glm::dot(between, normal);
     if (const double until = std::min(apart, 0.8 * distance); until > clear) {
         clear = until;
-        turn = std::min(0.05 * pair.sine, 0.15 * distance / (std::abs(on_piece) * g.length + 1e-9));
+        turn = std::min(0.05 * pair.sine, 0.15 * distance / (std::abs(on_piece) * g.half_length + 1e-9));
     }
     if (clear > beyond) {
-        g.clear = std::min(g.clear, clear);
-        g.turn = std::min(g.turn, turn);
+        g.clear_distance = std::min(g.clear_distance, clear);
+        g.clear_turn = std::min(g.clear_turn, turn);
     } else {
-        g.clear = std::min(g.clear, beyond);
+        g.clear_distance = std::min(g.clear_distance, beyond);
     }
 }
 
@@ -169,9 +169,9 @@ void add_edge_pair(EdgeGathering& g, std::uint32_t index) {
     if (apart > g.radius) return;
     // Nearly parallel edges are compared at their middles only; the error is at most their angle times the
     // length.
-    const double beyond = apart - max_crossing_depth - (pair.at.inner ? 0.0 : 2e-3 * g.length);
+    const double beyond = apart - max_crossing_depth - (pair.at.inner ? 0.0 : 2e-3 * g.half_length);
     if (parallel) {
-        g.clear = std::min(g.clear, beyond);
+        g.clear_distance = std::min(g.clear_distance, beyond);
         return;
     }
     if (glm::dot(crossing.normal, Vec3(pair.edge.normals[0]) + Vec3(pair.edge.normals[1])) < 0.0)
@@ -184,10 +184,10 @@ void add_edge_pair(EdgeGathering& g, std::uint32_t index) {
     crossing.edge = pair.edge.sharp_edge;
     if (crossing.distance > 0.0) {
         // The edges can change sides only by passing through each other.
-        g.clear = std::min(g.clear, 0.9 * crossing.distance);
-        g.turn = std::min(g.turn, 0.1 * pair.sine);
+        g.clear_distance = std::min(g.clear_distance, 0.9 * crossing.distance);
+        g.clear_turn = std::min(g.clear_turn, 0.1 * pair.sine);
     } else {
-        g.clear = std::min(g.clear, beyond);
+        g.clear_distance = std::min(g.clear_distance, beyond);
     }
     if (crossing.distance > g.band || crossing.distance < -max_crossing_depth) return;
     g.add(crossing);
@@ -212,9 +212,9 @@ EdgeGathering make_gathering(const Solid& solid, const EdgePiece& piece, double 
     EdgeGathering g;
     g.solid = &solid;
     g.piece = &piece;
-    g.length = glm::length(piece.half);
+    g.half_length = glm::length(piece.half);
     g.radius = std::max({radius, band, max_crossing_depth});
-    g.clear = g.radius - max_crossing_depth;
+    g.clear_distance = g.radius - max_crossing_depth;
     g.band = band;
     return g;
 }
@@ -222,7 +222,7 @@ EdgeGathering make_gathering(const Solid& solid, const EdgePiece& piece, double 
 EdgeQueryResult select_crossings(EdgeGathering& g, const Solid& other, const Pose& to_other,
                                  std::span<Crossing> crossings) {
     std::sort(g.found.begin(), g.found.begin() + static_cast<std::ptrdiff_t>(g.count), nearer_crossing);
-    EdgeQueryResult result{0, std::min(g.band, g.nearest_dropped), g.clear, g.turn};
+    EdgeQueryResult result{0, std::min(g.band, g.nearest_dropped), g.clear_distance, g.clear_turn};
     for (const Crossing& c : std::span(g.found).first(g.count)) {
         if (c.distance < -ambiguous_depth && !is_inside(*g.solid, c.on_piece) &&
             (c.distance < -g.band || !is_inside(other, to_other * c.on_edge)))
@@ -247,18 +247,18 @@ EdgeQueryResult query_edges(const Solid& solid, const EdgePiece& piece, const So
     if (!solid.edge_scene) return {0, band, infinite_distance, infinite_distance};
     EdgeGathering g = make_gathering(solid, piece, radius, band);
     g.facing = &facing;
-    g.along = glm::vec3(piece.half / g.length);
+    g.along = glm::vec3(piece.half / g.half_length);
     for (std::size_t i = 0; i < 2; ++i) g.inward[i] = glm::vec3(piece.inward[i]);
     const glm::vec3 middle(piece.middle);
     const glm::vec3 extent = glm::abs(glm::vec3(piece.half));
     g.low = middle - extent;
     g.high = middle + extent;
     g.radius_float = with_margin(g.radius, piece.middle);
-    RTCPointQuery query = make_query(piece.middle, g.length + g.radius);
+    RTCPointQuery query = make_query(piece.middle, g.half_length + g.radius);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(solid.edge_scene.get(), &query, &context, gather_edge, &g);
-    g.turn = std::min(g.turn, facing.turn);
+    g.clear_turn = std::min(g.clear_turn, facing.turn);
     return select_crossings(g, other, to_other, crossings);
 }
 
@@ -270,7 +270,7 @@ EdgeQueryResult query_facing_edges(const Solid& solid, const EdgePiece& piece, c
                                    const Pose& to_other, double radius, double band,
                                    std::span<Crossing> crossings, const FacingEdges& facing) {
     EdgeGathering g = make_gathering(solid, piece, radius, band);
-    g.turn = facing.turn;
+    g.clear_turn = facing.turn;
     for (std::uint32_t i = 0; i < facing.count; ++i) add_edge_pair(g, facing.ridges[i]);
     return select_crossings(g, other, to_other, crossings);
 }

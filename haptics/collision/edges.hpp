@@ -30,9 +30,9 @@ inline constexpr double rounding_in_float = 1e-6;
 struct EdgeQueryResult {
     std::size_t count = 0;
     double complete_within = 0.0;  // as in PointQueryResult
-    // As long as the piece's points move by less than (clear − band), m, and it turns by less than `turn`,
-    // rad, no further crossing enters the band.
-    double clear = 0.0, turn = 0.0;
+    // As long as the piece's points move by less than (clear_distance − band), m, and it turns by less than
+    // clear_turn, rad, no further crossing enters the band.
+    double clear_distance = 0.0, clear_turn = 0.0;
 };
 
 // Two edges face each other if their common perpendicular points out of both solids; otherwise a face, a

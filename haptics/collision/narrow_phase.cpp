@@ -335,9 +335,10 @@ class SurfaceQueryPass {
                                edges, searched, crossings);
         if (searched) collected_.query_cost += edge_search_cost;
         collected_.complete_within = std::min(collected_.complete_within, found.complete_within);
-        bound = {found.clear - rounding + accumulated.displacement, found.turn + accumulated.turn};
-        last = {glm::vec3(at), static_cast<float>(found.clear), accumulated.turn,
-                found.clear < short_lookahead};
+        bound = {found.clear_distance - rounding + accumulated.displacement,
+                 found.clear_turn + accumulated.turn};
+        last = {glm::vec3(at), static_cast<float>(found.clear_distance), accumulated.turn,
+                found.clear_distance < short_lookahead};
         for (std::size_t i = 0; i < found.count; ++i) {
             const Crossing& crossing = crossings[i];
             const std::uint32_t triangle = surface_.mesh.sharp_edges[crossing.edge].triangle;

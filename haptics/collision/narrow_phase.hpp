@@ -19,8 +19,8 @@ namespace bolt::collision {
 // A conservative distance bound, stored with the motion accumulated when it was computed. Subtract the motion
 // since then to get the bound that holds now.
 struct DistanceBound {
-    double lower;  // m: signed distance of a point, or `EdgeQueryResult::clear` of an edge piece
-    double turn;   // rad: `EdgeQueryResult::turn`; infinite for points
+    double lower;  // m: signed distance of a point, or `EdgeQueryResult::clear_distance` of an edge piece
+    double turn;   // rad: `EdgeQueryResult::clear_turn`; infinite for points
 };
 
 // The last query of a sample or cluster: its middle in the surface's frame, the lower bound there, and the

@@ -30,8 +30,10 @@ Vec3 barycentric(const std::array<Vec3, 3>& t, const Vec3& p) {
     return {1.0 - b - c, b, c};
 }
 
-Region region_at(const Vec3& share) {
-    const bool at[3] = {share.x < edge_tolerance, share.y < edge_tolerance, share.z < edge_tolerance};
+// `coordinates`: barycentric.
+Region region_at(const Vec3& coordinates) {
+    const bool at[3] = {coordinates.x < edge_tolerance, coordinates.y < edge_tolerance,
+                        coordinates.z < edge_tolerance};
     for (Region i = 0; i < 3; ++i)
         if (at[(i + 1) % 3] && at[(i + 2) % 3]) return i;
     for (Region i = 0; i < 3; ++i)
@@ -49,8 +51,9 @@ SurfacePatch patch_on(const ContactMesh& mesh, std::uint32_t triangle, const Vec
         return patch;
     }
     const auto& n = mesh.smooth_normals[triangle];
-    const Vec3 share = glm::clamp(barycentric(t, at), Vec3(0.0), Vec3(1.0));
-    patch.normal = turn * unit(share.x * Vec3(n[0]) + share.y * Vec3(n[1]) + share.z * Vec3(n[2]));
+    const Vec3 coordinates = glm::clamp(barycentric(t, at), Vec3(0.0), Vec3(1.0));
+    patch.normal =
+        turn * unit(coordinates.x * Vec3(n[0]) + coordinates.y * Vec3(n[1]) + coordinates.z * Vec3(n[2]));
     for (std::size_t i = 0; i < 3; ++i)
         patch.bend = std::max(patch.bend, 1.0 - glm::dot(Vec3(n[i]), Vec3(n[(i + 1) % 3])));
     return patch;
@@ -90,8 +93,8 @@ std::optional<Vec3> combined_normal(const SurfacePatch& tool, const SurfacePatch
     if (!tool.normal) return normal_across_crease(*obstacle.normal, tool.along);
     if (!obstacle.normal) return normal_across_crease(-*tool.normal, obstacle.along);
     const double bends = tool.bend + obstacle.bend;
-    const double of_tool = bends > 0.0 ? obstacle.bend / bends : 0.0;
-    const Vec3 sum = (1.0 - of_tool) * *obstacle.normal - of_tool * *tool.normal;
+    const double tool_weight = bends > 0.0 ? obstacle.bend / bends : 0.0;
+    const Vec3 sum = (1.0 - tool_weight) * *obstacle.normal - tool_weight * *tool.normal;
     const double length = glm::length(sum);
     if (length < 0.5) return std::nullopt;
     return sum / length;
@@ -116,7 +119,7 @@ double angle_of(const std::array<Vec3, 2>& inward) {
 void smooth_normals(const CollisionWorld& world, const ToolShape& tool, const Pose& pose,
                     std::span<Contact> contacts) {
     const Pose to_tool = inverse(pose);
-    const ContactMesh& wrench = tool.solid.mesh;
+    const ContactMesh& tool_mesh = tool.solid.mesh;
     for (Contact& c : contacts) {
         if (c.distance > smooth_far) continue;
         const Body& body = world.bodies[find_body(world, c.obstacle).value_or(0)];
@@ -124,24 +127,24 @@ void smooth_normals(const CollisionWorld& world, const ToolShape& tool, const Po
         const ContactMesh& obstacle = shape.solid.mesh;
         const Pose to_body = inverse(body.pose);
         const Vec3 on_tool = to_tool * c.on_tool, on_obstacle = to_body * c.on_obstacle;
-        const Quat& of_tool = pose.orientation;
-        const Quat& of_body = body.pose.orientation;
+        const Quat& tool_orientation = pose.orientation;
+        const Quat& body_orientation = body.pose.orientation;
         const bool is_tool_feature = (c.feature & of_obstacle) == 0;
         const std::uint32_t index = c.feature & ~of_obstacle;
         SurfacePatch tool_patch, obstacle_patch;
         if (!is_tool_feature) {
             const SurfaceSample& sample = shape.samples.samples[index];
-            tool_patch = nearest_patch(wrench, c.triangle, to_tool * c.on_obstacle, of_tool);
-            obstacle_patch = sample_patch(obstacle, sample.triangle, on_obstacle, of_body);
+            tool_patch = nearest_patch(tool_mesh, c.triangle, to_tool * c.on_obstacle, tool_orientation);
+            obstacle_patch = sample_patch(obstacle, sample.triangle, on_obstacle, body_orientation);
         } else if (const SurfaceSample& sample = tool.samples.samples[index];
                    sample.piece == SurfaceSample::no_piece) {
-            tool_patch = sample_patch(wrench, sample.triangle, on_tool, of_tool);
-            obstacle_patch = nearest_patch(obstacle, c.triangle, to_body * c.on_tool, of_body);
+            tool_patch = sample_patch(tool_mesh, sample.triangle, on_tool, tool_orientation);
+            obstacle_patch = nearest_patch(obstacle, c.triangle, to_body * c.on_tool, body_orientation);
         } else {
             const PieceExtent& piece = tool.samples.pieces[sample.piece];
-            tool_patch = edge_patch(wrench, sample.triangle, on_tool, unit(piece.half),
-                                    angle_of(piece.inward), of_tool);
-            obstacle_patch = sample_patch(obstacle, c.triangle, on_obstacle, of_body);
+            tool_patch = edge_patch(tool_mesh, sample.triangle, on_tool, unit(piece.half),
+                                    angle_of(piece.inward), tool_orientation);
+            obstacle_patch = sample_patch(obstacle, c.triangle, on_obstacle, body_orientation);
         }
         const std::optional<Vec3> normal = combined_normal(tool_patch, obstacle_patch);
         if (!normal) continue;

@@ -11,20 +11,23 @@ namespace {
 constexpr double swing = to_radians(60.0);  // of a wrench between two positions of its jaw on a hexagon
 constexpr double used_reach = 0.9;          // share of the reach: many arms are less stiff at its edge
 
-Quat to_viewer(const WorkspaceMap& w, const WorkspaceState& s) { return s.heading * w.rotation; }
+Quat device_to_assembly_rotation(const WorkspaceMap& w, const WorkspaceState& s) {
+    return s.heading * w.rotation;
+}
 
 }  // namespace
 
 Vec3 lever_end(const WorkspaceState& s, const Pose& tool) { return tool * Vec3(s.lever_arm, 0.0, 0.0); }
 
 Pose device_in_assembly(const WorkspaceMap& w, const WorkspaceState& s) {
-    return {s.centre, to_viewer(w, s)};
+    return {s.centre, device_to_assembly_rotation(w, s)};
 }
 
 void realign(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, const Pose& tool) {
-    const Quat to_user = to_viewer(w, s);
-    s.centre = lever_end(s, tool) - w.scale * (to_user * device.position);
-    s.tool_to_device = glm::normalize(glm::conjugate(to_user * device.orientation) * tool.orientation);
+    const Quat device_to_assembly = device_to_assembly_rotation(w, s);
+    s.centre = lever_end(s, tool) - w.scale * (device_to_assembly * device.position);
+    s.tool_to_device =
+        glm::normalize(glm::conjugate(device_to_assembly * device.orientation) * tool.orientation);
     s.commanded_tool = tool;
 }
 
@@ -44,10 +47,11 @@ Pose to_assembly(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, b
     if (clutch) {
         realign(w, s, device, s.commanded_tool);
     } else {
-        const Quat to_user = to_viewer(w, s);
+        const Quat device_to_assembly = device_to_assembly_rotation(w, s);
         if (std::isfinite(w.return_time)) s.centre -= std::min(1.0, dt / w.return_time) * s.centre;
-        s.commanded_tool.orientation = glm::normalize(to_user * device.orientation * s.tool_to_device);
-        s.commanded_tool.position = s.centre + w.scale * (to_user * device.position) -
+        s.commanded_tool.orientation =
+            glm::normalize(device_to_assembly * device.orientation * s.tool_to_device);
+        s.commanded_tool.position = s.centre + w.scale * (device_to_assembly * device.position) -
                                     s.commanded_tool.orientation * Vec3(s.lever_arm, 0.0, 0.0);
     }
     return s.commanded_tool;
@@ -91,7 +95,7 @@ Vec3 rotated_half_workspace(const Quat& rotation, const Vec3& reach) {
 }
 
 OutputCommand to_device(const WorkspaceMap& w, const WorkspaceState& s, const OutputCommand& on_tool) {
-    const Quat back = glm::conjugate(to_viewer(w, s));
+    const Quat back = glm::conjugate(device_to_assembly_rotation(w, s));
     return {back * on_tool.force * (s.force_share * w.power_ratio * w.scale),
             back * on_tool.torque * (s.force_share * w.power_ratio)};
 }

@@ -54,8 +54,9 @@ Setup make_setup(const SetupDescription& d) {
 
     setup.wrench.head_angle = d.head_angle;
     setup.wrench.handle_length = d.handle_length;
-    setup.wrench.jaw = collision::make_jaw(d.jaw, d.head_angle, d.head_thickness, d.jaw_depth, d.jaw_tip);
-    setup.wrench.half_play = joint::rounded_half_play(d.jaw, across_flats, 0.0);
+    setup.wrench.jaw =
+        collision::make_jaw(d.jaw_opening, d.head_angle, d.head_thickness, d.jaw_depth, d.jaw_tip);
+    setup.wrench.half_play = joint::rounded_half_play(d.jaw_opening, across_flats, 0.0);
     const double max_torque = std::max(d.max_torque, 1.0);
     // Modelling assumption: wrench and wrists yield 2.5° at the largest torque.
     setup.wrench.stiffness = max_torque / to_radians(2.5);

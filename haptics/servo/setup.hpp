@@ -67,7 +67,7 @@ struct SetupDescription {
     joint::Law law = joint::Law::mechanistic;
     std::vector<joint::PublishedParameters> published;  // law `published`: one set for each joint
     const joint::FlangePlate* flange = nullptr;
-    double jaw = 0.0;             // m, opening across the flats
+    double jaw_opening = 0.0;     // m, across the flats
     double head_thickness = 0.0;  // m; 0: the default proportion (haptics/collision/jaw.hpp)
     double jaw_depth = 0.0;       // m, from the middle of the jaw to its throat; 0: the default
     double jaw_tip = 0.0;         // m, from the middle of the jaw to its tips; 0: the default

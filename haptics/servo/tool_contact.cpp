@@ -23,7 +23,7 @@ constexpr double jaw_skin = 2e-6;
 constexpr double both_skins = 2.5;  // of jaw_skin: one on each flank, and a margin
 
 // Shares of the jaw opening. A nut whose centre is within these limits can touch only the jaw of the wrench.
-constexpr double beside = 0.15, ahead = 0.25;
+constexpr double max_offset_across = 0.15, max_offset_to_throat = 0.25;
 constexpr double nearly_level = 0.99;  // cos 8°
 
 // Transforms a point of the assembly into the jaw: x along the slot towards its throat, y across, z normal.
@@ -37,7 +37,7 @@ bool only_jaw_in_reach(const Setup& setup, const NutGeometry& nut, const Pose& n
     const collision::Jaw& jaw = setup.wrench.jaw;
     const Vec3 p = to_jaw_frame(jaw, wrench, nut_frame.position + 0.5 * nut.height * nut.axis);
     const Vec3 normal = wrench.orientation * Vec3(0, 0, 1);
-    return std::abs(p.y) < beside * jaw.opening && p.x < ahead * jaw.opening &&
+    return std::abs(p.y) < max_offset_across * jaw.opening && p.x < max_offset_to_throat * jaw.opening &&
            std::abs(glm::dot(normal, nut.axis)) > nearly_level;
 }
 

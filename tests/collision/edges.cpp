@@ -96,11 +96,11 @@ TEST_CASE("Edges: a piece that moves within its certified bounds has no crossing
         query(pose, 0.6 * mm, first);
         crossed += first.count > 0 ? 1 : 0;
         for (const double band : {0.05 * mm, 0.6 * mm, 2.0 * mm}) {
-            const double way = 0.999 * (first.clear - band);
+            const double way = 0.999 * (first.clear_distance - band);
             if (!(way > 0.0)) continue;
             // Rotate about the piece's middle by a share of the permitted motion and shift by the rest.
             const double turn =
-                std::min({0.99 * first.turn, 0.5 * random.uniform() * way / tool.origin_radius(), 1.0});
+                std::min({0.99 * first.clear_turn, 0.5 * random.uniform() * way / tool.origin_radius(), 1.0});
             const Quat turned = rotation(turn * random_direction(random)) * pose.orientation;
             const double shift = way - turn * tool.origin_radius();
             Pose there{pose.position + shift * random_direction(random), turned};

@@ -12,7 +12,7 @@ using Bench = OpenHapticsBench;
 
 namespace {
 
-constexpr double let_go = 0.02;  // s, the longest time from a fault to a hand without force
+constexpr double max_release_time = 0.02;  // s, the longest time from a fault to a hand without force
 
 // Holds 2 N, causes the fault and keeps commanding 2 N. The hand must be free in time.
 template <class Cause>
@@ -20,8 +20,8 @@ void check_lets_go(Bench& bench, DeviceDriver& device, const Cause& cause) {
     REQUIRE(bench.drive(device, two_newton, 0.05));
     REQUIRE(bench.force_now() == doctest::Approx(2.0));
     cause();
-    const double until = bench.now + let_go;
-    bench.drive(device, two_newton, let_go);
+    const double until = bench.now + max_release_time;
+    bench.drive(device, two_newton, max_release_time);
     bench.timer.wait(until - bench.now);  // a lost arm refuses commands
     CHECK(bench.force_now() == 0.0);
 }
@@ -44,7 +44,7 @@ TEST_CASE(
     CHECK(bench.force_now() == doctest::Approx(2.0));
     const double closing = bench.now;
     device.reset();
-    CHECK(bench.now - closing < let_go);
+    CHECK(bench.now - closing < max_release_time);
     CHECK(bench.force_now() == 0.0);
     CHECK(bench.arm.running() == 0);
     CHECK(bench.arm.open() == 0);
@@ -188,7 +188,7 @@ TEST_CASE("OpenHaptics: a late tick delays samples; after a very late one the fo
     const double late = bench.now;
     while (bench.force_now() > 0.0 && bench.now < late + 0.15)
         REQUIRE(bench.drive(*device, two_newton, 1e-3));
-    CHECK(bench.now - late < let_go);
+    CHECK(bench.now - late < max_release_time);
     REQUIRE(bench.drive(*device, two_newton, 0.25));
     CHECK(bench.force_now() > 0.0);
     CHECK(bench.force_now() < 1.0);
@@ -199,7 +199,7 @@ TEST_CASE("OpenHaptics: a late tick delays samples; after a very late one the fo
     bench.arm.late(10.0);
     const double closing = bench.now;
     device.reset();
-    CHECK(bench.now - closing < let_go + 1e-3);
+    CHECK(bench.now - closing < max_release_time + 1e-3);
     CHECK(bench.force_now() == 0.0);
 }
 

@@ -22,12 +22,12 @@ namespace {
 struct SupervisedDevice {
     explicit SupervisedDevice(Description description = test::arm(),
                               const std::vector<FaultInterval>& faults = {})
-        : thing({std::move(description), [](double) { return Sample{}; }, std::nullopt, faults},
-                virtual_timer(time)),
-          supervisor(thing.factory(), virtual_timer(time)) {}
+        : device({std::move(description), [](double) { return Sample{}; }, std::nullopt, faults},
+                 virtual_timer(time)),
+          supervisor(device.factory(), virtual_timer(time)) {}
 
     VirtualTime time;
-    ScriptedDevice thing;
+    ScriptedDevice device;
     DeviceSupervisor supervisor;
     force::OutputCommand command_to_send{Vec3(1, 2, 3), Vec3(0.1, 0, 0)};
     bool sends_commands = true, enabled = true;
@@ -41,11 +41,11 @@ struct SupervisedDevice {
         if (sample) ++samples;
         return sample;
     }
-    void until(double end) {
+    void run_until(double end) {
         while (time.now < end) poll_once();
     }
-    [[nodiscard]] double force() const { return glm::length(thing.rendered().force); }
-    [[nodiscard]] double torque() const { return glm::length(thing.rendered().torque); }
+    [[nodiscard]] double force() const { return glm::length(device.rendered().force); }
+    [[nodiscard]] double torque() const { return glm::length(device.rendered().torque); }
 
   private:
     std::uint64_t number_ = 0;
@@ -149,19 +149,19 @@ TEST_CASE("DeviceSupervisor: a replug at any moment is reported within 10 ms and
     Random random(1);
     for (int run = 0; run < 200; ++run) {
         SupervisedDevice supervised;
-        supervised.until(random.uniform(0.01, 0.5));
+        supervised.run_until(random.uniform(0.01, 0.5));
         REQUIRE(supervised.supervisor.status().state == DeviceState::usable);
         REQUIRE(supervised.supervisor.status().fault_message.empty());
         const double pulled = supervised.time.now;
         const double back = pulled + random.uniform(0.001, 5.0);
-        supervised.thing.inject({InjectedFault::unplugged, pulled, back});
-        supervised.until(pulled + 0.01);
+        supervised.device.inject({InjectedFault::unplugged, pulled, back});
+        supervised.run_until(pulled + 0.01);
         if (back > pulled + 0.01) {
             CHECK(supervised.supervisor.status().state == DeviceState::absent);
             CHECK(supervised.supervisor.status().fault_message.find("not plugged in") != std::string::npos);
             CHECK(supervised.supervisor.status().losses == 1);
         }
-        supervised.until(back);
+        supervised.run_until(back);
         while (supervised.supervisor.status().state != DeviceState::usable &&
                supervised.time.now < back + 3.0)
             supervised.poll_once();
@@ -177,39 +177,39 @@ TEST_CASE("DeviceSupervisor: when commands stop, the force is released within 20
     Random random(2);
     for (int run = 0; run < 200; ++run) {
         SupervisedDevice supervised;
-        supervised.until(random.uniform(0.05, 0.2));
+        supervised.run_until(random.uniform(0.05, 0.2));
         REQUIRE(supervised.force() > 3.0);
         supervised.sends_commands = false;
         const double last = supervised.time.now;
-        supervised.until(last + 0.010);
+        supervised.run_until(last + 0.010);
         CHECK(supervised.force() > 3.0);  // a late command is no loss yet
-        supervised.until(last + 0.020);
+        supervised.run_until(last + 0.020);
         CHECK(supervised.force() == 0.0);
         CHECK(supervised.torque() == 0.0);
         CHECK(supervised.supervisor.status().command_timeouts == 1);
-        supervised.until(last + 0.5);
+        supervised.run_until(last + 0.5);
         CHECK(supervised.supervisor.status().command_timeouts == 1);
         supervised.sends_commands = true;
-        supervised.until(last + 0.51);
+        supervised.run_until(last + 0.51);
         CHECK(supervised.force() > 3.0);
     }
 }
 
 TEST_CASE("DeviceSupervisor: renders no force while disabled, for a NaN command, and after close") {
     SupervisedDevice supervised;
-    supervised.until(0.1);
+    supervised.run_until(0.1);
     REQUIRE(supervised.force() > 3.0);
     supervised.enabled = false;
-    supervised.until(0.103);
+    supervised.run_until(0.103);
     CHECK(supervised.force() == 0.0);
     supervised.enabled = true;
-    supervised.until(0.106);
+    supervised.run_until(0.106);
     REQUIRE(supervised.force() > 3.0);
     supervised.command_to_send.torque.z = std::numeric_limits<double>::quiet_NaN();
-    supervised.until(0.109);
+    supervised.run_until(0.109);
     CHECK(supervised.force() == 0.0);
     supervised.command_to_send.torque.z = 0.0;
-    supervised.until(0.112);
+    supervised.run_until(0.112);
     REQUIRE(supervised.force() > 3.0);
     supervised.supervisor.close();
     CHECK(supervised.force() == 0.0);
@@ -256,20 +256,20 @@ TEST_CASE("DeviceSupervisor: a command is clamped to the described limits and ax
 
 TEST_CASE("DeviceSupervisor: invalid samples are counted and dropped; many in a row count as silence") {
     SupervisedDevice supervised;
-    supervised.until(0.1);
+    supervised.run_until(0.1);
     const std::uint64_t before = supervised.samples;
-    supervised.thing.inject({InjectedFault::not_a_number, 0.1, 0.2});
-    supervised.until(0.199);
+    supervised.device.inject({InjectedFault::not_a_number, 0.1, 0.2});
+    supervised.run_until(0.199);
     CHECK(supervised.samples == before);
     CHECK(supervised.supervisor.status().malformed_samples >= 98);
     CHECK(supervised.supervisor.status().state == DeviceState::usable);
-    supervised.until(0.3);
+    supervised.run_until(0.3);
     CHECK(supervised.samples > before + 90);
-    supervised.thing.inject({InjectedFault::not_a_number, 0.3, 0.7});
-    supervised.until(0.6);
+    supervised.device.inject({InjectedFault::not_a_number, 0.3, 0.7});
+    supervised.run_until(0.6);
     CHECK(supervised.supervisor.status().state == DeviceState::silent);
     CHECK(supervised.supervisor.status().fault_message.find("no valid samples") != std::string::npos);
-    supervised.until(0.8);
+    supervised.run_until(0.8);
     CHECK(supervised.supervisor.status().state == DeviceState::usable);
     CHECK(supervised.supervisor.status().fault_message.empty());
     CHECK(supervised.supervisor.status().openings == 1);
@@ -279,16 +279,16 @@ TEST_CASE(
     "DeviceSupervisor: a silent device is reported within 1 s, reopened, and usable within 2 s of its "
     "return") {
     SupervisedDevice supervised;
-    supervised.until(0.1);
-    supervised.thing.inject({InjectedFault::silent, 0.1, 4.0});
-    supervised.until(0.5);
+    supervised.run_until(0.1);
+    supervised.device.inject({InjectedFault::silent, 0.1, 4.0});
+    supervised.run_until(0.5);
     CHECK(supervised.supervisor.status().state == DeviceState::silent);
     CHECK_FALSE(supervised.supervisor.status().fault_message.empty());
     CHECK(supervised.supervisor.status().openings == 1);
-    supervised.until(3.9);
+    supervised.run_until(3.9);
     CHECK(supervised.supervisor.status().silence_timeouts >= 2);
     CHECK_FALSE(supervised.supervisor.status().fault_message.empty());
-    supervised.until(4.0);
+    supervised.run_until(4.0);
     while (supervised.supervisor.status().state != DeviceState::usable && supervised.time.now < 8.0)
         supervised.poll_once();
     CHECK(supervised.time.now < 6.0);
@@ -300,7 +300,7 @@ TEST_CASE("DeviceSupervisor: devices that are silent at rest may rest indefinite
         description.sensing = sensing;
         description.silent_at_rest = sensing == Sensing::angle;
         SupervisedDevice supervised(description, {{InjectedFault::silent, 0.0, 100.0}});
-        supervised.until(10.0);
+        supervised.run_until(10.0);
         CHECK(supervised.supervisor.status().state == DeviceState::usable);
         CHECK(supervised.supervisor.status().openings == 1);
         CHECK(supervised.supervisor.status().fault_message.empty());
