@@ -9,11 +9,13 @@
 #include "shaders/features.glsl"
 
 layout(location = 0) in vec2 em;
-layout(location = 1) in vec2 uv;
+layout(location = 1) in vec2 uv_or_half_size;
 layout(location = 2) flat in vec4 color;
-layout(location = 3) flat in vec4 glyph_parameters;
-layout(location = 4) flat in vec2 middle;
-layout(location = 5) noperspective in float depth;
+layout(location = 3) flat in float growth_or_radius;
+layout(location = 4) flat in float hidden_opacity;
+layout(location = 5) flat in float is_plate;
+layout(location = 6) flat in vec2 middle;
+layout(location = 7) noperspective in float depth;
 
 layout(set = 0, binding = 3) uniform sampler2D atlas;
 layout(set = 0, binding = 4) uniform sampler2DMSArray depths;
@@ -21,20 +23,21 @@ layout(location = 0) out vec4 color_out;
 
 const vec2 taps[4] = vec2[](vec2(-0.25, -0.25), vec2(0.25, -0.25), vec2(-0.25, 0.25), vec2(0.25, 0.25));
 
-// Distance to the edge of a rounded rectangle, positive inside; `uv` holds half its size.
+// Distance to the edge of a rounded rectangle, positive inside.
 float plate_distance(vec2 at) {
-    const vec2 beyond = abs(at - middle) - (uv - glyph_parameters.x);
-    return glyph_parameters.x - length(max(beyond, 0.0)) - min(max(beyond.x, beyond.y), 0.0);
+    const vec2 beyond = abs(at - middle) - (uv_or_half_size - growth_or_radius);
+    return growth_or_radius - length(max(beyond, 0.0)) - min(max(beyond.x, beyond.y), 0.0);
 }
 
 void main() {
     const vec2 em_x = dFdx(em), em_y = dFdy(em);  // one pixel on the screen
-    const vec2 uv_x = dFdx(uv), uv_y = dFdy(uv);
+    const vec2 uv_x = dFdx(uv_or_half_size), uv_y = dFdy(uv_or_half_size);
     float d[4];
     for (int i = 0; i < 4; ++i)
-        d[i] = glyph_parameters.z > 0.5
+        d[i] = is_plate > 0.5
                    ? plate_distance(em + taps[i].x * em_x + taps[i].y * em_y)
-                   : textureLod(atlas, uv + taps[i].x * uv_x + taps[i].y * uv_y, 0.0).r + glyph_parameters.x;
+                   : textureLod(atlas, uv_or_half_size + taps[i].x * uv_x + taps[i].y * uv_y, 0.0).r +
+                         growth_or_radius;
     // The edge's normal in the glyph's plane, from the screen derivatives of the distance. `across` is the
     // width of a pixel along this normal.
     const vec2 change = vec2(d[1] + d[3] - d[0] - d[2], d[2] + d[3] - d[0] - d[1]);
@@ -47,6 +50,6 @@ void main() {
     float hidden = 0.0;
     for (int i = 0; i < 4; ++i)
         hidden += texelFetch(depths, ivec3(gl_FragCoord.xy, view_index), i).r > depth ? 0.25 : 0.0;
-    const float alpha = color.a * covered * mix(1.0, glyph_parameters.y, hidden);
+    const float alpha = color.a * covered * mix(1.0, hidden_opacity, hidden);
     color_out = vec4(color.rgb * alpha, alpha);
 }

@@ -11,12 +11,13 @@ layout(set = 0, binding = 1, std430) readonly buffer Labels { LabelFrame labels[
 layout(set = 0, binding = 2, std430) readonly buffer Quads { LabelQuad quads[]; };
 
 layout(location = 0) out vec2 em;
-layout(location = 1) out vec2 uv;
+layout(location = 1) out vec2 uv_or_half_size;  // of a glyph in the atlas; em, of a plate
 layout(location = 2) flat out vec4 color;
-// x: grow; y: visible fraction behind parts; z: 1 for a background
-layout(location = 3) flat out vec4 glyph_parameters;
-layout(location = 4) flat out vec2 middle;
-layout(location = 5) noperspective out float depth;  // compared with the depth of parts
+layout(location = 3) flat out float growth_or_radius;  // em: beyond a glyph's edge; of a plate's corners
+layout(location = 4) flat out float hidden_opacity;    // 0 … 1, factor on the opacity behind parts
+layout(location = 5) flat out float is_plate;          // 1: a background; 0: a glyph
+layout(location = 6) flat out vec2 middle;
+layout(location = 7) noperspective out float depth;  // compared with the depth of parts
 
 void main() {
     const LabelQuad quad = quads[gl_VertexIndex / 6];
@@ -24,9 +25,11 @@ void main() {
     const int corner = int[](0, 1, 2, 2, 1, 3)[gl_VertexIndex % 6];
     const vec2 side = vec2(corner & 1, corner >> 1);
     em = mix(quad.rect.xy, quad.rect.zw, side);
-    uv = quad.plate != 0u ? quad.uv.xy : mix(quad.uv.xy, quad.uv.zw, side);
+    uv_or_half_size = quad.plate != 0u ? quad.uv.xy : mix(quad.uv.xy, quad.uv.zw, side);
     color = quad.color;
-    glyph_parameters = vec4(quad.grow, label.up.w, float(quad.plate), 0.0);
+    growth_or_radius = quad.grow;
+    hidden_opacity = label.up.w;
+    is_plate = float(quad.plate);
     middle = 0.5 * (quad.rect.xy + quad.rect.zw);
 
     const View view = frame.views[view_index];

@@ -78,7 +78,7 @@ Status DeformPass::plan(PassContext& context, std::vector<Job>& jobs) {
     return {};
 }
 
-Result<VkDescriptorSet> DeformPass::set_for(PassContext& context, const Object& object) {
+Result<VkDescriptorSet> DeformPass::descriptor_set_for(PassContext& context, const Object& object) {
     BOLT_TRY_ASSIGN(auto joints, upload_transient<glm::mat4>(context.frame, object.deformation->joints));
     BOLT_TRY_ASSIGN(auto weights, upload_transient<float>(context.frame, object.deformation->weights));
     BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, pipeline_, 0));
@@ -108,7 +108,7 @@ Status DeformPass::draw(PassContext& context) {
     const Object* object = nullptr;
     for (const Job& job : jobs) {
         if (std::exchange(object, job.object) != job.object) {
-            BOLT_TRY_ASSIGN(auto set, set_for(context, *job.object));
+            BOLT_TRY_ASSIGN(auto set, descriptor_set_for(context, *job.object));
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.layout.get(), 0, 1,
                                     &set, 0, nullptr);
         }

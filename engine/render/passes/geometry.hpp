@@ -25,7 +25,7 @@ class DeformPass {
         shared::DeformPart constants{};  // push constants
     };
     Status plan(PassContext& context, std::vector<Job>& jobs);
-    Result<VkDescriptorSet> set_for(PassContext& context, const Object& object);
+    Result<VkDescriptorSet> descriptor_set_for(PassContext& context, const Object& object);
 
     gpu::Pipeline pipeline_;
     gpu::Buffer vertices_;  // shared by frames in flight: the GPU executes them one after the other
