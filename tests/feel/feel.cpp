@@ -75,13 +75,13 @@ TEST_CASE("Arm feel: at the announced limits no arm gives energy, trembles, or s
         double at_rim = 0.0;
         const FeelOutcome held = feel_of(zq350(), with(facts), true, presses, at_rim);
         CHECK_FALSE(gives_energy(held));
-        CHECK(held.record.greatest_energy <= energy_at_any_time);
+        CHECK(held.record.greatest_energy <= max_energy);
         CHECK_FALSE(trembles(held));
         CHECK(step_percent(held, facts.announced()) <= largest_step);
         CHECK(held.touched);
         // No hand but the friction of the arm damps it: a first bounce may give energy, but it may not go on.
         const FeelOutcome alone = feel_of(zq350(), with(facts), false, presses, at_rim);
-        CHECK(alone.record.energy <= energy_at_any_time);
+        CHECK(alone.record.energy <= max_energy);
         CHECK_FALSE(trembles(alone));
         CHECK(step_percent(alone, facts.announced()) <= largest_step);
     }
@@ -93,7 +93,7 @@ TEST_CASE(
     for (const ArmFacts& facts : arm_table()) {
         CAPTURE(std::string(facts.name));
         RigOptions options = with(facts);
-        options.grip = hand_grips()[loose_grip];
+        options.hand = hand_impedances()[loose_hand];
         options.controller = false;
         options.coupling_factor = options.wrench_factor = 10.0;
         CHECK_FALSE(is_stable(run_press(zq350(), options, presses.front())));
@@ -108,11 +108,11 @@ TEST_CASE("Arm feel: a wrench that the casing holds back does not push the hand 
                                    [](const Press& press) { return press.name == "near a bolt"; });
     REQUIRE(near != presses.end());
     for (const char* key : {"omega7", "touch"})
-        for (const HandGrip& grip : hand_grips()) {
-            if (grip.unheld) continue;
-            CAPTURE(std::string(grip.name));
+        for (const NamedHandImpedance& hand : hand_impedances()) {
+            if (hand.unheld) continue;
+            CAPTURE(std::string(hand.name));
             RigOptions options = with(arm(key));
-            options.grip = grip;
+            options.hand = hand;
             const FeelOutcome outcome = run_press(zq350(), options, *near);
             CHECK(outcome.touched);
             CHECK(is_stable(outcome));

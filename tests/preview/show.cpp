@@ -21,7 +21,7 @@ namespace {
 
 PreviewOptions options() {
     PreviewOptions o;
-    o.what = "cover-m8";
+    o.source = "cover-m8";
     o.size = {160, 120};
     return o;
 }

@@ -67,7 +67,7 @@ void add_preview(CLI::App& app, int& exit_code) {
     PreviewOptions& options = arguments->options;
     CLI::App* command = app.add_subcommand(
         "preview", "Show an assembly or a model in a window and reload its files when they change");
-    command->add_option("what", options.what, "Assembly (folder, file or name) or a .glb")->required();
+    command->add_option("what", options.source, "Assembly (folder, file or name) or a .glb")->required();
     command->add_option("--size", arguments->size, "WIDTHxHEIGHT of the window or the picture");
     command->add_option("--view", options.view, "Named view of the assembly to begin with");
     command->add_option("--light", options.light, "studio, or a Radiance .hdr file");

@@ -11,7 +11,7 @@
 namespace bolt::author {
 
 struct PreviewOptions {
-    std::string what;              // assembly (folder, file or name) or model file
+    std::string source;            // assembly (folder, file or name) or model file
     std::string view;              // name of the first view; empty: the whole model
     std::string light = "studio";  // or a Radiance file
     std::string shaders;           // folder with GLSL; empty: the built-in shaders
@@ -24,11 +24,11 @@ struct PreviewOptions {
 // The model and the light that the preview shows, and the watch on their files.
 class PreviewSources {
   public:
-    explicit PreviewSources(const PreviewOptions& options) : what_(options.what), light_(options.light) {}
+    explicit PreviewSources(const PreviewOptions& options) : source_(options.source), light_(options.light) {}
 
     // Reload the files. set_shown() makes the result current.
     [[nodiscard]] view::ModelLoadResult read_model(view::DetailLevel level) const {
-        return view::load_model(what_, level);
+        return view::load_model(source_, level);
     }
     [[nodiscard]] Result<shading::RadianceImage> read_light() const { return view::load_light(light_); }
     void set_shown(view::LoadedModel model, view::DetailLevel level);
@@ -45,7 +45,7 @@ class PreviewSources {
     [[nodiscard]] view::DetailLevel level() const { return level_; }
 
   private:
-    std::string what_, light_;
+    std::string source_, light_;
     view::DetailLevel level_ = view::DetailLevel::near;
     view::LoadedModel model_;
     shading::RadianceImage radiance_;

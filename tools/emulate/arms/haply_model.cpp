@@ -89,14 +89,14 @@ void HaplyArmModel::add_event(const char* name, const char* safety_type) {
     fault_time_ = time_;
 }
 
-bool HaplyArmModel::is_old() const {
+bool HaplyArmModel::is_before_3_5() const {
     return !options_.version.empty() && std::strtod(options_.version.c_str(), nullptr) < 3.5;
 }
 
 bool HaplyArmModel::command(const std::string& message) {
     const Json json = Json::parse(message, nullptr, false);
     const Json::json_pointer at(std::string("/inverse3/0/commands/set_cursor_force/") +
-                                (is_old() ? "values" : "vector"));
+                                (is_before_3_5() ? "values" : "vector"));
     const Json::json_pointer id("/inverse3/0/device_id");
     if (!json.is_object() || !json.contains(at) || !json.contains(id) || json[id] != arm_id) return false;
     Vec3 force{json[at].value("x", NAN), json[at].value("y", NAN), json[at].value("z", NAN)};

@@ -85,7 +85,7 @@ class HaplyArmModel {
   private:
     void step();
     void add_event(const char* name, const char* safety_type);
-    [[nodiscard]] bool is_old() const;
+    [[nodiscard]] bool is_before_3_5() const;
     // Applies the force of a message; false if it has none in the format of this version.
     bool command(const std::string& message);
     [[nodiscard]] nlohmann::json position_json() const;

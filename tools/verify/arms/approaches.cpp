@@ -124,7 +124,7 @@ Approach run_approach(TightenedAssembly& tightened, const ArmFacts& arm, std::ui
     const ReachTask task = draw_reach_task(tightened, random);
     RigOptions options;
     options.arm = &arm;
-    options.grip = hand_grips()[usual_grip];
+    options.hand = hand_impedances()[usual_hand];
     options.tool = task.start;
     options.guided_joint = guided ? static_cast<int>(task.joint) : -1;
     ArmRig rig(tightened, options);

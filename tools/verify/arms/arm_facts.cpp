@@ -147,28 +147,28 @@ const ArmFacts* find_arm(std::string_view key) {
     return found == table.end() ? nullptr : &*found;
 }
 
-// The usual grip is the arm of Fig. 3 in "Haptic perception of force magnitude and its relation to postural
+// The usual hand is the arm of Fig. 3 in "Haptic perception of force magnitude and its relation to postural
 // arm dynamics in 3D", Sci. Rep. 5 (2015) 18004: 0.554 kg, 6.45 N·s/m, 135 N/m. All other values are ours.
-// Those of the three hands lie in the ranges of tests/support/random_arm.hpp, for the loose and the stiff
-// grip near the ends. "no hand" lies outside: only a very soft spring acts on the position.
-const std::array<HandGrip, grip_count>& hand_grips() {
-    static constexpr std::array<HandGrip, grip_count> grips{
-        HandGrip{"no hand", 0.0, 0.0, 5.0, 1e-4, 2e-3, 0.3, true},
-        HandGrip{"loose", 0.08, 2.0, 60.0, 4e-4, 0.01, 0.5},
-        HandGrip{"usual", 0.554, 6.45, 135.0, 2e-3, 0.05, 2.0},
-        HandGrip{"stiff", 1.0, 20.0, 1000.0, 5e-3, 0.12, 6.0},
+// Those of the three hands lie in the ranges of tests/support/random_arm.hpp, for the loose and the stiff one
+// near the ends. "no hand" lies outside: only a very soft spring acts on the position.
+const std::array<NamedHandImpedance, hand_impedance_count>& hand_impedances() {
+    static constexpr std::array<NamedHandImpedance, hand_impedance_count> hands{
+        NamedHandImpedance{"no hand", 0.0, 0.0, 5.0, 1e-4, 2e-3, 0.3, true},
+        NamedHandImpedance{"loose", 0.08, 2.0, 60.0, 4e-4, 0.01, 0.5},
+        NamedHandImpedance{"usual", 0.554, 6.45, 135.0, 2e-3, 0.05, 2.0},
+        NamedHandImpedance{"stiff", 1.0, 20.0, 1000.0, 5e-3, 0.12, 6.0},
     };
-    return grips;
+    return hands;
 }
 
-device::HandAndArmParameters parameters_of(const ArmFacts& arm, const HandGrip& grip) {
+device::HandAndArmParameters parameters_of(const ArmFacts& arm, const NamedHandImpedance& hand) {
     device::HandAndArmParameters p;
-    p.mass = arm.mass.value + grip.mass;
-    p.damping = grip.damping;
-    p.stiffness = grip.stiffness;
-    p.inertia = arm.inertia.value + grip.inertia;
-    p.angular_damping = grip.angular_damping;
-    p.angular_stiffness = grip.angular_stiffness;
+    p.mass = arm.mass.value + hand.mass;
+    p.damping = hand.damping;
+    p.stiffness = hand.stiffness;
+    p.inertia = arm.inertia.value + hand.inertia;
+    p.angular_damping = hand.angular_damping;
+    p.angular_stiffness = hand.angular_stiffness;
     p.friction = arm.friction.value;
     p.angular_friction = 0.0;
     p.encoder = arm.encoder.value;

@@ -32,10 +32,10 @@ struct ArmFacts {
     std::string_view name;  // for the tables
     device::Description (*announced)() = nullptr;
     bool senses_rotation = true;
-    Fact mass;             // kg, apparent at the grip
+    Fact mass;             // kg, apparent at the handle
     Fact friction;         // N, dry
-    Fact encoder;          // m, one step at the grip
-    Fact inertia;          // kg·m², of the wrist about the grip
+    Fact encoder;          // m, one step at the handle
+    Fact inertia;          // kg·m², of the wrist about the handle
     Fact angular_encoder;  // rad
 };
 
@@ -44,19 +44,19 @@ const ArmFacts* find_arm(std::string_view key);  // null: none
 
 // The hand that holds the arm: mass, damper and spring to its intended pose (Hogan, as in simulated_arm.hpp).
 // The masses of hand and arm add up.
-struct HandGrip {
+struct NamedHandImpedance {
     std::string_view name;
     double mass = 0.0, damping = 0.0, stiffness = 0.0;                     // kg, N·s/m, N/m
     double inertia = 0.0, angular_damping = 0.0, angular_stiffness = 0.0;  // kg·m², N·m·s/rad, N·m/rad
     bool unheld = false;  // nobody holds the arm; a very soft spring stands for a constant push
 };
 
-inline constexpr std::size_t grip_count = 4;
-// No hand, a loose, a usual and a stiff grip. The first one is the worst case: only the arm's own friction
-// damps it.
-const std::array<HandGrip, grip_count>& hand_grips();
-inline constexpr std::size_t loose_grip = 1, usual_grip = 2;
+inline constexpr std::size_t hand_impedance_count = 4;
+// No hand, and a loose, a usual and a stiff hand. The first one is the worst case: only the arm's own
+// friction damps it.
+const std::array<NamedHandImpedance, hand_impedance_count>& hand_impedances();
+inline constexpr std::size_t loose_hand = 1, usual_hand = 2;
 
-device::HandAndArmParameters parameters_of(const ArmFacts& arm, const HandGrip& grip);
+device::HandAndArmParameters parameters_of(const ArmFacts& arm, const NamedHandImpedance& hand);
 
 }  // namespace bolt::arm_validation

@@ -66,7 +66,7 @@ Result<TightenedAssembly> load_tightened_assembly(const std::string& name) {
 }
 
 ArmRig::ArmRig(TightenedAssembly& tightened_assembly, const RigOptions& options)
-    : tightened(tightened_assembly), facts(*options.arm), unheld(options.grip.unheld) {
+    : tightened(tightened_assembly), facts(*options.arm), unheld(options.hand.unheld) {
     layout = layout_of(facts, options.tool, tightened.assembly.wrench.handle_length);
     force::OutputLimits limits = station::limits_of(layout);
     if (!options.controller) limits.damping = limits.angular_damping = 0.0;
@@ -83,7 +83,7 @@ ArmRig::ArmRig(TightenedAssembly& tightened_assembly, const RigOptions& options)
     inputs.controls.dead_man = true;
     inputs.controls.grip = servo::Grip::wrench;
     inputs.controls.guide = static_cast<std::int16_t>(options.guided_joint);
-    arm.parameters = parameters_of(facts, options.grip);
+    arm.parameters = parameters_of(facts, options.hand);
     for (int i = 0; i < 3; ++i) tick();  // the station takes the arm and the wrench
     arm.energy_out = 0.0;
     record = {};

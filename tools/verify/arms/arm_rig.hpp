@@ -31,7 +31,7 @@ struct Record {
 
 struct RigOptions {
     const ArmFacts* arm = nullptr;
-    HandGrip grip;
+    NamedHandImpedance hand;
     Pose tool;                     // of the wrench at the beginning, in the assembly's frame
     bool controller = true;        // the passivity controller
     double coupling_factor = 1.0;  // on the stiffness of the coupling (contact)
@@ -54,7 +54,7 @@ struct ArmRig {
     [[nodiscard]] double contact_force() const;
     // N/m, of the coupling as the device feels it.
     [[nodiscard]] double coupling_stiffness() const;
-    // N·m/rad, or N/m at the grip, of the wrench on a nut that does not turn, as the device feels it.
+    // N·m/rad, or N/m at the handle, of the wrench on a nut that does not turn, as the device feels it.
     [[nodiscard]] double nut_stiffness() const;
 
     TightenedAssembly& tightened;

@@ -75,8 +75,10 @@ class Measurement {
     FeelOutcome outcome_;
 };
 
-// Share of the device's greatest force with which a hand presses; a looser grip presses less.
-double press_share(const HandGrip& grip) { return std::clamp(0.2 + grip.stiffness / 2000.0, 0.2, 0.6); }
+// Share of the device's greatest force with which a hand presses; a softer hand presses less.
+double press_share(const NamedHandImpedance& hand) {
+    return std::clamp(0.2 + hand.stiffness / 2000.0, 0.2, 0.6);
+}
 
 double shake_at(double time) {
     return time > shake_begin && time < shake_end ? std::sin(shake_rate * (time - shake_begin)) : 0.0;
@@ -139,14 +141,14 @@ bool near_a_bolt(const servo::Setup& setup, const Vec3& jaw) {
 
 }  // namespace
 
-bool gives_energy(const FeelOutcome& o) { return o.record.energy > (o.held ? 0.0 : energy_of_free_arm); }
+bool gives_energy(const FeelOutcome& o) { return o.record.energy > (o.held ? 0.0 : max_energy_of_free_arm); }
 
 bool trembles(const FeelOutcome& o) {
     return o.late_swing > perceptible_swing && o.late_swing > 0.3 * o.early_swing;
 }
 
 bool is_stable(const FeelOutcome& o) {
-    return !gives_energy(o) && o.record.greatest_energy <= energy_at_any_time && !trembles(o);
+    return !gives_energy(o) && o.record.greatest_energy <= max_energy && !trembles(o);
 }
 
 double step_percent(const FeelOutcome& o, const device::Description& arm) {
@@ -192,7 +194,7 @@ FeelOutcome run_press(TightenedAssembly& tightened, RigOptions options, const Pr
     ArmRig rig(tightened, options);
     const double stiffness = rig.arm.parameters.stiffness;
     const double strength =
-        rig.unheld ? push : press_share(options.grip) * rig.layout.mover->limits.force;  // N
+        rig.unheld ? push : press_share(options.hand) * rig.layout.mover->limits.force;  // N
     const Vec3 direction =
         rig.device_pose({press.start.position + press.direction, press.start.orientation}).position;
     const Vec3 along = glm::normalize(direction - rig.arm.pose.position);

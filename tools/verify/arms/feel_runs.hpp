@@ -23,7 +23,7 @@ struct FeelOutcome {
 // J, upper bounds of the net energy that the device gives: at any time; and at the end of a run without a
 // hand (the credit of the passivity controller). A hand that holds the arm must put in more than it gets
 // back.
-inline constexpr double energy_at_any_time = 1e-3, energy_of_free_arm = force::max_credit;
+inline constexpr double max_energy = 1e-3, max_energy_of_free_arm = force::max_credit;
 inline constexpr double perceptible_swing = 100e-6;  // m
 
 bool gives_energy(const FeelOutcome& outcome);

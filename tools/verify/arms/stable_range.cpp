@@ -7,10 +7,10 @@ namespace bolt::arm_validation {
 
 namespace {
 
-RigOptions rig_options(const RangeQuery& query, const HandGrip& grip, double factor) {
+RigOptions rig_options(const RangeQuery& query, const NamedHandImpedance& hand, double factor) {
     RigOptions options;
     options.arm = query.arm;
-    options.grip = grip;
+    options.hand = hand;
     options.controller = query.controller;
     (query.spring == TestedSpring::contact ? options.coupling_factor : options.wrench_factor) = factor;
     return options;
@@ -18,9 +18,9 @@ RigOptions rig_options(const RangeQuery& query, const HandGrip& grip, double fac
 
 bool stable_at(TightenedAssembly& tightened, const RangeQuery& query, std::span<const Press> presses,
                double factor) {
-    for (const HandGrip& grip : hand_grips()) {
-        if (grip.unheld == query.held) continue;
-        const RigOptions options = rig_options(query, grip, factor);
+    for (const NamedHandImpedance& hand : hand_impedances()) {
+        if (hand.unheld == query.held) continue;
+        const RigOptions options = rig_options(query, hand, factor);
         if (query.spring == TestedSpring::nut) {
             if (!is_stable(run_pull(tightened, options, Pull::hold))) return false;
             continue;
@@ -32,7 +32,7 @@ bool stable_at(TightenedAssembly& tightened, const RangeQuery& query, std::span<
 }
 
 double used_stiffness(TightenedAssembly& tightened, const RangeQuery& query) {
-    const ArmRig rig(tightened, rig_options(query, hand_grips()[usual_grip], 1.0));
+    const ArmRig rig(tightened, rig_options(query, hand_impedances()[usual_hand], 1.0));
     return query.spring == TestedSpring::contact ? rig.coupling_stiffness() : rig.nut_stiffness();
 }
 

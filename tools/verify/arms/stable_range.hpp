@@ -11,7 +11,7 @@ namespace bolt::arm_validation {
 
 enum class TestedSpring : std::uint8_t {
     contact,  // the coupling: wrench and casing
-    nut,      // the wrench on a tightened nut, as torque or as force at the grip
+    nut,      // the wrench on a tightened nut, as torque or as force at the handle
 };
 
 // Factors on the stiffness in use between which the search looks, and their ratio at which it stops.
@@ -27,7 +27,7 @@ struct RangeQuery {
     const ArmFacts* arm = nullptr;
     TestedSpring spring = TestedSpring::contact;
     bool controller = true;
-    bool held = true;  // by a loose, a usual and a stiff grip; false: by no hand
+    bool held = true;  // by a loose, a usual and a stiff hand; false: by no hand
 };
 
 // `presses`: of find_presses() for the same assembly. Assumes that a stiffer spring is never more stable: an

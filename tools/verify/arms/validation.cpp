@@ -80,12 +80,13 @@ FeelOutcome feel_of(TightenedAssembly& tightened, const RigOptions& options, boo
         worst = worst ? worse(*worst, outcome) : outcome;
     };
     RigOptions with = options;
-    for (const HandGrip& grip : hand_grips()) {
-        if (grip.unheld == held) continue;
-        with.grip = grip;
+    for (const NamedHandImpedance& hand : hand_impedances()) {
+        if (hand.unheld == held) continue;
+        with.hand = hand;
         for (const Press& press : presses) add(run_press(tightened, with, press), false);
         add(run_pull(tightened, with, Pull::hold), false);
-        if (!held || grip.stiffness < hand_grips()[usual_grip].stiffness) continue;  // too weak to tighten
+        const bool can_tighten = hand.stiffness >= hand_impedances()[usual_hand].stiffness;
+        if (!held || !can_tighten) continue;
         for (const Pull pull : {Pull::breakaway, Pull::yield, Pull::slip_off})
             add(run_pull(tightened, with, pull), pull == Pull::slip_off);
     }
@@ -102,7 +103,7 @@ ArmResult measure(TightenedAssembly& tightened, const ArmFacts& arm) {
     return result;
 }
 
-bool is_approached(const ArmFacts& arm) {
+bool runs_approaches(const ArmFacts& arm) {
     constexpr std::array keys{"omega7", "touch", "inverse3", "sigma7"};
     return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return arm.key == key; });
 }
@@ -115,7 +116,7 @@ Result<ValidationResult> validate(const ValidationOptions& options) {
     std::vector<Raw> raw;
     for (const ArmFacts* arm : options.arms) {
         result.arms.push_back({arm, {}, {}, {}, {}, 0.0});
-        if (options.approaches > 0 && is_approached(*arm)) result.approaches.push_back({arm, {}, {}});
+        if (options.approaches > 0 && runs_approaches(*arm)) result.approaches.push_back({arm, {}, {}});
     }
     const auto count = static_cast<std::size_t>(std::max(options.approaches, 0));
     raw.resize(result.approaches.size(), {std::vector<Approach>(count), std::vector<Approach>(count)});

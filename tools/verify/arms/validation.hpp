@@ -47,11 +47,11 @@ struct ValidationOptions {
 
 struct ValidationResult {
     std::vector<ArmResult> arms;
-    std::vector<ApproachResult> approaches;  // of those requested arms for which is_approached() is true
+    std::vector<ApproachResult> approaches;  // of those requested arms for which runs_approaches() is true
 };
 
 // True for the arms that run the approaches (approaches.hpp): one for each kind of arm.
-bool is_approached(const ArmFacts& arm);
+bool runs_approaches(const ArmFacts& arm);
 // Fails if the assembly cannot be loaded.
 Result<ValidationResult> validate(const ValidationOptions& options);
 
