@@ -140,11 +140,12 @@ void PvxImport::assign_processes() {
         return overlap(one.position->x, one.resolution->width, other.position->x, other.resolution->width) &&
                overlap(one.position->y, one.resolution->height, other.position->y, other.resolution->height);
     };
-    bool computers = false;
+    bool names_are_computers = false;
     for (const PvxMachine& one : machines_)
-        computers = computers || std::any_of(machines_.begin(), machines_.end(),
-                                             [&](const PvxMachine& other) { return collide(one, other); });
-    if (!computers) return;
+        names_are_computers =
+            names_are_computers || std::any_of(machines_.begin(), machines_.end(),
+                                               [&](const PvxMachine& other) { return collide(one, other); });
+    if (!names_are_computers) return;
     std::vector<std::string> hosts;
     for (PvxMachine& machine : machines_) {
         const auto it = std::find(hosts.begin(), hosts.end(), machine.host);

@@ -101,7 +101,7 @@ std::vector<joint::Member> read_members(const LayeredObject& layers, const Young
         const auto name = reader.text(material);
         if (name && moduli.E.contains(*name)) {
             member.E = moduli.E.at(*name);
-        } else if (name && moduli.complete) {
+        } else if (name && moduli.materials_are_valid) {
             reader.report(
                 material.pointer, fmt::format("{} is not a material of this file", in_quotes(*name)),
                 nearest_name(*name, names).empty() ? suggest(*name, names) + ", or add it to \"materials\""
@@ -217,7 +217,7 @@ YoungsModuli read_youngs_moduli(JsonReader& reader) {
     moduli.E = {{"aluminium", 70e9},     {"bronze", 105e9},          {"cast_iron", 110e9},
                 {"ductile_iron", 170e9}, {"stainless_steel", 200e9}, {"steel", 205e9}};
     const JsonNode own = reader.member(reader.root(), "materials");
-    moduli.complete = reader.is_valid(own.pointer);
+    moduli.materials_are_valid = reader.is_valid(own.pointer);
     for (const JsonNode& node : reader.items(own))
         if (const auto E = reader.number(reader.member(node, "E_GPa")))
             moduli.E[last_token(node.pointer)] = *E * 1e9;

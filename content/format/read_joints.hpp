@@ -20,7 +20,7 @@ Result<joint::ThreadSize> read_thread(std::string_view text);
 // Young's moduli by material name, Pa: the built-in materials and the file's own.
 struct YoungsModuli {
     std::map<std::string, double> E;
-    bool complete = true;  // false: the file's own materials could not be read
+    bool materials_are_valid = true;  // false: the file's own materials could not be read
 };
 
 YoungsModuli read_youngs_moduli(JsonReader& reader);

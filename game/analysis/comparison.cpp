@@ -274,8 +274,8 @@ double slope_error(const TorqueCurve& simulated, const TorqueCurve& measured, do
 
 std::string different_peaks(const TorqueCurve& simulated, const std::vector<MeasuredCurve>& measured) {
     std::vector<double> peaks;
-    for (const MeasuredCurve& cycle : measured) peaks.push_back(torque_floor(cycle.curve, 1.0));
-    const double median = statistics::quartiles(peaks).median, own = torque_floor(simulated, 1.0);
+    for (const MeasuredCurve& cycle : measured) peaks.push_back(share_of_peak(cycle.curve, 1.0));
+    const double median = statistics::quartiles(peaks).median, own = share_of_peak(simulated, 1.0);
     const double ratio = std::max(own / median, median / own);
     if (ratio <= largest_peak_ratio) return {};
     return fmt::format(
@@ -293,9 +293,9 @@ TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b) {
     return sum;
 }
 
-double torque_floor(const TorqueCurve& measured, double share) {
+double share_of_peak(const TorqueCurve& curve, double share) {
     double highest = 0.0;
-    for (const double torque : measured.torque) highest = std::max(highest, std::abs(torque));
+    for (const double torque : curve.torque) highest = std::max(highest, std::abs(torque));
     return share * highest;
 }
 
@@ -332,7 +332,7 @@ namespace {
 void add_errors(const TorqueCurve& simulated, const TorqueCurve& measured, const ComparisonOptions& options,
                 CycleComparison& cycle) {
     const double shift = cycle.alignment.shift;
-    cycle.errors = torque_errors(simulated, measured, shift, torque_floor(measured, options.floor_share));
+    cycle.errors = torque_errors(simulated, measured, shift, share_of_peak(measured, options.floor_share));
     if (measured.direction == joint::Direction::loosen)
         cycle.breakaway_error =
             simulated.torque[breakaway_index(simulated)] / measured.torque[breakaway_index(measured)] - 1.0;

@@ -112,8 +112,8 @@ TorqueErrors torque_errors(const TorqueCurve& simulated, const TorqueCurve& meas
 // Combines errors: maximum of the maxima, mean over all samples.
 TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b);
 
-// max |T| · share, N·m.
-double torque_floor(const TorqueCurve& measured, double share = default_floor_share);
+// max |T| · share, N·m: with the default share the floor of the errors, with 1 the peak.
+double share_of_peak(const TorqueCurve& curve, double share = default_floor_share);
 
 // The peaks of one joint may differ by this factor. VDI 2230 table A1: at the same use of the bolt's
 // strength, friction from 0.08 to 0.24 changes the torque by a factor of 2.1, the class from 8.8 to 12.9

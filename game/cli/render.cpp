@@ -103,7 +103,7 @@ std::string timings_json(const std::string& device, const render::Statistics& st
 render::Eye eye_of(const RenderOptions& options, const view::Viewpoint& view, const render::BoundingBox& box,
                    float aspect, float offset = 0.0F) {
     const float fov = view.fov > 0.0F ? view.fov : static_cast<float>(to_radians(options.fov_deg));
-    const render::Perspective lens = view::lens(box, view.eye, view.target, fov, aspect);
+    const render::Perspective lens = view::perspective_for(box, view.eye, view.target, fov, aspect);
     const glm::vec3 right =
         glm::normalize(glm::vec3(glm::transpose(render::look_at(view.eye, view.target))[0]));
     render::Eye eye = render::make_eye(view.eye + offset * right, view.target + offset * right, lens);
@@ -187,11 +187,11 @@ Result<std::string> view_of_joint(const std::string& what, const std::string& id
 Result<view::LoadedModel> load_subject(RenderOptions& options) {
     view::ModelLoadResult loaded = view::load_model(options.what);
     if (!loaded.ok()) return fail(loaded.errors.front());
-    if (options.labels && loaded.model.bare)
+    if (options.labels && loaded.model.without_assembly)
         return fail(ErrorCode::usage, "a bare model has no joints to label", "an assembly");
     if (!options.animation.empty()) BOLT_TRY(pose(loaded.model.model, options));
     if (!options.joint.empty()) {
-        if (loaded.model.bare)
+        if (loaded.model.without_assembly)
             return fail(ErrorCode::usage, "a bare model has no joint to show", "an assembly");
         BOLT_TRY_ASSIGN(auto view, view_of_joint(options.what, options.joint));
         options.views = {std::move(view)};

@@ -57,12 +57,12 @@ Result<ReplayScene> make_replay_scene(gpu::Device& device, const scene::LessonMo
     return replay;
 }
 
-void place(ReplayScene& replay, const ReplayMoment& moment) {
+void update_poses(ReplayScene& replay, const ReplayMoment& moment) {
     scene::SceneWorld& world = replay.workplace.world;
-    const std::size_t grip = scene::natural_grip(replay.postures, world.only<world::ConstrainedTool>().pose,
-                                                 Vec3(0, 1, 0), replay.shoulder);
+    const std::size_t posture = scene::natural_handle_posture(
+        replay.postures, world.only<world::ConstrainedTool>().pose, Vec3(0, 1, 0), replay.shoulder);
     scene::placement_system(world,
-                            {moment.setup, replay.postures, replay.shoulder, grip,
+                            {moment.setup, replay.postures, replay.shoulder, posture,
                              std::abs(scene::relative_torque(moment.setup, world)), 0.0, moment.seconds,
                              moment.contact != nullptr ? &moment.contact->world : nullptr});
     replay.scene.cut_away.strength = 0.0F;
@@ -70,7 +70,7 @@ void place(ReplayScene& replay, const ReplayMoment& moment) {
         scene::fade_occluders(world, replay.scene, moment.setup, static_cast<std::size_t>(held));
 }
 
-void present(ReplayScene& replay, const ReplayMoment& moment, const Vec3& eye) {
+void collect_frame(ReplayScene& replay, const ReplayMoment& moment, const Vec3& eye) {
     scene::SceneWorld& world = replay.workplace.world;
     scene::fade_near_arms(world, eye);
     replay.scene.labels.clear();
@@ -151,9 +151,9 @@ Result<render::Picture> Film::draw(const session::ReplayTick& tick, double secon
     const ReplayMoment moment{tick.setup, tick.lesson,
                               tick.state.tool_contact ? &*tick.state.tool_contact : nullptr,
                               film.options.words, seconds};
-    place(replay, moment);
+    update_poses(replay, moment);
     follow_work(film, tick, seconds);
-    present(replay, moment, Vec3(view::viewpoint_of(film.camera.shown).eye));
+    collect_frame(replay, moment, Vec3(view::viewpoint_of(film.camera.shown).eye));
     const VkExtent2D size = film.options.size;
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     std::vector<render::Eye> eyes;

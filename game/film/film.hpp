@@ -35,10 +35,10 @@ struct ReplayMoment {
 // The joint that the tool holds, else the due one.
 std::optional<std::size_t> active_joint(const scene::SceneWorld& world, const lesson::Lesson& lesson);
 
-// Call both for each picture. place() moves everything to its place and fades what hides a held nut.
-// present(), when the eye is known, makes the labels and fills `replay.scene` with all that is drawn.
-void place(ReplayScene& replay, const ReplayMoment& moment);
-void present(ReplayScene& replay, const ReplayMoment& moment, const Vec3& eye);
+// Call both for each picture. update_poses() moves everything to its place and fades what hides a held nut.
+// collect_frame(), when the eye is known, makes the labels and fills `replay.scene` with all that is drawn.
+void update_poses(ReplayScene& replay, const ReplayMoment& moment);
+void collect_frame(ReplayScene& replay, const ReplayMoment& moment, const Vec3& eye);
 
 struct FilmOptions {
     hand::Side hand = hand::Side::right;  // the working hand

@@ -190,7 +190,7 @@ Review review(const content::Assembly& assembly, const LessonResult& result) {
             case DeductionKind::unfinished:
                 deduction.key = TextKey("reason.unfinished");
                 deduction.arguments = {{"step", words::Number{1.0 * reason.count, 0}},
-                                       {"of", words::Number{1.0 * reason.of, 0}}};
+                                       {"of", words::Number{1.0 * reason.step_count, 0}}};
                 advice = TextKey("advice.unfinished");
                 break;
         }

@@ -65,9 +65,9 @@ struct Deduction {
     double points = 0.0;
     std::string text;
     DeductionKind kind = DeductionKind::none;
-    int joint = -1;  // index, if it concerns one joint; −1: several or none
-    int count = 0;   // number of occurrences; unfinished: the due step, counted from 1
-    int of = 0;      // unfinished: number of steps
+    int joint = -1;      // index, if it concerns one joint; −1: several or none
+    int count = 0;       // number of occurrences; unfinished: the due step, counted from 1
+    int step_count = 0;  // unfinished: number of all steps
 };
 
 struct LessonResult {

@@ -52,10 +52,10 @@ std::optional<LooseningCurve> curve_with_breakaway(const joint::JointDesign& des
         const double middle = 0.5 * (low + high);
         curve = law_loosening(design, middle);
         if (curve.curve.empty()) return std::nullopt;
-        const double peak = analysis::torque_floor(curve.curve, 1.0);
+        const double peak = analysis::share_of_peak(curve.curve, 1.0);
         (peak < breakaway ? low : high) = middle;
     }
-    if (std::abs(analysis::torque_floor(curve.curve, 1.0) - breakaway) > 0.01 * breakaway)
+    if (std::abs(analysis::share_of_peak(curve.curve, 1.0) - breakaway) > 0.01 * breakaway)
         return std::nullopt;
     return curve;
 }

@@ -185,7 +185,7 @@ std::string cycle_table(const analysis::Comparison& c, const analysis::JointComp
             "<tr><td>{}</td><td class=\"n\">{}°</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
             name.empty() ? fmt::format("{}", i + 1) : escape(name),
             number(to_degrees(joint.cycles[i].alignment.shift), 1),
-            number(analysis::torque_floor(c.measured[i].curve, 1.0), 3), number(e.floor, 3));
+            number(analysis::share_of_peak(c.measured[i].curve, 1.0), 3), number(e.floor, 3));
         for (const analysis::StageError& s : e.stage)
             out += fmt::format("<td class=\"n\">{} / {}</td>", error_value(s, s.mre), error_value(s, s.mape));
         out +=
@@ -249,7 +249,7 @@ std::string joint_section(const analysis::Comparison& c, std::size_t index) {
 }
 
 // The number of joints that the record may belong to.
-std::size_t compared_joints(const analysis::Comparison& c) {
+std::size_t compared_joint_count(const analysis::Comparison& c) {
     return static_cast<std::size_t>(
         std::count_if(c.joints.begin(), c.joints.end(), [](const auto& j) { return j.other_joint.empty(); }));
 }
@@ -279,7 +279,7 @@ std::string comparison_page(const analysis::Comparison& c) {
     for (const std::string& text : remarks(c)) body += escape(text) + " ";
     body += "</p>\n";
     body += joint_sections(c);
-    if (c.joints.size() > 1 && compared_joints(c) > 0)
+    if (c.joints.size() > 1 && compared_joint_count(c) > 0)
         body += "<h2>All joints</h2>\n" + error_table(c.errors, nullptr);
     body += fmt::format("<footer>{}</footer>\n", escape(method_text(c)));
     return plot::page(c.title + " – virtual against measured", body);
@@ -287,7 +287,7 @@ std::string comparison_page(const analysis::Comparison& c) {
 
 namespace {
 
-double peak_of(const analysis::TorqueCurve& curve) { return analysis::torque_floor(curve, 1.0); }
+double peak_of(const analysis::TorqueCurve& curve) { return analysis::share_of_peak(curve, 1.0); }
 
 std::string span_text(double low, double high) {
     const std::string a = number(low, 2), b = number(high, 2);
@@ -315,7 +315,7 @@ std::vector<std::string> remarks(const analysis::Comparison& c) {
     for (const analysis::JointComparison& joint : c.joints)
         if (!joint.other_joint.empty())
             texts.push_back(fmt::format("{}: {}", joint.joint, other_joint_text(joint)));
-    if (compared_joints(c) == 0) return texts;
+    if (compared_joint_count(c) == 0) return texts;
     for (std::size_t i = 0; i < c.errors.stage.size(); ++i) {
         const analysis::StageError& stage = c.errors.stage[i];
         if (stage.count == 0)
@@ -351,7 +351,7 @@ std::string console_text(const analysis::Comparison& c) {
                        c.measured.size() == 1 ? "" : "s",
                        c.direction == joint::Direction::tighten ? "tightening" : "loosening", c.joints.size(),
                        c.joints.size() == 1 ? "" : "s", c.law);
-    if (compared_joints(c) > 0)
+    if (compared_joint_count(c) > 0)
         out += fmt::format("{:<12} {:<12} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "joint", "stage", "MRE",
                            "MAPE", "RMSE,N·m", "samples", "floor", "outside");
     const auto rows = [&](const std::string& joint, const analysis::TorqueErrors& errors) {
@@ -371,8 +371,8 @@ std::string console_text(const analysis::Comparison& c) {
     };
     for (const analysis::JointComparison& joint : c.joints)
         if (joint.other_joint.empty()) rows(joint.joint, joint.errors);
-    if (c.joints.size() > 1 && compared_joints(c) > 0) rows("all", c.errors);
-    if (compared_joints(c) > 0) out += "\n";
+    if (c.joints.size() > 1 && compared_joint_count(c) > 0) rows("all", c.errors);
+    if (compared_joint_count(c) > 0) out += "\n";
     for (const analysis::JointComparison& joint : c.joints)
         if (const std::string text = feature_text(analysis::repetition_bands(joint.cycles)); !text.empty())
             out += joint.joint + " " + text + "\n";

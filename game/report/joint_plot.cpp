@@ -16,9 +16,10 @@ namespace bolt::report {
 
 namespace {
 
-constexpr double lead_in = 12.0;        // least degrees drawn before the first contact
-constexpr double longest = 540.0;       // most degrees drawn before the end
-constexpr double longest_free = 180.0;  // most degrees drawn of a loose nut
+// Nut angle that is drawn: before the first contact, before the end, and of a loose nut.
+constexpr double min_degrees_before_contact = 12.0;
+constexpr double max_degrees_before_end = 540.0;
+constexpr double max_free_degrees = 180.0;
 
 constexpr std::string_view stage_styles[] = {"s0", "s1", "s2", "s3"};
 // The last pass is drawn in the strongest colour.
@@ -172,7 +173,7 @@ bool is_recheck(const analysis::SessionData& session, const analysis::Visit& vis
     return pass != nullptr && pass->kind == content::PassKind::recheck;
 }
 
-bool turned_on(const analysis::Visit& visit) {
+bool nut_turned(const analysis::Visit& visit) {
     return std::abs(visit.release.angle - visit.begin_angle) > to_radians(2.0);
 }
 
@@ -182,7 +183,7 @@ bool turned_on(const analysis::Visit& visit) {
 bool is_judged(const analysis::SessionData& session, const analysis::Visit& visit) {
     const content::Pass* pass = pass_of(session, visit);
     if (pass == nullptr) return true;
-    if (pass->kind == content::PassKind::recheck) return turned_on(visit);
+    if (pass->kind == content::PassKind::recheck) return nut_turned(visit);
     const auto full = [](const content::Pass& p) {
         return p.kind == content::PassKind::tighten && p.fraction > 0.999;
     };
@@ -264,7 +265,7 @@ void add_breakaway(plot::Plot& plot, const analysis::SessionData& session, std::
     const analysis::Visit* highest = nullptr;
     for (const analysis::Visit& visit : session.curves[joint].visits) {
         if (!visit.worked || !is_recheck(session, visit)) continue;
-        if (turned_on(visit) && visit.peak.torque <= session.joints[joint].torque + 0.05) continue;
+        if (nut_turned(visit) && visit.peak.torque <= session.joints[joint].torque + 0.05) continue;
         if (highest == nullptr || visit.peak.torque > highest->peak.torque) highest = &visit;
     }
     if (highest == nullptr || !is_in_frame(frame, highest->peak.angle, false)) return;
@@ -319,15 +320,16 @@ JointPlotFrame joint_plot_frame(const analysis::SessionData& session, std::size_
     double from = start;
     if (!loosening && has_contact) {
         const double touch = drawn_angle(frame, contact->from, loosening);
-        from = std::max({start, touch - std::max(lead_in, 0.12 * (end - touch)), end - longest});
+        from = std::max({start, touch - std::max(min_degrees_before_contact, 0.12 * (end - touch)),
+                         end - max_degrees_before_end});
     }
     if (loosening) {  // the end of the free rotation is not drawn
         const auto free =
             std::find_if(curve.stages.begin(), curve.stages.end(),
                          [](const analysis::StageSpan& s) { return s.stage == joint::Stage::navigation; });
         const double loose = free == curve.stages.end() ? end : drawn_angle(frame, free->from, loosening);
-        frame.cut_after = end - loose > longest_free;
-        if (frame.cut_after) end = loose + longest_free;
+        frame.cut_after = end - loose > max_free_degrees;
+        if (frame.cut_after) end = loose + max_free_degrees;
     }
     frame.cut_before = from > start + 1.0;
     const double margin = std::max(0.5, 0.04 * (end - from));

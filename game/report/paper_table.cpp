@@ -81,14 +81,14 @@ std::string summary_sentence(const MaterialComparison& material) {
     for (const analysis::Comparison& type : material.types) {
         std::vector<double> peaks;
         for (const analysis::MeasuredCurve& run : type.measured)
-            peaks.push_back(analysis::torque_floor(run.curve, 1.0));
+            peaks.push_back(analysis::share_of_peak(run.curve, 1.0));
         const auto [low, high] = std::minmax_element(peaks.begin(), peaks.end());
         const analysis::JointComparison& joint = type.joints.front();
         const analysis::RepetitionBands bands = analysis::repetition_bands(joint.cycles);
         out += fmt::format("{}{}: {} runs, highest torque {} to {} N·m, published law {} N·m",
                            out.empty() ? "" : " ", joint.joint, peaks.size(), plot::number(*low, 1),
                            plot::number(*high, 1),
-                           plot::number(analysis::torque_floor(joint.simulated, 1.0), 1));
+                           plot::number(analysis::share_of_peak(joint.simulated, 1.0), 1));
         if (std::isfinite(bands.slope_error))
             out += fmt::format(", slope in its linear stage {} % against the simulated runs",
                                plot::signed_number(100.0 * bands.slope_error, 0));

@@ -187,7 +187,8 @@ hand::Skeleton pinch_posture(const Postures& postures, double effort) {
     return interpolate(postures.on_nut, postures.on_nut_strained, std::clamp(effort, 0.0, 1.0));
 }
 
-std::size_t natural_grip(const Postures& postures, const Pose& tool, const Vec3& up, const Vec3& shoulder) {
+std::size_t natural_handle_posture(const Postures& postures, const Pose& tool, const Vec3& up,
+                                   const Vec3& shoulder) {
     std::size_t best = 0;
     double most = -10.0;
     for (std::size_t i = 0; i < postures.on_handle.size(); ++i) {

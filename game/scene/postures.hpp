@@ -27,7 +27,7 @@ double relative_torque(const servo::Setup& setup, const EffortAccess& world);
 // Call it once a tick.
 void update_effort(Effort& effort, const servo::Setup& setup, const EffortAccess& world);
 
-// Skeletons of the 26 joints in the frame of the tool (servo::CommandedTool). There are four grips of a
+// Skeletons of the 26 joints in the frame of the tool (servo::CommandedTool). There are four postures at a
 // handle: the palm on either face, the thumb towards the jaw or away from it.
 struct Postures {
     std::array<hand::Skeleton, 4> on_handle;
@@ -39,13 +39,14 @@ struct Postures {
     double grip_distance = 0.0;  // m, from the jaw's centre along the handle
 };
 
-// The posture at an effort of 0 … 1. `grip`: index of the grip of the handle.
+// The posture at an effort of 0 … 1. `grip`: index in Postures::on_handle.
 hand::Skeleton handle_posture(const Postures& postures, std::size_t grip, double effort);
 hand::Skeleton pinch_posture(const Postures& postures, double effort);
 
-// The most comfortable grip of a tool for a shoulder position (m): back of the hand up, forearm towards the
-// shoulder.
-std::size_t natural_grip(const Postures& postures, const Pose& tool, const Vec3& up, const Vec3& shoulder);
+// The index in Postures::on_handle of the most comfortable posture for a shoulder position (m): back of the
+// hand up, forearm towards the shoulder.
+std::size_t natural_handle_posture(const Postures& postures, const Pose& tool, const Vec3& up,
+                                   const Vec3& shoulder);
 
 // The frame for fingers at a tool: the position and z axis of the tool, x towards the shoulder, then rotated
 // about z by `twisted` rad.

@@ -19,7 +19,9 @@ namespace bolt::session {
 
 namespace {
 
-double rounded(double value, double digits) { return std::round(value * digits) / digits; }
+double rounded(double value, double steps_per_unit) {
+    return std::round(value * steps_per_unit) / steps_per_unit;
+}
 
 }  // namespace
 

@@ -15,16 +15,16 @@ namespace bolt::session {
 
 struct TickRecord {
     servo::CommandedTool commanded_tool;
-    std::uint8_t grip = 0;   // servo::Grip
-    std::uint8_t flags = 0;  // see below
-    std::int16_t guide = -1;
+    std::uint8_t grip = 0;    // servo::Grip
+    std::uint8_t flags = 0;   // see below
+    std::int16_t guide = -1;  // joint that the guiding force leads to, TickInput::guide; −1: none
     float force[3] = {0.0F, 0.0F, 0.0F};   // N
     float torque[3] = {0.0F, 0.0F, 0.0F};  // N·m
-    std::int16_t joint = -1;
-    std::uint8_t stage = 0;      // joint::Stage
-    float wrench_torque = 0.0F;  // N·m
-    float nut_angle = 0.0F;      // rad
-    float clamp = 0.0F;          // N
+    std::int16_t joint = -1;               // engaged joint, Output::joint; −1: none
+    std::uint8_t stage = 0;                // joint::Stage
+    float wrench_torque = 0.0F;            // N·m
+    float nut_angle = 0.0F;                // rad
+    float clamp = 0.0F;                    // N
 
     // Since format 2; sessions of format 1 have the defaults.
     std::uint16_t contacts = 0;     // of the wrench

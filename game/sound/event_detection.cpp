@@ -94,7 +94,7 @@ void detect_strike(EventDetector& detector, const servo::Setup& setup, const wor
     // When the hand stops a wrench that turns a nut, its handle stops without a strike.
     const bool turns_nut = contact.joint >= 0 && detector.last_surface == StruckSurface::nut;
     if (!turns_nut)
-        strike = std::max(strike, lost_speed(detector, &EventDetector::WrenchEnds::grip, n, setup.dt));
+        strike = std::max(strike, lost_speed(detector, &EventDetector::WrenchEnds::handle, n, setup.dt));
     // A wrench may stop over several ticks; the strike is the highest loss of speed.
     const double masked =
         masking_ratio * detector.last_strike * std::exp(-detector.since_strike / masking_time);
@@ -116,8 +116,8 @@ void detect_slide(const EventDetector& detector, const servo::Setup& setup, cons
         contact.obstacle == collision::ObstacleId::nut(static_cast<std::size_t>(contact.joint));
     if (turned_nut || detector.history_size < 2) return;
     const Vec3 slide = 0.5 *
-                       (detector.history[0].jaw - detector.history[1].jaw + detector.history[0].grip -
-                        detector.history[1].grip) /
+                       (detector.history[0].jaw - detector.history[1].jaw + detector.history[0].handle -
+                        detector.history[1].handle) /
                        setup.dt;
     const double speed = glm::length(slide);
     const Vec3 direction = speed > 0.0 ? slide / speed : Vec3(0.0);

@@ -35,7 +35,7 @@ struct EventDetector {
 
     // The positions, m, of both ends of the wrench.
     struct WrenchEnds {
-        Vec3 jaw{0.0}, grip{0.0};
+        Vec3 jaw{0.0}, handle{0.0};
     };
     static constexpr std::size_t max_history = 32;      // ticks
     std::array<WrenchEnds, max_history + 1> history{};  // newest first
@@ -49,7 +49,7 @@ struct EventDetector {
     // Values of the last tick.
     std::int16_t joint = -1;
     double nut_angle = 0.0;  // rad
-    double load = 0.0;
+    double load = 0.0;       // clamp force over the reference load of the joint, as load_of() returns
 };
 
 // The components that the cues are derived from.

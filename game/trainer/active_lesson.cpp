@@ -250,7 +250,8 @@ void step_ticks(scene::SceneWorld& world, LessonFrame& frame) {
     }
     const WorkingHand hand = write_hand(world, hand_of(active.helped_hand));
     if (hand.action == HandAction::reaching)
-        active.handle_grip = scene::natural_grip(active.postures, hand.to, Vec3(0, 1, 0), active.shoulder);
+        active.handle_posture_index =
+            scene::natural_handle_posture(active.postures, hand.to, Vec3(0, 1, 0), active.shoulder);
 }
 
 // Repeats the station's ticks since the last frame with the lesson's own servo.
@@ -280,8 +281,8 @@ void repeat_station_ticks(scene::SceneWorld& world, LessonFrame& frame) {
     if (frame.status && !sent) frame.status = sent;
     const WorkingHand hand = write_hand(world, hand_of(client));
     if (hand.wrench && !had_wrench)
-        active.handle_grip =
-            scene::natural_grip(active.postures, tool_of(active).pose, Vec3(0, 1, 0), active.shoulder);
+        active.handle_posture_index = scene::natural_handle_posture(active.postures, tool_of(active).pose,
+                                                                    Vec3(0, 1, 0), active.shoulder);
     write_glove(world, client);
 }
 
@@ -310,9 +311,9 @@ void placement_system(scene::SceneWorld& world, LessonFrame& frame) {
     const ActiveLesson& active = frame.active;
     const servo::State& state = active.session->state();
     scene::placement_system(
-        world,
-        {active.session->setup(), active.postures, active.shoulder, active.handle_grip, active.effort.share,
-         active.effort.tremor, frame.seconds, state.tool_contact ? &state.tool_contact->world : nullptr});
+        world, {active.session->setup(), active.postures, active.shoulder, active.handle_posture_index,
+                active.effort.share, active.effort.tremor, frame.seconds,
+                state.tool_contact ? &state.tool_contact->world : nullptr});
 }
 
 namespace {

@@ -82,9 +82,9 @@ struct ActiveLesson {
     render::Scene scene;
 
     scene::Postures postures;
-    std::size_t handle_grip = 0;  // index in Postures::on_handle
-    Vec3 shoulder{0.0};           // m, the trainee's
-    scene::Effort effort;         // of the hand
+    std::size_t handle_posture_index = 0;  // index in Postures::on_handle
+    Vec3 shoulder{0.0};                    // m, the trainee's
+    scene::Effort effort;                  // of the hand
     view::Palette palette;
 
     InputState input;

@@ -70,7 +70,8 @@ Vec3 view_direction(const DragScene& scene) {
 
 bool turns_tool(const DragInput& input) { return input.turns || input.mouse.turn_drag != glm::dvec2(0.0); }
 
-Vec3 grip_of(const DragScene& scene) {
+// The point that the hand holds: the end of the handle, or without a wrench the tool's origin.
+Vec3 handle_end(const DragScene& scene) {
     return scene.tool * Vec3(scene.wrench ? scene.handle_length : 0.0, 0.0, 0.0);
 }
 
@@ -94,7 +95,7 @@ HandShift swing_on_bolt(const DragInput& input, const DragScene& scene) {
     const glm::dvec2 lever = lever_on_screen(scene.projection, scene.tool, axis, scene.handle_length);
     // Tightening a right-hand thread turns about −axis.
     const double angle = -drag_angle(lever, input.mouse.left_drag);
-    const Vec3 handle = grip_of(scene) - scene.tool.position;
+    const Vec3 handle = handle_end(scene) - scene.tool.position;
     return {angle * glm::cross(axis, handle) + along_bolt(scene, axis, input.mouse.scroll), Vec3(0.0)};
 }
 
@@ -113,7 +114,7 @@ HandShift fingers_to_nut(const DragInput& input, const DragScene& scene) {
 // Returns the shift across the bolt that looks like `shift` in the picture. If the view is nearly parallel to
 // the plane across the bolt, this shift would be too long; then returns `shift` itself.
 Vec3 across_bolt(const DragScene& scene, const Vec3& axis, const Vec3& shift) {
-    const Vec3 view = glm::normalize(grip_of(scene) - Vec3(scene.projection.eye.position));
+    const Vec3 view = glm::normalize(handle_end(scene) - Vec3(scene.projection.eye.position));
     const double slope = glm::dot(view, axis);
     return std::abs(slope) < min_slope ? shift : shift - glm::dot(shift, axis) / slope * view;
 }
@@ -122,7 +123,7 @@ Vec3 across_bolt(const DragScene& scene, const Vec3& axis, const Vec3& shift) {
 // view is too hard to judge for placing the jaw.
 HandShift beside_bolt(const DragInput& input, const DragScene& scene) {
     const Vec3& axis = scene.nut->axis;
-    const Vec3 shift = in_picture(scene.projection, grip_of(scene), input.mouse.left_drag);
+    const Vec3 shift = in_picture(scene.projection, handle_end(scene), input.mouse.left_drag);
     return {across_bolt(scene, axis, shift) + along_bolt(scene, axis, input.mouse.scroll), Vec3(0.0)};
 }
 
@@ -133,7 +134,7 @@ HandShift in_the_air(const DragInput& input, const DragScene& scene) {
         const glm::dvec2 lever = lever_on_screen(scene.projection, scene.tool, normal, scene.handle_length);
         motion.turn = -drag_angle(lever, input.mouse.left_drag) * normal;
     } else {
-        motion.shift = in_picture(scene.projection, grip_of(scene), input.mouse.left_drag);
+        motion.shift = in_picture(scene.projection, handle_end(scene), input.mouse.left_drag);
     }
     motion.shift += wheel_step * input.mouse.scroll * view_direction(scene);
     return motion;
@@ -171,8 +172,8 @@ void drag_hand(DraggedHand& hand, const DragInput& input, const DragScene& scene
     HandShift motion = mouse_motion(hand, smooth, scene);
     motion.shift += key_speed * input.seconds * (scene.arm_to_assembly * input.keys.along);
     motion.turn += key_turn_speed * input.seconds * (scene.arm_to_assembly * input.keys.about);
-    // The arm is at the grip of the handle, and a turn about the jaw moves the grip.
-    const Vec3 handle = grip_of(scene) - scene.tool.position;
+    // The arm is at the end of the handle, and a turn about the jaw moves that end.
+    const Vec3 handle = handle_end(scene) - scene.tool.position;
     motion.shift += rotation(motion.turn) * handle - handle;
 
     const Quat back = glm::conjugate(scene.arm_to_assembly);

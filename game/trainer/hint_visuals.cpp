@@ -47,9 +47,9 @@ void show_hand(scene::SceneWorld& world, ActiveLesson& active, HintMotion motion
     const servo::Setup& setup = active.session->setup();
     const lesson::LessonStep* due = active.session->lesson().due();
     if (motion == HintMotion::take) {
-        const std::size_t grip =
-            scene::natural_grip(active.postures, hand_of(active).rest, Vec3(0, 1, 0), active.shoulder);
-        scene::show_hand_ghost(world, hand_of(active).rest, active.postures.on_handle.at(grip));
+        const std::size_t posture = scene::natural_handle_posture(active.postures, hand_of(active).rest,
+                                                                  Vec3(0, 1, 0), active.shoulder);
+        scene::show_hand_ghost(world, hand_of(active).rest, active.postures.on_handle.at(posture));
         return;
     }
     const servo::NutGeometry& nut = setup.nuts[due->joint];
@@ -77,9 +77,10 @@ void show_ghosts(scene::SceneWorld& world, ActiveLesson& active, const lesson::H
         return;
     }
     const Pose& tool = wrench_ghost_pose(active, due);
-    const std::size_t grip = scene::natural_grip(active.postures, tool, Vec3(0, 1, 0), active.shoulder);
+    const std::size_t posture =
+        scene::natural_handle_posture(active.postures, tool, Vec3(0, 1, 0), active.shoulder);
     scene::show_wrench_ghost(world, tool);
-    scene::show_hand_ghost(world, tool, active.postures.on_handle.at(grip));
+    scene::show_hand_ghost(world, tool, active.postures.on_handle.at(posture));
 }
 
 MotionGeometry geometry_of(const ActiveLesson& active, const lesson::LessonStep& due, std::size_t joint) {

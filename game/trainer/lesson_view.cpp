@@ -183,8 +183,9 @@ Vec3 wrist_at(const ActiveLesson& active, std::size_t joint) {
         const Pose tool =
             at_nut ? tool_of(active).pose
                    : wrench_pose_on_nut(hand_of(active).rest, setup, active.session->state(), joint, loosens);
-        const std::size_t grip = scene::natural_grip(active.postures, tool, Vec3(0, 1, 0), active.shoulder);
-        return tool * active.postures.on_handle.at(grip).position[hand::wrist];
+        const std::size_t posture =
+            scene::natural_handle_posture(active.postures, tool, Vec3(0, 1, 0), active.shoulder);
+        return tool * active.postures.on_handle.at(posture).position[hand::wrist];
     }
     const servo::NutGeometry& nut = setup.nuts[joint];
     const Pose at{world::nut_centre(active.workplace.world, setup, joint),

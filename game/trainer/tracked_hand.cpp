@@ -21,7 +21,7 @@ constexpr std::size_t palm_joint = 0, thumb_tip = 5, index_tip = 10;  // of XR_E
 
 }  // namespace
 
-double closing(const xr::HandInput& hand) {
+double closure(const xr::HandInput& hand) {
     double by_fingers = 0.0;
     if (hand.joints) {
         const xr::HandJoint &thumb = (*hand.joints)[thumb_tip], &index = (*hand.joints)[index_tip];
@@ -54,7 +54,7 @@ Pose fingertips_at_palm(xr::Side side) {
 void track_hand(TrackedHand& tracked, const TrackedHandInput& input) {
     const std::optional<Pose> palm = palm_of(input.hand, tracked.side);
     tracked.present = palm.has_value();
-    tracked.motion.gripper = palm ? 1.0 - closing(input.hand) : 1.0;
+    tracked.motion.gripper = palm ? 1.0 - closure(input.hand) : 1.0;
     if (!palm) return;
     const Pose hand = input.room_in_assembly * *palm;
     tracked.fingertips = hand * fingertips_at_palm(tracked.side);

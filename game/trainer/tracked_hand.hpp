@@ -27,7 +27,7 @@ struct TrackedHandInput {
 };
 
 // The closure of the hand, 0 … 1, from a button of the controller or from the fingers.
-double closing(const xr::HandInput& hand);
+double closure(const xr::HandInput& hand);
 
 // The pose of the palm (XR_EXT_hand_tracking's or the controller's grip), in the room; none: not tracked.
 std::optional<Pose> palm_of(const xr::HandInput& hand, xr::Side side);

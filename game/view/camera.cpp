@@ -66,7 +66,7 @@ render::Eye eye_of(const Orbit& o, const render::BoundingBox& box, float aspect,
                           glm::dvec4(a.right.z, a.up.z, a.back.z, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
     const glm::mat4 view(glm::translate(turn, -eye));
     const render::Perspective perspective =
-        lens(box, glm::vec3(eye), glm::vec3(o.target + shift), static_cast<float>(o.fov), aspect);
+        perspective_for(box, glm::vec3(eye), glm::vec3(o.target + shift), static_cast<float>(o.fov), aspect);
     return {glm::vec3(eye), convergence_shear(offset, static_cast<float>(o.distance), perspective) *
                                 render::perspective(perspective) * view};
 }

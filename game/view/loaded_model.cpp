@@ -46,8 +46,8 @@ ModelLoadResult load_model(const std::string& source, DetailLevel level) {
     LoadedModel& model = loaded.model;
     std::string file = source;
     model.name = fs::path(source).filename().string();
-    model.bare = is_model_file(source);
-    if (!model.bare) {
+    model.without_assembly = is_model_file(source);
+    if (!model.without_assembly) {
         content::LoadedAssembly assembly = content::load_assembly(source);
         if (!assembly.ok()) return {{}, std::move(assembly.errors)};
         const content::Assembly& a = assembly.assembly;
@@ -69,7 +69,7 @@ ModelLoadResult load_model(const std::string& source, DetailLevel level) {
 }
 
 Result<Viewpoint> named_view(const LoadedModel& model, const std::string& name) {
-    if (model.bare)
+    if (model.without_assembly)
         return fail(ErrorCode::usage, "a bare model has no named views", "--eye X,Y,Z --target X,Y,Z");
     std::vector<std::string> names;
     for (const Viewpoint& view : model.views) {

@@ -30,7 +30,7 @@ struct LoadedModel {
     assets::Model model;
     std::vector<Viewpoint> views;              // empty for a bare model
     std::vector<JointPosition> joints;         // empty for a bare model
-    bool bare = false;                         // a model file without an assembly
+    bool without_assembly = false;             // a bare model: a file without an assembly
     std::vector<std::filesystem::path> files;  // all files read, to be watched for changes
 };
 

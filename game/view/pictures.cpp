@@ -108,8 +108,8 @@ Status draw_result(const content::Assembly& assembly, const lesson::LessonResult
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     for (const Viewpoint& view : loaded.model.views) {
         const float fov = view.fov > 0.0F ? view.fov : default_fov;
-        const render::Eye eye =
-            render::make_eye(view.eye, view.target, lens(shown->box, view.eye, view.target, fov, aspect));
+        const render::Eye eye = render::make_eye(
+            view.eye, view.target, perspective_for(shown->box, view.eye, view.target, fov, aspect));
         shown->scene.labels = labels;
         separate_labels(fonts, shown->scene.labels, eye, {size.width, size.height});
         BOLT_TRY_ASSIGN(const auto pictures,

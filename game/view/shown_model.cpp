@@ -41,8 +41,8 @@ Result<std::unique_ptr<ShownModel>> show_model(gpu::Device& device, const Loaded
     return shown;
 }
 
-render::Perspective lens(const render::BoundingBox& box, const glm::vec3& eye, const glm::vec3& target,
-                         float fov, float aspect) {
+render::Perspective perspective_for(const render::BoundingBox& box, const glm::vec3& eye,
+                                    const glm::vec3& target, float fov, float aspect) {
     render::Perspective lens;
     lens.fov = fov;
     lens.aspect = aspect;

@@ -31,8 +31,8 @@ Result<std::unique_ptr<ShownModel>> show_model(gpu::Device& device, const Loaded
 
 // A perspective for an eye at `eye` that looks at `target`; its depth range contains the whole box. `fov`:
 // rad, vertical.
-render::Perspective lens(const render::BoundingBox& box, const glm::vec3& eye, const glm::vec3& target,
-                         float fov, float aspect);
+render::Perspective perspective_for(const render::BoundingBox& box, const glm::vec3& eye,
+                                    const glm::vec3& target, float fov, float aspect);
 
 // The direction of the default viewpoint from the model: above, in front and to the right; and its field of
 // view.

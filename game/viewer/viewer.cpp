@@ -222,11 +222,11 @@ Status Viewer::update(const view::WindowFrame& window) {
     const film::ReplayMoment moment{start.setup, recording_->lessons[recording_->lesson_index[index]],
                                     start.state.tool_contact ? &*start.state.tool_contact : nullptr,
                                     options_.words, played_};
-    film::place(replay, moment);
+    film::update_poses(replay, moment);
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     follow_work(static_cast<double>(aspect));
     (void)camera_.advance(window.seconds);
-    film::present(replay, moment, Vec3(view::viewpoint_of(camera_.shown).eye));
+    film::collect_frame(replay, moment, Vec3(view::viewpoint_of(camera_.shown).eye));
     return {};
 }
 

@@ -69,7 +69,7 @@ TEST_CASE("Torque errors: samples below the floor and outside the curve are excl
     CHECK(errors.all.mre == doctest::Approx(0.0));
     // Without a floor a zero torque is still excluded.
     CHECK(torque_errors(ours, measured, 0.0, 0.0).all.below == 1);
-    CHECK(torque_floor(measured) == doctest::Approx(0.09));
+    CHECK(share_of_peak(measured) == doctest::Approx(0.09));
 }
 
 TEST_CASE("Torque errors: pooling keeps the maximum and weights the mean") {

@@ -104,13 +104,13 @@ double difference(const render::Picture& picture, const std::vector<std::uint8_t
     return sum / static_cast<double>(rgb.size());
 }
 
-double contrast(const render::Picture& a, const render::Picture& b) {
+double mean_difference(const render::Picture& a, const render::Picture& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.rgba.size(); ++i) sum += std::abs(int{a.rgba[i]} - int{b.rgba[i]});
     return sum * 4.0 / 3.0 / static_cast<double>(a.rgba.size());
 }
 
-assets::Material stuff(float metallic, float roughness) {
+assets::Material base_material(float metallic, float roughness) {
     assets::Material m;
     m.base_color = {0.5F, 0.4F, 0.3F, 1.0F};
     m.metallic = metallic;
@@ -133,12 +133,12 @@ std::vector<Case> cases() {
         all.push_back({name, m, image, map});
         (all.back().material.*map).texture = 0;
     };
-    M shiny = stuff(0.0F, 0.35F);
+    M shiny = base_material(0.0F, 0.35F);
     shiny.ior = 1.9F;
     add("specular", shiny, texels(1), &M::specular_texture);
     shiny.specular_color = {1.0F, 0.8F, 0.9F};
     add("specular colour", shiny, texels(2), &M::specular_color_texture);
-    M coated = stuff(0.3F, 0.8F);
+    M coated = base_material(0.3F, 0.8F);
     coated.clearcoat = 1.0F;
     coated.clearcoat_roughness = 0.35F;
     add("coat", coated, texels(3), &M::clearcoat_texture);
@@ -146,13 +146,13 @@ std::vector<Case> cases() {
     add("coat roughness", coated, texels(4), &M::clearcoat_roughness_texture);
     coated.clearcoat_roughness = 0.35F;
     add("coat normal", coated, bumps(5), &M::clearcoat_normal_texture);
-    M brushed = stuff(1.0F, 0.35F);
+    M brushed = base_material(1.0F, 0.35F);
     brushed.anisotropy = 0.9F;
     brushed.anisotropy_rotation = 0.4F;
     add("anisotropy", brushed, grains(6), &M::anisotropy_texture);
-    add("base colour", stuff(0.0F, 0.6F), texels(7), &M::base_color_texture);
-    add("metallic and roughness", stuff(1.0F, 0.8F), texels(8), &M::metallic_roughness_texture);
-    add("normal", stuff(0.5F, 0.5F), bumps(9), &M::normal_texture);
+    add("base colour", base_material(0.0F, 0.6F), texels(7), &M::base_color_texture);
+    add("metallic and roughness", base_material(1.0F, 0.8F), texels(8), &M::metallic_roughness_texture);
+    add("normal", base_material(0.5F, 0.5F), bumps(9), &M::normal_texture);
     return all;
 }
 
@@ -171,7 +171,7 @@ TEST_CASE("Material maps: every map has an effect and agrees with the path trace
             const render::Picture picture = rendered(studio, model);
             CHECK(difference(picture, traced(model)) < 1.6);
             material.*one.map = {};
-            CHECK(contrast(picture, rendered(studio, plate(material, {}, one.image))) > 5.0);
+            CHECK(mean_difference(picture, rendered(studio, plate(material, {}, one.image))) > 5.0);
         }
     }
 }
@@ -183,7 +183,7 @@ TEST_CASE("Material maps: a mesh without tangents gets tangents from its texture
         const render::Picture with = rendered(studio, plate(one.material, {}, one.image, true));
         const assets::Model model = plate(one.material, {}, one.image, false);
         const render::Picture without = rendered(studio, model);
-        CHECK(contrast(with, without) < 0.5);
+        CHECK(mean_difference(with, without) < 0.5);
         CHECK(difference(without, traced(model)) < 1.6);
     }
     // Mirrored coordinates keep the texture's up direction.
@@ -198,7 +198,7 @@ TEST_CASE("Material maps: a mesh without tangents gets tangents from its texture
             assets::Model made = given;
             made.meshes[0].primitives[0].tangents.clear();
             const render::Picture picture = rendered(studio, given);
-            CHECK(contrast(picture, rendered(studio, made)) < 0.5);
+            CHECK(mean_difference(picture, rendered(studio, made)) < 0.5);
             CHECK(difference(picture, traced(given)) < 1.6);
             CHECK(difference(picture, traced(made)) < 1.6);
         }
@@ -209,7 +209,8 @@ TEST_CASE("Material maps: a map with one value equals a constant") {
     test::Studio studio;
     const assets::Bitmap even = texels(10, true);
     const auto value = [&](std::size_t c) { return static_cast<float>(even.pixels[c]) / 255.0F; };
-    const auto same = [&](assets::Material with, assets::TextureRef assets::Material::*map, auto set) {
+    const auto difference_to_constant = [&](assets::Material with, assets::TextureRef assets::Material::*map,
+                                            auto set) {
         (with.*map).texture = 0;
         assets::Material without = with;
         without.*map = {};
@@ -219,17 +220,19 @@ TEST_CASE("Material maps: a map with one value equals a constant") {
         return test::largest_difference(a, b);
     };
     using M = assets::Material;
-    M m = stuff(0.0F, 0.35F);
+    M m = base_material(0.0F, 0.35F);
     m.ior = 1.8F;
-    CHECK(same(m, &M::specular_texture, [&](M& n) { n.specular *= value(3); }) <= 2);
+    CHECK(difference_to_constant(m, &M::specular_texture, [&](M& n) { n.specular *= value(3); }) <= 2);
     m.clearcoat = 0.9F;
     m.clearcoat_roughness = 0.3F;
-    CHECK(same(m, &M::clearcoat_texture, [&](M& n) { n.clearcoat *= value(0); }) <= 2);
-    CHECK(same(m, &M::clearcoat_roughness_texture, [&](M& n) { n.clearcoat_roughness *= value(1); }) <= 2);
-    CHECK(same(m, &M::clearcoat_texture, [&](M& n) { n.clearcoat *= 0.2F; }) > 4);  // negative control
-    m = stuff(1.0F, 0.35F);
+    CHECK(difference_to_constant(m, &M::clearcoat_texture, [&](M& n) { n.clearcoat *= value(0); }) <= 2);
+    CHECK(difference_to_constant(m, &M::clearcoat_roughness_texture,
+                                 [&](M& n) { n.clearcoat_roughness *= value(1); }) <= 2);
+    // Negative control.
+    CHECK(difference_to_constant(m, &M::clearcoat_texture, [&](M& n) { n.clearcoat *= 0.2F; }) > 4);
+    m = base_material(1.0F, 0.35F);
     m.anisotropy = 0.9F;
-    CHECK(same(m, &M::anisotropy_texture, [&](M& n) {
+    CHECK(difference_to_constant(m, &M::anisotropy_texture, [&](M& n) {
               n.anisotropy *= value(2);
               n.anisotropy_rotation += std::atan2(value(1) * 2.0F - 1.0F, value(0) * 2.0F - 1.0F);
           }) <= 2);
@@ -238,7 +241,7 @@ TEST_CASE("Material maps: a map with one value equals a constant") {
 TEST_CASE("Material maps: the two directions of a texture wrap independently") {
     test::Studio studio;
     using assets::Wrap;
-    assets::Material m = stuff(0.0F, 0.8F);
+    assets::Material m = base_material(0.0F, 0.8F);
     m.base_color_texture = {.texture = 0, .offset = {-0.7F, 0.6F}, .rotation = 0.2F, .scale = {2.3F, 1.9F}};
     std::vector<render::Picture> pictures;
     for (const Wrap s : {Wrap::repeat, Wrap::clamp, Wrap::mirror})
@@ -251,6 +254,6 @@ TEST_CASE("Material maps: the two directions of a texture wrap independently") {
                 pictures.push_back(rendered(studio, model));
                 CHECK(difference(pictures.back(), traced(model)) < 2.5);
                 for (std::size_t i = 0; i + 1 < pictures.size(); ++i)
-                    CHECK(contrast(pictures[i], pictures.back()) > 3.5);
+                    CHECK(mean_difference(pictures[i], pictures.back()) > 3.5);
             }
 }

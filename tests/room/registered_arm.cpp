@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "tests/room/immersive_driver.hpp"
-#include "tests/station/virtual_bench.hpp"
+#include "tests/station/virtual_time_station.hpp"
 
 namespace registered_arm_test {
 
@@ -19,7 +19,7 @@ const Pose arm_in_room{{0.3, 0.9, -0.2}, rotation({0.0, 0.4, 0.0})};
 
 // A lesson with an arm and the registration `registered`.
 struct RegisteredArm {
-    test::VirtualBench* bench = nullptr;
+    test::VirtualTimeStation* bench = nullptr;
     std::optional<HeadlessTrainer> driver;
 
     explicit RegisteredArm(std::optional<content::Registration> registered, double scale = 1.0) {
@@ -33,7 +33,7 @@ struct RegisteredArm {
                           const Equipment&, const std::string&,
                           const device::ArmDialog&) -> Result<std::unique_ptr<station_setup::LessonStation>> {
             BOLT_TRY_ASSIGN(auto prepared, session::prepare_session(assembly, lesson));
-            auto made = std::make_unique<test::VirtualBench>(std::move(prepared), lesson, scale);
+            auto made = std::make_unique<test::VirtualTimeStation>(std::move(prepared), lesson, scale);
             bench = made.get();
             return made;
         };

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "tests/room/immersive_driver.hpp"
-#include "tests/station/virtual_bench.hpp"
+#include "tests/station/virtual_time_station.hpp"
 
 namespace touch_check_test {
 
@@ -38,7 +38,7 @@ Pose handle_at(const Vec3& point) { return {inverse(arm_in_room) * point - handl
 
 // A lesson with a registered arm that a test holds.
 struct TouchedLesson {
-    test::VirtualBench* bench = nullptr;
+    test::VirtualTimeStation* bench = nullptr;
     std::optional<HeadlessTrainer> driver;
 
     explicit TouchedLesson(const content::Registration& registered) {
@@ -52,7 +52,7 @@ struct TouchedLesson {
                    const std::string&,
                    const device::ArmDialog&) -> Result<std::unique_ptr<station_setup::LessonStation>> {
             BOLT_TRY_ASSIGN(auto prepared, session::prepare_session(assembly, lesson));
-            auto made = std::make_unique<test::VirtualBench>(std::move(prepared), lesson, 1.0);
+            auto made = std::make_unique<test::VirtualTimeStation>(std::move(prepared), lesson, 1.0);
             bench = made.get();
             bench->hold({});
             return made;

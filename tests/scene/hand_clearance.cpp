@@ -93,7 +93,7 @@ struct TestWorkplace {
         scene::ToolAndHand state;
         state.tool = tool;
         state.wrench = true;
-        state.grip = scene::natural_grip(postures, tool, Vec3(0, 1, 0), shoulder);
+        state.grip = scene::natural_handle_posture(postures, tool, Vec3(0, 1, 0), shoulder);
         state.effort = 0.5;
         state.seconds = 1.0 / 60.0;
         return state;

@@ -8,10 +8,10 @@
 
 namespace bolt::test {
 
-class VirtualBench final : public station_setup::SteppedStation {
+class VirtualTimeStation final : public station_setup::SteppedStation {
   public:
     // `scale`: that of the workspace map.
-    VirtualBench(session::SessionSetup prepared, session::LessonOptions options, double scale = 1.0)
+    VirtualTimeStation(session::SessionSetup prepared, session::LessonOptions options, double scale = 1.0)
         : puck_({}, device::virtual_timer(time_)),
           supervisor_(puck_.factory(), device::virtual_timer(time_)) {
         while (!supervisor_.status().description) serve();
@@ -74,7 +74,7 @@ class VirtualBench final : public station_setup::SteppedStation {
     std::optional<station::DisplayedHand> hand_;  // of a gloved hand
     double gripper_ = 1.0;                        // 0 closed … 1 open
     bool unplugged_ = false;
-    bool garbles_ = false;  // the record of the next tick deviates from the tick itself
+    bool corrupts_next_record_ = false;  // the record of the next tick deviates from the tick itself
 
   private:
     void serve() { device::run_once(supervisor_, mailboxes_, snapshot_); }
@@ -94,7 +94,7 @@ class VirtualBench final : public station_setup::SteppedStation {
     }
     void write_devices(station::StationStep& done) override {
         mailboxes_.commands.write({done.commands.mover, true, ++command_number_});
-        if (std::exchange(garbles_, false)) done.tick.input.commanded_tool.position[0] += 1e-3F;
+        if (std::exchange(corrupts_next_record_, false)) done.tick.input.commanded_tool.position[0] += 1e-3F;
     }
 
     device::VirtualTime time_;

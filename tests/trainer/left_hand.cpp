@@ -56,13 +56,14 @@ TEST_CASE("Left hand: its postures mirror the right hand's, around a handle too"
     CHECK(off_mirror(right_closed, make_postures(nullptr, 0.15)) > 0.05);  // the hand did close on the bar
 }
 
-TEST_CASE("Left hand: the natural grip mirrors the right hand's") {
+TEST_CASE("Left hand: the natural posture at the handle mirrors the right hand's") {
     const Postures right = make_postures(nullptr, 0.15, hand::Side::right);
     const Postures left = make_postures(nullptr, 0.15, hand::Side::left);
     const Vec3 shoulder(0.35, 0.4, 0.5), in_tools_mirror(0.35, -0.4, 0.5);
     // In the tool's own frame the mirror plane is that of the postures.
     for (const Vec3& up : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0.3, 0, 0.95)})
-        CHECK(natural_grip(left, Pose{}, up, in_tools_mirror) == natural_grip(right, Pose{}, up, shoulder));
+        CHECK(natural_handle_posture(left, Pose{}, up, in_tools_mirror) ==
+              natural_handle_posture(right, Pose{}, up, shoulder));
 }
 
 TEST_CASE("Left hand: wrench, waiting hand and shoulder are on the other side of the machine") {

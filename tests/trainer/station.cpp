@@ -12,7 +12,7 @@
 #include "game/trainer/helped_hand.hpp"
 #include "game/trainer/station_client.hpp"
 #include "game/trainer/step_undo.hpp"
-#include "tests/station/virtual_bench.hpp"
+#include "tests/station/virtual_time_station.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
 #include "tests/trainer/one_joint.hpp"
@@ -37,7 +37,7 @@ struct StationLesson {
     std::unique_ptr<session::LessonSession> session;
     world::World world;
     StationClient client;
-    test::VirtualBench* bench = nullptr;
+    test::VirtualTimeStation* bench = nullptr;
     UserActions actions;
     StepUndo undo;
     std::set<Key> down;
@@ -57,7 +57,7 @@ struct StationLesson {
              other = session::prepare_session(assembly, options);
         REQUIRE(one);
         REQUIRE(other);
-        auto made = std::make_unique<test::VirtualBench>(std::move(*one), options);
+        auto made = std::make_unique<test::VirtualTimeStation>(std::move(*one), options);
         bench = made.get();
         client.link = std::move(made);
         if (closes == Closes::by_gripper) bench->add_gripper();
@@ -334,7 +334,7 @@ TEST_CASE("Station client: a difference between the station's and the lesson's s
     REQUIRE(lesson_run.status);
     const double before = lesson_run.session->time();
     CHECK(before > 0.15);
-    lesson_run.bench->garbles_ = true;
+    lesson_run.bench->corrupts_next_record_ = true;
     lesson_run.hold({Key::d});
     lesson_run.frames(0.1);
     CHECK_FALSE(lesson_run.status);

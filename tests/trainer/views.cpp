@@ -44,8 +44,9 @@ TEST_CASE("View: for every nut of the reducer it contains the wrist and still sh
         const Vec3 nut = servo::nut_centre(setup.nuts[i], state.joints[i].nut.angle);
         view::ViewTarget of{setup, &*state.tool_contact, i, nut,
                             trainer::wrench_pose_on_nut(rest, setup, state, i, false)};
-        const std::size_t grip = scene::natural_grip(postures, *of.wrench, Vec3(0, 1, 0), shoulder);
-        const Vec3 wrist = *of.wrench * postures.on_handle.at(grip).position[hand::wrist];
+        const std::size_t posture =
+            scene::natural_handle_posture(postures, *of.wrench, Vec3(0, 1, 0), shoulder);
+        const Vec3 wrist = *of.wrench * postures.on_handle.at(posture).position[hand::wrist];
         view::Orbit from;
         from.pitch = to_radians(30.0);
         const view::Orbit without = view::find_view(of, sight, from);

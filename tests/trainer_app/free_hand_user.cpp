@@ -47,7 +47,7 @@ Pose FreeHandUser::hand() const {
     return hand_of(lesson()).wrench ? tool_of(lesson()).pose : hand_of(lesson()).pose;
 }
 
-Vec3 FreeHandUser::grip_of(const Pose& pose) const {
+Vec3 FreeHandUser::handle_end(const Pose& pose) const {
     return pose * Vec3(hand_of(lesson()).wrench ? setup().wrench.handle_length : 0.0, 0.0, 0.0);
 }
 
@@ -119,7 +119,7 @@ void FreeHandUser::wait(double seconds) {
 void FreeHandUser::drag_by(const Vec3& error) {
     turn(false);
     const Projection screen = driver_.projection();
-    const Vec3 at = sees(grip_of(hand())) ? grip_of(hand()) : hand().position;
+    const Vec3 at = sees(handle_end(hand())) ? handle_end(hand()) : hand().position;
     const Vec3 view = glm::normalize(at - Vec3(screen.eye.position));
     const double length = glm::length(error);
     const double share = std::min(std::min(largest_correction, correction * seconds_),
@@ -154,7 +154,7 @@ bool FreeHandUser::lead_to(const Pose& target, double near, double longest, bool
     for (const double until = now() + longest; going() && due() != nullptr && now() < until;) {
         if (engaged() >= 0) return false;
         const Pose tool = hand();
-        const Vec3 error = grip_of(target) - grip_of(tool);
+        const Vec3 error = handle_end(target) - handle_end(tool);
         const Vec3 normal = tool.orientation * Vec3(0.0, 0.0, 1.0);
         const double angle =
             wrench && turned ? glm::dot(normal, turn_between(tool.orientation, target.orientation)) : 0.0;
@@ -177,7 +177,7 @@ bool FreeHandUser::sees(const Vec3& point) const {
 
 // Shows the goal and the hand: the whole machine, and from further away until both are in the picture.
 void FreeHandUser::look(const Vec3& goal) {
-    const auto shown = [&] { return sees(goal) && sees(hand().position) && sees(grip_of(hand())); };
+    const auto shown = [&] { return sees(goal) && sees(hand().position) && sees(handle_end(hand())); };
     if (shown()) return;
     hold(false);
     driver_.key(platform::Key::f);
@@ -307,7 +307,7 @@ bool FreeHandUser::lower(const Pose& seated) {
         const collision::JawFit seat = collision::jaw_fit(
             setup().wrench.jaw, servo::prism_of(geometry),
             servo::pose_in_nut_frame(geometry, state().joints[joint].nut.angle, servo::tool_pose(tool)));
-        const Vec3 handle = grip_of(tool) - tool.position;
+        const Vec3 handle = handle_end(tool) - tool.position;
         // Turning about −axis tightens; the misalignment is positive if the jaw is ahead.
         const Vec3 swing = seat.misalignment * glm::cross(up, handle);
         const bool fits = std::abs(seat.misalignment) < aligned && glm::length(level) < level_error;

@@ -37,7 +37,7 @@ class FreeHandUser {
     [[nodiscard]] Vec3 nut() const;   // centre of the due nut, m
     [[nodiscard]] Vec3 axis() const;  // of the due nut
     [[nodiscard]] Pose hand() const;
-    [[nodiscard]] Vec3 grip_of(const Pose& pose) const;  // the point that a drag moves, m
+    [[nodiscard]] Vec3 handle_end(const Pose& pose) const;  // the point that a drag moves, m
     [[nodiscard]] bool beside_bolt() const;
 
     // Presses or releases the left button at a place that leaves room to drag towards `direction`; with `at`

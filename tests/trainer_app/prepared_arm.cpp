@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-#include "tests/station/virtual_bench.hpp"
+#include "tests/station/virtual_time_station.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/trainer_app/headless_trainer.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 // Starts a station on the starter's thread whose arm first has the needs that the test gives it, as the
 // station with a device does.
 struct UnpreparedArm {
-    std::atomic<test::VirtualBench*> bench = nullptr;
+    std::atomic<test::VirtualTimeStation*> bench = nullptr;
     std::mutex mutex;
     device::Preparation needed{device::DeviceNeed::permission, {}};  // under the mutex
     std::atomic<int> moved = 0;
@@ -58,7 +58,7 @@ struct UnpreparedArm {
             if (!prepare(dialog)) return fail(ErrorCode::no_device, "the arm is not prepared");
             auto prepared = session::prepare_session(assembly, lesson_options);
             if (!prepared) return fail(prepared.error());
-            auto made = std::make_unique<test::VirtualBench>(std::move(*prepared), lesson_options);
+            auto made = std::make_unique<test::VirtualTimeStation>(std::move(*prepared), lesson_options);
             bench = made.get();
             return made;
         };
@@ -187,7 +187,7 @@ TEST_CASE(
     driver.frame();
     driver.press_button("menu.start");
     wait_for_lesson(driver);
-    test::VirtualBench& bench = *arm.bench;
+    test::VirtualTimeStation& bench = *arm.bench;
     const auto pass = [&](double seconds, const std::vector<platform::InputEvent>& events = {}) {
         driver.frame(events, 0.1);
         for (double t = 0.0; t < seconds; t += 0.1) {

@@ -4,7 +4,7 @@
 #include "content/format/assembly.hpp"
 #include "content/format/folders.hpp"
 #include "game/session/session_file.hpp"
-#include "tests/station/virtual_bench.hpp"
+#include "tests/station/virtual_time_station.hpp"
 #include "tests/trainer_app/headless_trainer.hpp"
 
 using namespace bolt;
@@ -14,7 +14,7 @@ using test::HeadlessTrainer;
 namespace {
 
 struct AtBench {
-    test::VirtualBench* bench = nullptr;
+    test::VirtualTimeStation* bench = nullptr;
     std::optional<station::DisplayedHand> gloved;
 
     std::optional<Error> refuses;
@@ -31,7 +31,7 @@ struct AtBench {
             if (refuses) return fail(*refuses);
             auto prepared = session::prepare_session(assembly, lesson_options);
             if (!prepared) return fail(prepared.error());
-            auto made = std::make_unique<test::VirtualBench>(std::move(*prepared), lesson_options);
+            auto made = std::make_unique<test::VirtualTimeStation>(std::move(*prepared), lesson_options);
             bench = made.get();
             bench->hand_ = gloved;
 

@@ -24,7 +24,7 @@ TEST_CASE("Loaded model: an assembly gives its model and views; the far level gi
     const ModelLoadResult cover = load_model("cover-m8");
     REQUIRE(cover.ok());
     CHECK(cover.model.name == "cover-m8");
-    CHECK_FALSE(cover.model.bare);
+    CHECK_FALSE(cover.model.without_assembly);
     CHECK(cover.model.views.size() >= 2);
     CHECK(has(cover.model.files, "assembly.json"));
     CHECK(has(cover.model.files, "cover-m8.glb"));
@@ -46,7 +46,7 @@ TEST_CASE("Loaded model: a bare model has no views; a missing file is a content 
     REQUIRE(content != nullptr);
     const ModelLoadResult wrench = load_model((fs::path(content) / "tools/wrench-13.glb").string());
     REQUIRE(wrench.ok());
-    CHECK(wrench.model.bare);
+    CHECK(wrench.model.without_assembly);
     CHECK(wrench.model.name == "wrench-13.glb");
     CHECK_FALSE(named_view(wrench.model, "top").has_value());
     for (const char* nowhere : {"nowhere.glb", "nowhere"}) {

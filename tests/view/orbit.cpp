@@ -57,8 +57,8 @@ TEST_CASE("Camera: the eye of an orbit equals render::make_eye, and from straigh
     for (const glm::vec3& eye :
          {glm::vec3(1, 0.5F, 2), {-1, -0.7F, -0.2F}, {0.1F, 3, 0.3F}, {0.1F, -3, 0.3F}}) {
         const Viewpoint view{"", eye, {0.1F, 0.0F, 0.3F}, 0.7F};
-        const render::Eye direct =
-            render::make_eye(view.eye, view.target, lens(box, view.eye, view.target, view.fov, 1.6F));
+        const render::Eye direct = render::make_eye(
+            view.eye, view.target, perspective_for(box, view.eye, view.target, view.fov, 1.6F));
         const render::Eye circled = eye_of(orbit_of(view), box, 1.6F);
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 4; ++row)
