@@ -17,6 +17,10 @@ constexpr double length_tolerance = 1e-9;  // m; tolerates the rounding of decim
 bool has_size(const JointType& type) { return type.design.thread.size.d > 0.0; }
 bool has_property_class(const JointType& type) { return type.design.bolt_class.R_p02 > 0.0; }
 
+const char* turned_name(const joint::JointDesign& design) {
+    return design.turned == joint::TurnedPart::head ? "head" : "nut";
+}
+
 // Rounds down to 0.1 N·m, so that the limit in a message is accepted.
 double rounded_down(double torque) { return std::floor(torque * 10.0) / 10.0; }
 
@@ -31,30 +35,149 @@ void check_thread_length(const LayeredObject& layers, const joint::JointDesign& 
             fmt::format("at most {:g} mm", design.bolt_length / mm));
         return;
     }
-    const double thread = design.bolt_thread_length > 0.0
-                              ? design.bolt_thread_length
-                              : joint::thread_length(design.thread.size.d, design.bolt_length);
+    const double thread = design.thread_on_bolt();
     if (grip < design.bolt_length - thread - length_tolerance)
         reader.report(
             thread_node ? thread_node.pointer : layers.find("bolt_length_mm").pointer,
             fmt::format(
-                "the nut cannot reach its seat: the thread ends {:g} mm under the head, the grip is {:g} mm",
-                (design.bolt_length - thread) / mm, grip / mm),
+                "the {} cannot reach its seat: the thread ends {:g} mm under the head, the grip is {:g} mm",
+                turned_name(design), (design.bolt_length - thread) / mm, grip / mm),
             fmt::format("a shorter bolt, or bolt_thread_length_mm of at least {:g}",
                         (design.bolt_length - grip) / mm));
 }
 
-// Requires the size, the bolt's length and the complete grip.
-void check_lengths(const LayeredObject& layers, const joint::JointDesign& design) {
+// Checks the screw of a tapped hole; returns false after an error.
+bool check_screw_length(const LayeredObject& layers, const joint::JointDesign& design) {
+    JsonReader& reader = layers.reader();
+    const double grip = design.grip_length(), in_hole = design.bolt_length - grip;
+    const double idle = joint::idle_pitches * design.thread.thread.pitch;
+    const JsonNode length = layers.find("bolt_length_mm");
+    const LayeredObject hole = layers.member_layers("tapped_hole");
+    if (in_hole <= idle + length_tolerance) {
+        reader.report(length.pointer,
+                      fmt::format("a screw of {:g} mm is too short for a grip of {:g} mm and a tapped hole",
+                                  design.bolt_length / mm, grip / mm),
+                      fmt::format("more than {:g} mm: {:g} pitches of its thread carry nothing",
+                                  (grip + idle) / mm, joint::idle_pitches));
+        return false;
+    }
+    const JsonNode engagement = hole.find("engagement_mm");
+    if (engagement && design.hole.engagement > in_hole + length_tolerance) {
+        reader.report(engagement.pointer,
+                      fmt::format("an engagement of {:g} mm, but the screw reaches {:g} mm into the hole",
+                                  design.hole.engagement / mm, in_hole / mm),
+                      fmt::format("at most {:g} mm", in_hole / mm));
+        return false;
+    }
+    const JsonNode depth = hole.find("depth_mm");
+    if (depth && design.hole.depth < in_hole + length_tolerance) {
+        reader.report(depth.pointer,
+                      fmt::format("the screw meets the bottom of the hole: it reaches {:g} mm into a hole of "
+                                  "{:g} mm",
+                                  in_hole / mm, design.hole.depth / mm),
+                      "a deeper hole, or a shorter screw");
+        return false;
+    }
+    return true;
+}
+
+// Reports members that this form of joint cannot have, and those that it lacks.
+void check_form(const LayeredObject& layers, const joint::JointDesign& design) {
+    using joint::JointForm;
+    if (!layers.all_valid({"form", "head", "turned", "tapped_hole", "locking_insert"})) return;
+    JsonReader& reader = layers.reader();
+    const auto reject = [&](const char* key, const char* what, const char* expected) {
+        if (const JsonNode node = layers.find(key)) reader.report(node.pointer, what, expected);
+    };
+    const bool screw = design.form == JointForm::tapped_hole, stud = design.form == JointForm::stud;
+    const auto has = [&](const char* key) { return layers.boolean(key).value_or(false); };
+    if (screw && design.turned == joint::TurnedPart::nut)
+        reject("turned", "a screw in a tapped hole has no nut", "\"head\"");
+    if (stud && design.turned == joint::TurnedPart::head) reject("turned", "a stud has no head", "\"nut\"");
+    if (stud && design.head == joint::HeadShape::socket)
+        reject("head", "a stud has no head", "no such value");
+    if (screw && has("washer_under_nut"))
+        reject("washer_under_nut", "a screw in a tapped hole has no nut", "washer_under_head");
+    if (stud && has("washer_under_head"))
+        reject("washer_under_head", "a stud has no head", "washer_under_nut");
+    if (screw && has("locking_insert"))
+        reject("locking_insert", "a screw in a tapped hole has no nut", "false");
+    if (screw)
+        reject("nut_proof_stress_MPa", "a screw in a tapped hole has no nut", "the values of tapped_hole");
+    const JsonNode hole = layers.find("tapped_hole");
+    if (!design.is_tapped() && hole)
+        reader.report(hole.pointer, "a through-bolt has no tapped hole",
+                      "the form tapped_hole or stud, or no such value");
+    if (design.is_tapped() && !hole)
+        reader.report(layers.find("form").pointer, "a joint of this form needs its tapped hole",
+                      "tapped_hole with its material");
+    const LayeredObject tapped = layers.member_layers("tapped_hole");
+    if (stud && hole && !tapped.find("engagement_mm"))
+        reader.report(hole.pointer, "a stud needs its engagement",
+                      "engagement_mm, of 1 d (DIN 938), 1.25 d (DIN 939) or 2 d (DIN 835)");
+    if (const JsonNode depth = tapped.find("depth_mm"))
+        if (stud && design.hole.depth < design.hole.engagement)
+            reader.report(depth.pointer,
+                          fmt::format("a stud with {:g} mm of engagement in a hole of {:g} mm",
+                                      design.hole.engagement / mm, design.hole.depth / mm),
+                          "a deeper hole");
+}
+
+// Reports a size that the tables of socket heads or locking nuts lack. Requires the size.
+void check_tables(const LayeredObject& layers, const joint::JointDesign& design) {
+    const std::string_view size = design.thread.size.name;
+    if (design.head == joint::HeadShape::socket && !joint::socket_head(size))
+        layers.reader().report(layers.find("head").pointer,
+                               fmt::format("there is no socket head of {} in our table", size),
+                               "M5, M6, M8, M10, M12, M16, M20 or M24");
+    if (design.locking_insert && !joint::locking_nut(size))
+        layers.reader().report(layers.find("locking_insert").pointer,
+                               fmt::format("there is no locking nut of {} in our table", size),
+                               "M5, M6, M8, M10, M12, M16, M20 or M24");
+}
+
+// Reports a tapped thread that strips before the highest torque that is judged OK. Requires the size, the
+// class, the friction, the target torque and the complete grip.
+void check_stripping(const LayeredObject& layers, const JointType& type) {
+    const joint::JointDesign& design = type.design;
+    const joint::TappedHole& hole = design.hole;
+    if (!design.is_tapped() || hole.material.R_m <= 0.0 || hole.engagement <= 0.0) return;
+    const joint::ScrewThread& thread = design.thread.thread;
+    const double strip =
+        joint::stripping_forces(thread, design.bolt_class, hole.material, hole.engagement).least();
+    const double clamp =
+        type.spec.torque.high / joint::torque_levers(thread, design.friction.thread, design.friction.bearing,
+                                                     design.bearing_diameter())
+                                    .tighten();
+    if (strip >= clamp) return;
+    const JsonNode engagement = layers.member_layers("tapped_hole").find("engagement_mm");
+    const double share = clamp / (design.bolt_class.R_m * thread.A_s);
+    layers.reader().report(
+        (engagement ? engagement : layers.find("bolt_length_mm")).pointer,
+        fmt::format(
+            "the thread in {} strips at {:.1f} kN with {:g} mm of engagement, and {:g} N·m clamps with "
+            "{:.1f} kN",
+            hole.material.name, strip * 1e-3, hole.engagement / mm, type.spec.torque.high, clamp * 1e-3),
+        fmt::format("an engagement of at least {:.1f} mm",
+                    joint::needed_engagement(thread, design.bolt_class, hole.material, share) / mm));
+}
+
+// Requires the size, the bolt's length and the complete grip. Returns false after an error.
+bool check_lengths(const LayeredObject& layers, const joint::JointDesign& design) {
     JsonReader& reader = layers.reader();
     const double grip = design.grip_length();
+    if (design.form == joint::JointForm::tapped_hole) {
+        if (!check_screw_length(layers, design)) return false;
+        if (layers.all_valid({"bolt_thread_length_mm"})) check_thread_length(layers, design);
+        return true;
+    }
     const double needed = grip + design.thread.size.nut_height + design.thread.thread.pitch;
     if (design.bolt_length < needed - length_tolerance) {
         reader.report(layers.find("bolt_length_mm").pointer,
                       fmt::format("a bolt of {:g} mm is too short for a grip of {:g} mm and a nut of {:g} mm",
                                   design.bolt_length / mm, grip / mm, design.thread.size.nut_height / mm),
                       fmt::format("at least {:g} mm", needed / mm));
-        return;
+        return false;
     }
     if (layers.all_valid({"bolt_thread_length_mm"})) check_thread_length(layers, design);
     const JsonNode gap = layers.find("start_gap_mm");
@@ -62,16 +185,18 @@ void check_lengths(const LayeredObject& layers, const joint::JointDesign& design
         reader.report(gap.pointer,
                       fmt::format("a gap of {:g} mm is beyond the bolt's end", design.start_gap / mm),
                       fmt::format("less than {:g} mm", (design.bolt_length - grip) / mm));
+    return true;
 }
 
 void check_member_diameter(const LayeredObject& layers, const joint::JointDesign& design) {
     const JsonNode diameter = layers.find("member_diameter_mm");
-    if (diameter && design.member_diameter < design.thread.size.nut_bearing)
+    const double bearing = joint::turned_part_size(design).bearing;
+    if (diameter && design.member_diameter < bearing)
         layers.reader().report(
             diameter.pointer,
-            fmt::format("members of {:g} mm diameter are smaller than the nut's bearing face",
-                        design.member_diameter / mm),
-            fmt::format("at least {:g} mm", design.thread.size.nut_bearing / mm));
+            fmt::format("members of {:g} mm diameter are smaller than the {}'s bearing face",
+                        design.member_diameter / mm, turned_name(design)),
+            fmt::format("at least {:g} mm", bearing / mm));
 }
 
 void check_clamp(const LayeredObject& layers, const JointType& type) {
@@ -91,8 +216,7 @@ void check_load(const LayeredObject& layers, const JointType& type) {
     constexpr double utilisation = 0.9;
     const double torque_90 =
         joint::assembly_preload(design.thread.thread, design.bolt_class, design.friction.thread,
-                                design.friction.bearing,
-                                joint::bearing_mean_diameter(size.nut_bearing, size.hole), utilisation)
+                                design.friction.bearing, design.bearing_diameter(), utilisation)
             .torque;
     const double yield_torque = torque_90 / utilisation + design.prevailing_torque;
     const LayeredObject spec = layers.member_layers("spec");
@@ -124,15 +248,6 @@ void check_load(const LayeredObject& layers, const JointType& type) {
     }
 }
 
-// Largest prevailing torque of a locking nut of class 8 at first assembly (N·m, ISO 2320); 0: unknown.
-double largest_prevailing(std::string_view size) {
-    constexpr std::pair<std::string_view, double> largest[] = {
-        {"M8", 6.0}, {"M10", 10.5}, {"M12", 15.5}, {"M16", 32.0}, {"M20", 54.0}};
-    for (const auto& [name, torque] : largest)
-        if (name == size) return torque;
-    return 0.0;
-}
-
 // Reports a prevailing torque that is unusually large, or that leaves no torque to load the bolt.
 void check_prevailing(const LayeredObject& layers, const JointType& type, double smallest_pass_fraction) {
     constexpr double margin = 1.5;  // factor on ISO 2320, for other classes, coatings and dry threads
@@ -142,7 +257,8 @@ void check_prevailing(const LayeredObject& layers, const JointType& type, double
     const bool target_known = static_cast<bool>(layers.member_layers("spec").find("target_torque_Nm"));
     const double pass_torque =
         target_known ? smallest_pass_fraction * target : std::numeric_limits<double>::infinity();
-    const double iso_torque = largest_prevailing(type.design.thread.size.name);
+    const joint::LockingNut* const nut = joint::locking_nut(type.design.thread.size.name);
+    const double iso_torque = nut ? nut->most_on : 0.0;  // 0: unknown
     const double max_torque =
         iso_torque > 0.0 ? margin * iso_torque : std::numeric_limits<double>::infinity();
     if (prevailing >= pass_torque)
@@ -239,7 +355,11 @@ void check_joint_type(const LayeredObject& layers, const JointType& type, double
                       layers.all_valid({"washer_under_head", "washer_under_nut"}) &&
                       std::all_of(design.members.begin(), design.members.end(),
                                   [](const joint::Member& m) { return m.thickness > 0.0; });
-    if (has_size(type) && grip && layers.find("bolt_length_mm")) check_lengths(layers, design);
+    check_form(layers, design);
+    if (has_size(type)) check_tables(layers, design);
+    const bool lengths =
+        has_size(type) && grip && layers.find("bolt_length_mm") && layers.all_valid({"form", "tapped_hole"});
+    const bool long_enough = lengths && check_lengths(layers, design);
     if (has_size(type)) check_member_diameter(layers, design);
     if (has_size(type) && has_property_class(type)) check_clamp(layers, type);
     if (spec.objects().empty()) return;
@@ -248,6 +368,7 @@ void check_joint_type(const LayeredObject& layers, const JointType& type, double
     if (has_size(type) && has_property_class(type) && torques && spec.all_valid({"strategy"}) &&
         layers.all_valid({"friction_thread", "friction_bearing", "prevailing_torque_Nm"}))
         check_load(layers, type);
+    if (long_enough && has_property_class(type) && torques) check_stripping(layers, type);
     check_prevailing(layers, type, smallest_pass_fraction);
     check_limits(spec);
     if (torques) check_torques(spec, type.spec.torque, type.spec.snug_torque);

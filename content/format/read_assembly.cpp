@@ -54,7 +54,7 @@ WrenchDesign read_tool(JsonReader& reader, const JsonNode& node, const std::vect
     // flats.
     double widest = 0.0;
     for (const AssemblyJoint& joint : joints)
-        widest = std::max(widest, joint.design.thread.size.across_flats);
+        widest = std::max(widest, joint::turned_part_size(joint.design).across_flats);
     const auto too_short = [&](const auto& value, double share, const char* what) {
         if (!value || *value * mm >= share * widest - 1e-9) return;
         reader.report(

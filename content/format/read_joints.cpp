@@ -127,9 +127,62 @@ joint::FrictionDesign read_friction(const LayeredObject& layers) {
     return friction;
 }
 
+// A built-in material, of which each value can be replaced, or one whose values are all given.
+joint::TappedMaterial read_tapped_material(const LayeredObject& hole) {
+    JsonReader& reader = hole.reader();
+    const auto name = hole.text("material");
+    const auto E = hole.number("E_GPa"), strength = hole.number("tensile_strength_MPa");
+    const auto ratio = hole.number("shear_ratio");
+    joint::TappedMaterial material;
+    if (name) {
+        const auto known = joint::tapped_material(*name);
+        if (known)
+            material = *known;
+        else if (!(E && strength && ratio) &&
+                 hole.all_valid({"E_GPa", "tensile_strength_MPa", "shear_ratio"}))
+            reader.report(name.pointer, known.error().what,
+                          known.error().expected.starts_with("did you mean")
+                              ? known.error().expected
+                              : known.error().expected +
+                                    ", or another one with E_GPa, tensile_strength_MPa and shear_ratio");
+        material.name = *name;
+    }
+    if (E) material.E = *E * 1e9;
+    if (strength) material.R_m = *strength * 1e6;
+    if (ratio) material.shear_ratio = *ratio;
+    return material;
+}
+
+// The form of the joint and the part that is turned.
+void read_form(const LayeredObject& layers, joint::JointDesign& design) {
+    using joint::JointForm;
+    const std::string form = layers.text("form").value_or("through_bolt");
+    design.form = form == "tapped_hole" ? JointForm::tapped_hole
+                  : form == "stud"      ? JointForm::stud
+                                        : JointForm::through_bolt;
+    design.head = layers.text("head").value_or("hexagon") == "socket" ? joint::HeadShape::socket
+                                                                      : joint::HeadShape::hexagon;
+    const std::string turned =
+        layers.text("turned").value_or(design.form == JointForm::tapped_hole ? "head" : "nut");
+    design.turned = turned == "head" ? joint::TurnedPart::head : joint::TurnedPart::nut;
+    const LayeredObject hole = layers.member_layers("tapped_hole");
+    if (!hole.objects().empty()) design.hole.material = read_tapped_material(hole);
+    design.hole.engagement = hole.number("engagement_mm").value_or(0.0) * mm;
+    design.hole.depth = hole.number("depth_mm").value_or(0.0) * mm;
+    design.locking_insert = layers.boolean("locking_insert").value_or(false);
+}
+
+// Torque of a locking nut without a value of its own: half of the most that ISO 2320 allows.
+double usual_prevailing_torque(const joint::JointDesign& design) {
+    const joint::LockingNut* const nut =
+        design.locking_insert ? joint::locking_nut(design.thread.size.name) : nullptr;
+    return nut ? 0.5 * nut->most_on : 0.0;
+}
+
 joint::JointDesign read_design(const LayeredObject& layers, const YoungsModuli& moduli) {
     JsonReader& reader = layers.reader();
     joint::JointDesign design{};
+    read_form(layers, design);
     if (const auto size = layers.text("size")) {
         if (auto thread = read_thread(*size))
             design.thread = *thread;
@@ -153,12 +206,15 @@ joint::JointDesign read_design(const LayeredObject& layers, const YoungsModuli& 
     design.roughness_Rz = layers.number("roughness_Rz_um").value_or(design.roughness_Rz / um) * um;
     design.misfit = layers.number("misfit_um").value_or(design.misfit / um) * um;
     design.embedding_time = layers.number("embedding_time_s").value_or(design.embedding_time);
-    design.prevailing_torque = layers.number("prevailing_torque_Nm").value_or(0.0);
+    design.prevailing_torque =
+        layers.number("prevailing_torque_Nm").value_or(usual_prevailing_torque(design));
     design.running_drag = layers.number("running_torque_Nm").value_or(design.running_drag);
     design.nut_mass = layers.number("nut_mass_g").value_or(0.0) * 1e-3;
     const double started =
         design.bolt_length - design.grip_length() - started_turns * design.thread.thread.pitch;
     design.start_gap = layers.number("start_gap_mm").value_or(std::max(started, 0.0) / mm) * mm;
+    if (design.form == joint::JointForm::tapped_hole && design.hole.engagement <= 0.0)
+        design.hole.engagement = std::max(0.0, design.bolt_length - design.grip_length());
     return design;
 }
 
@@ -299,7 +355,9 @@ AssemblyJoint read_joint(JointTypes& types, const JsonNode& node) {
     }
     joint.design.id = reader.text(reader.member(node, "id")).value_or("");
     joint.design.axis = read_axis(reader, node);
-    const double washer = joint.design.washer_under_nut ? joint.design.thread.size.washer_thickness : 0.0;
+    const bool on_washer = joint.design.turned == joint::TurnedPart::head ? joint.design.washer_under_head
+                                                                          : joint.design.washer_under_nut;
+    const double washer = on_washer ? joint.design.thread.size.washer_thickness : 0.0;
     joint.design.seat = reader.vector(reader.member(node, "position_mm")).value_or(Vec3{0.0}) * mm +
                         washer * joint.design.axis;
     return joint;
@@ -336,7 +394,7 @@ void check_joints(JsonReader& reader, const std::vector<JsonNode>& nodes,
             if (!has_position(nodes[k])) continue;
             const Vec3 between = joints[i].design.seat - joints[k].design.seat;
             const double distance = std::sqrt(glm::dot(between, between));
-            const double nut = joints[i].design.thread.size.across_flats;
+            const double nut = joint::turned_part_size(joints[i].design).across_flats;
             if (distance >= nut) continue;
             reader.report(position.pointer,
                           fmt::format("this joint is {:.3g} mm from {}: their nuts overlap", distance / mm,

@@ -37,14 +37,51 @@ AssemblyPreload assembly_preload(const ScrewThread& thread, const PropertyClass&
     return preload;
 }
 
-double bolt_compliance(const ScrewThread& thread, double E, double grip, double shank) {
+double JointDesign::thread_on_bolt() const {
+    if (bolt_thread_length > 0.0) return bolt_thread_length;
+    if (head == HeadShape::socket) return socket_screw_thread_length(thread.size.d, bolt_length);
+    return thread_length(thread.size.d, bolt_length);
+}
+
+double JointDesign::bearing_diameter() const {
+    return bearing_mean_diameter(turned_part_size(*this).bearing, thread.size.hole);
+}
+
+TurnedPartSize turned_part_size(const JointDesign& design) {
+    const FastenerSize& size = design.thread.size;
+    if (design.turned == TurnedPart::head) {
+        const SocketHead* const socket = design.head == HeadShape::socket ? socket_head(size.name) : nullptr;
+        if (socket) return {socket->across_flats, socket->height, socket->bearing, socket->depth};
+        return {size.across_flats, size.head_height, size.head_bearing, 0.0};
+    }
+    const LockingNut* const locking = design.locking_insert ? locking_nut(size.name) : nullptr;
+    return {size.across_flats, locking ? locking->height : size.nut_height, size.nut_bearing, 0.0};
+}
+
+BoltEnds bolt_ends(const JointDesign& design) {
+    const double head = design.head == HeadShape::socket ? 0.4 : 0.5;
+    constexpr double nut = 0.4, tapped = 0.33;
+    switch (design.form) {
+        case JointForm::tapped_hole:
+            return {head, 0.0, 1.0, tapped, design.hole.material.E};
+        case JointForm::stud:
+            return {0.0, nut, 2.0, tapped, design.hole.material.E};
+        case JointForm::through_bolt:
+            break;
+    }
+    return {head, nut, 1.0, 0.0, 0.0};
+}
+
+// The sum keeps its order: recorded sessions replay to the bit.
+double bolt_compliance(const ScrewThread& thread, double E, double grip, double shank, const BoltEnds& ends) {
     const double smooth = std::clamp(shank, 0.0, grip);
-    const double head = 0.5 * thread.d / thread.A_N();
+    const double head = ends.head * thread.d / thread.A_N();
     const double shaft = smooth / thread.A_N();
     const double free_thread = (grip - smooth) / thread.A_d3();
-    const double engaged = 0.5 * thread.d / thread.A_d3();
-    const double nut = 0.4 * thread.d / thread.A_N();
-    return (head + shaft + free_thread + engaged + nut) / E;
+    const double engaged = 0.5 * ends.engaged_threads * thread.d / thread.A_d3();
+    const double nut = ends.nut * thread.d / thread.A_N();
+    const double tapped = ends.tapped > 0.0 ? ends.tapped * thread.d / (thread.A_N() * ends.tapped_E) : 0.0;
+    return (head + shaft + free_thread + engaged + nut) / E + tapped;
 }
 
 namespace {
@@ -57,24 +94,27 @@ double cone_integral(double D0, double D1, double hole, double tan_phi) {
 
 }  // namespace
 
-double member_compliance(std::span<const Member> layers, double bearing_diameter, double hole, double D_A) {
+double member_compliance(std::span<const Member> layers, double bearing_diameter, double hole, double D_A,
+                         DeformationCones cones) {
     double grip = 0.0;
     for (const Member& layer : layers) grip += layer.thickness;
     if (grip <= 0.0) return 0.0;
 
     const double d_w = bearing_diameter;
     const double y = (D_A > d_w ? D_A : 3.0 * d_w) / d_w;
-    // VDI 2230-1 (5.1/28) for a through-bolted joint (w = 1), β_L = l_K/d_w.
-    const double tan_phi = 0.362 + 0.032 * std::log(0.5 * grip / d_w) + 0.153 * std::log(y);
+    // VDI 2230-1 (5.1/27) for a through-bolted joint (w = 1) and (5.1/26) for a tapped one, β_L = l_K/d_w.
+    const bool two = cones == DeformationCones::two;
+    const double tan_phi = two ? 0.362 + 0.032 * std::log(0.5 * grip / d_w) + 0.153 * std::log(y)
+                               : 0.348 + 0.013 * std::log(grip / d_w) + 0.193 * std::log(y);
     const double limit = D_A > 0.0 ? std::max(D_A, d_w) : 1e9;
 
-    // The diameter grows from d_w at either end to the middle of the grip, and stops at D_A: cone, then
-    // sleeve.
+    // Two cones: the diameter grows from d_w at either end to the middle of the grip, and stops at D_A: cone,
+    // then sleeve. One cone: it grows from the bearing face to the end of the grip.
     const auto diameter = [&](double z) {
-        return std::min(d_w + 2.0 * tan_phi * std::min(z, grip - z), limit);
+        return std::min(d_w + 2.0 * tan_phi * (two ? std::min(z, grip - z) : z), limit);
     };
-    const double cone_end = std::min(0.5 * grip, 0.5 * (limit - d_w) / tan_phi);
-    const double breaks[] = {0.0, cone_end, grip - cone_end, grip};
+    const double cone_end = std::min(two ? 0.5 * grip : grip, 0.5 * (limit - d_w) / tan_phi);
+    const double breaks[] = {0.0, cone_end, two ? grip - cone_end : grip, grip};
 
     double compliance = 0.0;
     double begin = 0.0;
@@ -101,11 +141,12 @@ double joint_compliance(const JointDesign& design) {
     std::vector<Member> layers = design.members;
     if (design.washer_under_head) layers.insert(layers.begin(), Member{size.washer_thickness, steel});
     if (design.washer_under_nut) layers.push_back(Member{size.washer_thickness, steel});
-    const double thread_l = design.bolt_thread_length > 0.0 ? design.bolt_thread_length
-                                                            : thread_length(size.d, design.bolt_length);
+    // The cone of a stud begins under its nut, which is at the end of the list.
+    if (design.form == JointForm::stud) std::reverse(layers.begin(), layers.end());
     return bolt_compliance(design.thread.thread, design.bolt_class.E, design.grip_length(),
-                           design.bolt_length - thread_l) +
-           member_compliance(layers, size.nut_bearing, size.hole, design.member_diameter);
+                           design.bolt_length - design.thread_on_bolt(), bolt_ends(design)) +
+           member_compliance(layers, turned_part_size(design).bearing, size.hole, design.member_diameter,
+                             design.is_tapped() ? DeformationCones::one : DeformationCones::two);
 }
 
 }  // namespace bolt::joint

@@ -2,12 +2,14 @@
 // levers, assembly preload and elastic compliance (VDI 2230). The joint laws are derived from it.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine/base/math.hpp"
 #include "haptics/joint/fastener.hpp"
+#include "haptics/joint/tapped_thread.hpp"
 
 namespace bolt::joint {
 
@@ -27,13 +29,36 @@ struct Member {
     double E = 0.0;          // Pa
 };
 
+// How the bolt holds the members together.
+enum class JointForm : std::uint8_t {
+    through_bolt,  // head and nut
+    tapped_hole,   // a screw in the thread of the last member's base
+    stud           // a stud in that thread, with a nut
+};
+
+enum class HeadShape : std::uint8_t { hexagon, socket };  // ISO 4014/4017; ISO 4762
+
+// The part that a tool turns.
+enum class TurnedPart : std::uint8_t { nut, head };
+
+// The thread that a screw or stud is screwed into.
+struct TappedHole {
+    TappedMaterial material;
+    double engagement = 0.0;  // m, length of the engaged thread, with its chamfers
+    double depth = 0.0;       // m, from its mouth to its bottom; 0: it goes through
+};
+
 struct JointDesign {
     std::string id;
+    JointForm form = JointForm::through_bolt;
+    HeadShape head = HeadShape::hexagon;
+    TurnedPart turned = TurnedPart::nut;  // a screw in a tapped hole: head
+    TappedHole hole;                      // of a tapped hole or a stud
     ThreadSize thread;
     PropertyClass bolt_class;
     double nut_strength = 0.0;      // Pa, proof stress of the nut (ISO 898-2); 0: matched to the bolt
-    double bolt_length = 0.0;       // m, under the head
-    double bolt_thread_length = 0;  // m; 0: ISO 4014
+    double bolt_length = 0.0;       // m, under the head; a stud: without its end in the hole
+    double bolt_thread_length = 0;  // m; 0: ISO 4014, or ISO 4762 with a socket head
     bool washer_under_head = false;
     bool washer_under_nut = false;
     std::vector<Member> members;   // clamped parts, without washers
@@ -43,11 +68,12 @@ struct JointDesign {
     double misfit = 5e-6;          // m, scale over which the seat closes (non-parallel faces, thread draw-in)
     double embedding_time = 5.0;   // s, time constant of embedding
     double prevailing_torque = 0;  // N·m, of a locking nut
+    bool locking_insert = false;   // a non-metallic insert (ISO 7040), which acts from its end on and wears
     double running_drag = 0.02;    // N·m, mean drag of the free thread; it fluctuates with the angle
     double start_gap = 0.0;        // m, nut face to seat when the nut is hand-started (angle 0)
-    double nut_mass = 0.0;         // kg; 0: from the nut's volume
-    Vec3 seat{0.0};                // m, centre of the nut's seat in the assembly's frame
-    Vec3 axis{0.0, 1.0, 0.0};      // unit, from the members towards the nut
+    double nut_mass = 0.0;         // kg, of the turned part; 0: from its volume
+    Vec3 seat{0.0};                // m, centre of the turned part's seat in the assembly's frame
+    Vec3 axis{0.0, 1.0, 0.0};      // unit, from the members towards the turned part
 
     [[nodiscard]] double grip_length() const {  // l_K: members and washers
         double l = 0.0;
@@ -55,7 +81,21 @@ struct JointDesign {
         const double washer = thread.size.washer_thickness;
         return l + (washer_under_head ? washer : 0.0) + (washer_under_nut ? washer : 0.0);
     }
+
+    [[nodiscard]] bool is_tapped() const { return form != JointForm::through_bolt; }
+    [[nodiscard]] double thread_on_bolt() const;  // m, bolt_thread_length or its standard's
+    // Mean diameter of the bearing under the turned part, m: (d_w + d_h)/2.
+    [[nodiscard]] double bearing_diameter() const;
 };
+
+// Dimensions of the part that is turned, m. `depth`: of a head's socket; 0: the tool grips it from outside.
+struct TurnedPartSize {
+    double across_flats = 0.0;  // s that the tool must have
+    double height = 0.0;
+    double bearing = 0.0;  // d_w
+    double depth = 0.0;
+};
+TurnedPartSize turned_part_size(const JointDesign& design);
 
 // The lever arms of T = F (P/2π + μ_G r_t/cos β + μ_K r_b), m. Motosh, J. Eng. Ind. 98 (1976) 849.
 struct TorqueLevers {
@@ -95,15 +135,30 @@ struct AssemblyPreload {
 AssemblyPreload assembly_preload(const ScrewThread& thread, const PropertyClass& bolt, double mu_thread,
                                  double mu_bearing, double bearing_mean_diameter, double utilisation = 0.9);
 
-// Elastic compliance of the bolt, m/N, VDI 2230-1 section 5.1.1. δ_S: head (0.5 d), shank, free thread,
-// engaged thread (0.5 d on the core) and nut (0.4 d).
-double bolt_compliance(const ScrewThread& thread, double E, double grip, double shank);
+// The ends of a bolt as cylinders of its nominal section, VDI 2230-1 section 5.1.1: their lengths as shares
+// of d. Each thread that is engaged adds 0.5 d of the core section.
+struct BoltEnds {
+    double head = 0.5;           // 0.5 hexagon, 0.4 socket; 0 for a stud
+    double nut = 0.4;            // 0 for a screw in a tapped hole
+    double engaged_threads = 1;  // a stud has two
+    double tapped = 0.0;         // 0.33 with a tapped hole
+    double tapped_E = 0.0;       // Pa, of the tapped part
+};
+BoltEnds bolt_ends(const JointDesign& design);
+
+// Elastic compliance of the bolt, m/N, VDI 2230-1 section 5.1.1. δ_S: ends, shank, free thread, engaged
+// threads.
+double bolt_compliance(const ScrewThread& thread, double E, double grip, double shank,
+                       const BoltEnds& ends = {});
 
 // Elastic compliance of the clamped members, m/N, VDI 2230-1 section 5.1.2. δ_P of a stack of layers under
-// the deformation cones of head and nut (through-bolted joint), concentric, with a cone that may be cut by
-// the outer diameter D_A (0: unlimited; the cone's angle is then taken at D_A = 3 d_w). Layers of different
-// modulus are integrated exactly along the cone.
-double member_compliance(std::span<const Member> layers, double bearing_diameter, double hole, double D_A);
+// the deformation cones of head and nut, concentric, with a cone that may be cut by the outer diameter D_A
+// (0: unlimited; the cone's angle is then taken at D_A = 3 d_w). Layers of different modulus are integrated
+// exactly along the cone. With a tapped hole there is one cone, from the bearing face to the tapped part; the
+// layers are then in this order.
+enum class DeformationCones : std::uint8_t { two = 1, one = 2 };  // w of VDI 2230
+double member_compliance(std::span<const Member> layers, double bearing_diameter, double hole, double D_A,
+                         DeformationCones cones = DeformationCones::two);
 
 // Compliance of bolt and members of a design, m/N. The shank length follows from the bolt's thread length;
 // washers are steel layers.

@@ -44,6 +44,34 @@ constexpr FastenerSize sizes[] = {
     row("M39", 39, 4.00,  3.0,  2.0,  1.5, 60, 25.0, 55.86, 33.4,  55.9,  42.0, 72,  6.0, 42.0),
 };
 
+// ISO 4762; M4 is not in our source. Millimetres.
+constexpr SocketHead socket_row(std::string_view size, double dk, double k, double s, double t, double dw) {
+    return {size, dk * mm, k * mm, s * mm, t * mm, dw * mm};
+}
+
+constexpr SocketHead socket_heads[] = {
+    //         size   d_k   k     s     t     d_w
+    socket_row("M5", 8.5, 5, 4, 2.5, 8.03),   socket_row("M6", 10, 6, 5, 3, 9.38),
+    socket_row("M8", 13, 8, 6, 4, 12.33),     socket_row("M10", 16, 10, 8, 5, 15.33),
+    socket_row("M12", 18, 12, 10, 6, 17.23),  socket_row("M16", 24, 16, 14, 8, 23.17),
+    socket_row("M20", 30, 20, 17, 10, 28.87), socket_row("M24", 36, 24, 19, 12, 34.81),
+};
+
+constexpr LockingNut locking_nuts[] = {
+    // size, h max (ISO 7040), N·m of ISO 2320: first on at most, first off and fifth off at least
+    {"M5", 6.8 * mm, 1.6, 0.29, 0.2},   {"M6", 8.0 * mm, 3.0, 0.45, 0.3},
+    {"M8", 9.5 * mm, 6.0, 0.85, 0.6},   {"M10", 11.9 * mm, 10.5, 1.5, 1.0},
+    {"M12", 14.9 * mm, 15.5, 2.3, 1.6}, {"M16", 19.1 * mm, 32.0, 4.5, 3.0},
+    {"M20", 22.8 * mm, 54.0, 7.5, 5.3}, {"M24", 27.1 * mm, 80.0, 11.5, 8.0},
+};
+
+template <class Row, std::size_t count>
+const Row* row_of(const Row (&rows)[count], std::string_view size) {
+    const Row* const found =
+        std::find_if(std::begin(rows), std::end(rows), [&](const Row& row) { return row.size == size; });
+    return found == std::end(rows) ? nullptr : found;
+}
+
 struct ClassRow {
     std::string_view name;
     double R_p02, R_m;            // MPa, d ≤ 16 mm
@@ -98,6 +126,9 @@ tl::unexpected<Error> unknown(std::string what, std::string_view given, const st
 }  // namespace
 
 std::span<const FastenerSize> fastener_sizes() { return sizes; }
+
+const SocketHead* socket_head(std::string_view size) { return row_of(socket_heads, size); }
+const LockingNut* locking_nut(std::string_view size) { return row_of(locking_nuts, size); }
 
 std::vector<std::string> thread_names() {
     std::vector<std::string> names;

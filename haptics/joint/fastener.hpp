@@ -1,8 +1,9 @@
 // ISO metric threads and fasteners: thread geometry (ISO 68-1 basic profile, ISO 724 basic dimensions), the
-// sizes M4 to M39 of bolts, nuts, washers and holes, and the strength of property classes and stainless
-// grades.
+// sizes M4 to M39 of bolts, nuts, washers and holes, socket heads and locking nuts, and the strength of
+// property classes and stainless grades.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -58,6 +59,32 @@ struct FastenerSize {
 
 std::span<const FastenerSize> fastener_sizes();
 
+// The head of a hexagon socket head cap screw, ISO 4762 (= DIN 912). Metres, symbols as the standard writes
+// them.
+struct SocketHead {
+    std::string_view size;      // "M16"
+    double diameter = 0.0;      // d_k max, without knurling
+    double height = 0.0;        // k max
+    double across_flats = 0.0;  // s of the socket
+    double depth = 0.0;         // t min, of the socket
+    double bearing = 0.0;       // d_w min
+};
+
+// Null if the table lacks the size.
+const SocketHead* socket_head(std::string_view size);
+
+// A prevailing-torque nut of class 8 with a non-metallic insert: height of ISO 7040, torques of ISO 2320.
+struct LockingNut {
+    std::string_view size;
+    double height = 0.0;         // h max, m
+    double most_on = 0.0;        // N·m, at most while it is screwed on for the first time
+    double least_off = 0.0;      // N·m, at least while it is unscrewed for the first time
+    double least_off_5th = 0.0;  // N·m, at least while it is unscrewed for the fifth time
+};
+
+// Null if the table lacks the size.
+const LockingNut* locking_nut(std::string_view size);
+
 struct ThreadSize {
     FastenerSize size;
     ScrewThread thread;
@@ -88,5 +115,8 @@ std::vector<std::string> property_class_names();
 
 // Length of thread b of an ISO 4014 bolt of length l: 2d + 6, 2d + 12 or 2d + 25 mm; never more than l.
 double thread_length(double d, double l);
+
+// Length of thread b of an ISO 4762 screw of length l: 2d + 12 mm; never more than l.
+inline double socket_screw_thread_length(double d, double l) { return std::min(2.0 * d + 12e-3, l); }
 
 }  // namespace bolt::joint

@@ -63,14 +63,14 @@ constexpr double gravity = 9.81;  // m/s²
 constexpr double steel_density = 7850.0;
 
 // VDI 2230-1 table 5, shear-loaded joints, metres: thread; each of head and nut; each inner interface.
-double embedding_amount(double Rz, int interfaces) {
+double embedding_amount(double Rz, int bearings, int interfaces) {
     struct EmbeddingRow {
         double thread, bearing, interface;
     };
     const EmbeddingRow row = Rz < 10e-6   ? EmbeddingRow{3.0, 3.0, 2.0}
                              : Rz < 40e-6 ? EmbeddingRow{3.0, 4.5, 2.5}
                                           : EmbeddingRow{3.0, 6.5, 3.5};
-    return 1e-6 * (row.thread + 2.0 * row.bearing + interfaces * row.interface);
+    return 1e-6 * (row.thread + bearings * row.bearing + interfaces * row.interface);
 }
 
 struct Wear {
@@ -113,9 +113,24 @@ double running_drag_at(const MechanisticParameters& p, double angle) {
     return p.running_drag * start * (1.0 + ripple);
 }
 
-double nut_mass(const FastenerSize& size, const ScrewThread& thread) {
-    const double hexagon = 0.5 * std::sqrt(3.0) * square(size.across_flats) - 0.25 * pi * square(thread.d2);
-    return steel_density * hexagon * size.nut_height;
+// kg, of a nut, or of a whole screw.
+double turned_mass(const JointDesign& design) {
+    const ScrewThread& thread = design.thread.thread;
+    const TurnedPartSize part = turned_part_size(design);
+    const double hexagon = 0.5 * std::sqrt(3.0) * square(part.across_flats);
+    if (design.turned == TurnedPart::nut)
+        return steel_density * (hexagon - 0.25 * pi * square(thread.d2)) * part.height;
+    const SocketHead* const socket = part.depth > 0.0 ? socket_head(design.thread.size.name) : nullptr;
+    const double head = socket ? 0.25 * pi * square(socket->diameter) * part.height - hexagon * part.depth
+                               : hexagon * part.height;
+    return steel_density * (head + 0.25 * pi * square(thread.d2) * design.bolt_length);
+}
+
+// Prevailing torque at this angle. A non-metallic insert acts once the bolt's end has reached it, and wears.
+double prevailing_torque_at(const MechanisticParameters& p, const MechanisticState& s) {
+    if (p.insert_angle <= 0.0) return p.prevailing_torque;
+    const double entered = std::clamp((s.angle - p.insert_angle) / p.insert_ramp, 0.0, 1.0);
+    return p.prevailing_torque * entered * std::pow(p.insert_wear, std::max(0.0, s.uses - 1.0));
 }
 
 // An iterate of the search for the balance between the elastic joint and its load capacity.
@@ -208,6 +223,20 @@ Stage stage_of(const MechanisticParameters& p, const MechanisticState& s, double
     return s.stiffness < 0.75 * linear ? Stage::transition : Stage::linearity;
 }
 
+// The insert fills the last third of the nut (ours): the bolt's end reaches it when it has passed the metal
+// thread, and is through it after three pitches. The nut is hand-started at angle 0, so that the bolt's end
+// is then `start_gap` short of where it is with the nut on its seat. The wear between two uses is that of the
+// smallest torques that ISO 2320 allows at the first and the fifth removal.
+void derive_insert(const JointDesign& design, MechanisticParameters& p) {
+    const LockingNut* const nut = design.locking_insert ? locking_nut(design.thread.size.name) : nullptr;
+    if (!nut) return;
+    const double at_seat = design.bolt_length - design.grip_length();  // m of the bolt above the seat
+    const double turned = design.start_gap + 2.0 / 3.0 * nut->height - at_seat;
+    p.insert_angle = std::max(turned / p.levers.lead, 1e-9);
+    p.insert_ramp = 3.0 * p.thread.pitch / p.levers.lead;
+    p.insert_wear = std::pow(nut->least_off_5th / nut->least_off, 0.25);
+}
+
 }  // namespace
 
 MechanisticParameters derive(const JointDesign& design, Random& random, double own_compliance) {
@@ -220,19 +249,18 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
     const double bearing_scatter = std::max(0.3, 1.0 + design.friction.scatter * random.normal());
     p.mu_thread = design.friction.thread * thread_scatter;
     p.levers = torque_levers(p.thread, p.mu_thread, design.friction.bearing * bearing_scatter,
-                             bearing_mean_diameter(size.nut_bearing, size.hole));
+                             design.bearing_diameter());
     p.kappa = design.bolt_class.kappa;
     p.start_gap = design.start_gap;
 
     const double h_rms = design.roughness_Rz / 5.5;  // usual for turned and milled faces
-    const double seat_area = 0.25 * pi * (square(size.nut_bearing) - square(size.hole));
+    const double seat_area = 0.25 * pi * (square(turned_part_size(design).bearing) - square(size.hole));
     p.seat = {.compliance = joint_compliance(design) + own_compliance,
               .scale = 0.5 * h_rms + design.misfit,
               .touch_force = 0.2e6 * seat_area};  // 0.2 MPa, at which fingers feel the seat; ours
 
-    const double thread_l = design.bolt_thread_length > 0.0 ? design.bolt_thread_length
-                                                            : thread_length(size.d, design.bolt_length);
-    const double free_thread = std::max(0.0, design.grip_length() - (design.bolt_length - thread_l));
+    const double free_thread =
+        std::max(0.0, design.grip_length() - (design.bolt_length - design.thread_on_bolt()));
     p.bolt = PlasticCurve::make(p.thread, design.bolt_class, free_thread + 0.5 * size.d, p.seat.compliance);
 
     // A nut of the matching class is stronger than the bolt (ISO 898-2): its proof load exceeds the bolt's
@@ -240,11 +268,23 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
     const double nut_stress = design.nut_strength > 0.0 ? design.nut_strength : 1.15 * design.bolt_class.R_m;
     p.strip_load = nut_stress * p.thread.A_s;
     p.strip_length = 0.75 * size.nut_height;
+    if (design.is_tapped()) {
+        const double hole =
+            stripping_forces(p.thread, design.bolt_class, design.hole.material, design.hole.engagement)
+                .least();
+        // The nut of a stud may be the weaker of the two.
+        if (design.form == JointForm::tapped_hole || hole < p.strip_load) {
+            p.strip_load = hole;
+            p.strip_length = 0.75 * design.hole.engagement;
+        }
+    }
     p.flow_time = 0.005;
 
     const int layers = static_cast<int>(design.members.size()) + (design.washer_under_head ? 1 : 0) +
                        (design.washer_under_nut ? 1 : 0);
-    p.embedding = embedding_amount(design.roughness_Rz, std::max(0, layers - 1));
+    // A tapped part is one more layer, and has no bearing face.
+    p.embedding = embedding_amount(design.roughness_Rz, design.is_tapped() ? 1 : 2,
+                                   design.is_tapped() ? layers : std::max(0, layers - 1));
     p.embedding_time = design.embedding_time;
     p.reference_load = 0.9 * design.bolt_class.R_p02 * p.thread.A_s /
                        equivalent_stress_ratio(p.thread, design.friction.thread, p.kappa);
@@ -258,8 +298,9 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
     p.wear_per_use = wear.per_use;
 
     p.prevailing_torque = design.prevailing_torque;
+    derive_insert(design, p);
     p.running_drag = design.running_drag;
-    const double weight = gravity * (design.nut_mass > 0.0 ? design.nut_mass : nut_mass(size, p.thread));
+    const double weight = gravity * (design.nut_mass > 0.0 ? design.nut_mass : turned_mass(design));
     p.weight_lead = -weight * design.axis.y * p.levers.lead;
     p.weight_friction = weight * std::abs(design.axis.y) * p.levers.thread;
     for (double& phase : p.ripple_phase) phase = random.uniform(0.0, 2.0 * pi);
@@ -270,7 +311,7 @@ Resistance resistance(const MechanisticParameters& p, const MechanisticState& s)
     const double breakaway_factor = 1.0 + (p.static_ratio - 1.0) * s.breakaway;
     const double friction_lever = p.levers.friction() * wear_factor(p, s.uses) * breakaway_factor;
     const double drag =
-        (p.prevailing_torque + running_drag_at(p, s.angle) + p.weight_friction) * breakaway_factor;
+        (prevailing_torque_at(p, s) + running_drag_at(p, s.angle) + p.weight_friction) * breakaway_factor;
     const double rate = s.stiffness * p.levers.lead;  // dF/dθ, N/rad: dx/dθ = P/2π
     Resistance r;
     r.lead_torque = s.clamp * p.levers.lead + p.weight_lead;

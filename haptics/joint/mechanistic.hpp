@@ -73,8 +73,11 @@ struct MechanisticParameters {
     double wear_early = 0.0;      // relative change of friction that saturates over the first re-uses
     double wear_early_uses = 1;
     double wear_per_use = 0.0;       // relative change of friction with every use, without end
-    double prevailing_torque = 0.0;  // N·m
-    double running_drag = 0.0;       // N·m, mean drag of the free thread
+    double prevailing_torque = 0.0;  // N·m, in its first use
+    double insert_angle = 0.0;   // rad, nut angle at which the bolt's end reaches a locking insert; 0: none
+    double insert_ramp = 1.0;    // rad over which the bolt's end then enters it
+    double insert_wear = 1.0;    // factor on its torque with every use
+    double running_drag = 0.0;   // N·m, mean drag of the free thread
     double weight_lead = 0.0;    // N·m, weight of the nut along the lead; negative if it helps tightening
     double weight_friction = 0;  // N·m
     double ripple_phase[3] = {0.0, 0.0, 0.0};  // of the running drag over the angle

@@ -142,7 +142,7 @@ constexpr double pascals_per_vickers = 9.80665e6;
 constexpr double wedge_angle = 2.0 * pi / 3.0;  // rad, between two flats
 
 struct Hardness {
-    std::string_view bolts;  // beginning of the bolt class
+    std::string_view bolts;  // the bolt class, or its beginning
     double small, large;     // HV, up to M16 and above
 };
 
@@ -152,6 +152,11 @@ constexpr Hardness nut_hardnesses[] = {
     {"6.", 150, 170},  {"5.", 130, 146},  {"4.", 130, 146},
 };
 
+constexpr Hardness bolt_hardnesses[] = {
+    {"4.6", 120, 120}, {"4.8", 130, 130}, {"5.6", 155, 155},  {"5.8", 160, 160},
+    {"6.8", 190, 190}, {"8.8", 250, 255}, {"10.9", 320, 320}, {"12.9", 385, 385},
+};
+
 }  // namespace
 
 double nut_hardness(const PropertyClass& bolt_class, double d) {
@@ -159,6 +164,17 @@ double nut_hardness(const PropertyClass& bolt_class, double d) {
         if (bolt_class.name.starts_with(row.bolts))
             return pascals_per_vickers * (d < 16.5e-3 ? row.small : row.large);
     return 3.0 * bolt_class.R_m;
+}
+
+double bolt_hardness(const PropertyClass& bolt_class, double d) {
+    for (const Hardness& row : bolt_hardnesses)
+        if (bolt_class.name == row.bolts) return pascals_per_vickers * (d < 16.5e-3 ? row.small : row.large);
+    return 3.0 * bolt_class.R_m;
+}
+
+double turned_part_hardness(const JointDesign& design) {
+    return design.turned == TurnedPart::head ? bolt_hardness(design.bolt_class, design.thread.size.d)
+                                             : nut_hardness(design.bolt_class, design.thread.size.d);
 }
 
 double corner_pressure(double hardness) {

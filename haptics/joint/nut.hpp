@@ -103,6 +103,13 @@ inline double drive_inertia(double stiffness, double dt) { return stiffness * dt
 // three times the tensile strength of their grade.
 double nut_hardness(const PropertyClass& bolt_class, double d);
 
+// Pa, minimum Vickers hardness of a bolt (ISO 898-1 table 3). For stainless bolts three times the tensile
+// strength of their grade.
+double bolt_hardness(const PropertyClass& bolt_class, double d);
+
+// Pa, of the part whose corners the tool grips.
+double turned_part_hardness(const JointDesign& design);
+
 // Pa, the pressure p above. `hardness` in Pa.
 double corner_pressure(double hardness);
 

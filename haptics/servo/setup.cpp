@@ -18,11 +18,11 @@ NutGeometry nut_geometry(const joint::JointDesign& design) {
     const Vec3 helper = std::abs(nut.axis.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
     nut.e1 = glm::normalize(helper - nut.axis * glm::dot(helper, nut.axis));
     nut.e2 = glm::cross(nut.axis, nut.e1);
-    nut.height = design.thread.size.nut_height;
-    nut.across_flats = design.thread.size.across_flats;
-    nut.bearing_diameter = design.thread.size.nut_bearing;
-    nut.corner_pressure =
-        joint::corner_pressure(joint::nut_hardness(design.bolt_class, design.thread.size.d));
+    const joint::TurnedPartSize part = joint::turned_part_size(design);
+    nut.height = part.height;
+    nut.across_flats = part.across_flats;
+    nut.bearing_diameter = part.bearing;
+    nut.corner_pressure = joint::corner_pressure(joint::turned_part_hardness(design));
     nut.start_gap = design.start_gap;
     nut.lead = design.thread.thread.pitch / (2.0 * pi);
     return nut;
@@ -45,7 +45,7 @@ Setup make_setup(const SetupDescription& d) {
     double across_flats = 0.0;
     for (const joint::JointDesign& design : d.joints) {
         setup.nuts.push_back(nut_geometry(design));
-        across_flats = std::max(across_flats, design.thread.size.across_flats);
+        across_flats = std::max(across_flats, joint::turned_part_size(design).across_flats);
     }
     if (d.law == joint::Law::published)
         for (std::size_t i = 0; i < setup.nuts.size(); ++i)
