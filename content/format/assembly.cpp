@@ -19,6 +19,10 @@
 
 namespace bolt::content {
 
+std::string turned_node(const AssemblyJoint& joint) {
+    return joint.design.id + (joint.design.turned == joint::TurnedPart::head ? "_bolt" : "_nut");
+}
+
 namespace fs = std::filesystem;
 
 namespace {

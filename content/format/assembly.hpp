@@ -60,6 +60,9 @@ struct AssemblyJoint {
     std::string node;  // unique node name in the .glb; may be empty if there is none
 };
 
+// Name of the node that a lesson turns: ID_nut, or ID_bolt of a head that is turned.
+std::string turned_node(const AssemblyJoint& joint);
+
 enum class PassKind : std::uint8_t { run_down, tighten, recheck };
 
 // One round over the joints: run the nuts down by hand, tighten to a fraction of the target, or recheck at

@@ -124,7 +124,7 @@ Status add_workpiece(Workplace& workplace, const LessonModels& models, const Gpu
         if (joints[node] < 0) continue;
         const auto joint = static_cast<std::size_t>(joints[node]);
         workplace.world.add<JointPart>(entity, joint);
-        if (model.nodes[node].name != assembly.joints[joint].design.id + "_nut") continue;
+        if (model.nodes[node].name != content::turned_node(assembly.joints[joint])) continue;
         workplace.world.add<NutPart>(
             entity, joint, nut_from_mesh(model.meshes[object.mesh], object.world, setup.nuts[joint]));
         workplace.world.get<Drawable>(entity).moves = true;
@@ -134,9 +134,9 @@ Status add_workpiece(Workplace& workplace, const LessonModels& models, const Gpu
         if (!has_nut[i])
             return fail(
                 ErrorCode::bad_content,
-                fmt::format("{}: the model has no nut of joint {}", assembly.file,
+                fmt::format("{}: the model lacks the part of joint {} that is turned", assembly.file,
                             assembly.joints[i].design.id),
-                fmt::format("a node \"{}_nut\" below the joint's node", assembly.joints[i].design.id));
+                fmt::format("a node \"{}\" below the joint's node", content::turned_node(assembly.joints[i])));
     return {};
 }
 

@@ -18,11 +18,11 @@ namespace bolt::session {
 
 HexagonPose find_hexagon(const servo::NutGeometry& nut, std::span<const glm::dvec3> points) {
     std::complex<double> sixfold = 0.0;
-    double low = 1e9;
+    double low = nut.is_head ? 0.0 : 1e9;  // a head is drawn on its seat
     for (const Vec3& p : points) {
         const Vec3 d = p - nut.seat;
         const Vec3 q(glm::dot(d, nut.e1), glm::dot(d, nut.e2), glm::dot(d, nut.axis));
-        low = std::min(low, q.z);
+        if (!nut.is_head) low = std::min(low, q.z);
         const double out = std::hypot(q.x, q.y) / nut.across_flats;
         sixfold += std::pow(out, 24.0) * std::polar(1.0, 6.0 * std::atan2(q.y, q.x));
     }
@@ -202,7 +202,8 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
     std::vector<collision::ContactMesh> fixed, nuts(setup.nuts.size());
     for (const MeshNode& mesh_node : nodes) {
         std::size_t joint = 0;
-        while (joint < assembly.joints.size() && mesh_node.node != assembly.joints[joint].design.id + "_nut")
+        while (joint < assembly.joints.size() &&
+               mesh_node.node != content::turned_node(assembly.joints[joint]))
             ++joint;
         const bool is_nut = joint < setup.nuts.size() && joint < assembly.joints.size();
         BOLT_TRY_ASSIGN(auto mesh,

@@ -21,7 +21,8 @@ struct HexagonPose {
     double low = 0.0;                     // m, height of the bearing face above the seat
 };
 
-// Locates the six corners as the outermost points of the mesh. `points`: in the assembly's frame.
+// Locates the six corners as the outermost points of the mesh, and the bearing face of a nut as its lowest
+// ones. `points`: in the assembly's frame.
 HexagonPose find_hexagon(const servo::NutGeometry& nut, std::span<const glm::dvec3> points);
 
 // Transforms from the assembly's frame to the nut's own; servo::nut_pose transforms back.
@@ -42,10 +43,10 @@ struct ContactModels {
 // none if it names both.
 std::optional<Error> missing_contact_model(const content::Assembly& assembly);
 
-// None if a model is missing (missing_contact_model). A joint's nut is the node `ID_nut` below the joint's
-// node; all other nodes are fixed. The wrench is `NAME.contact.glb` beside its `NAME.glb` if that file
-// exists, else `NAME.glb`. Fails, and names the file, if a model cannot be read, has no triangles, or has an
-// open surface where a closed one is required.
+// None if a model is missing (missing_contact_model). A joint's turned part is the node
+// content::turned_node() below the joint's node; all other nodes are fixed. The wrench is `NAME.contact.glb`
+// beside its `NAME.glb` if that file exists, else `NAME.glb`. Fails, and names the file, if a model cannot be
+// read, has no triangles, or has an open surface where a closed one is required.
 Result<std::optional<ContactModels>> load_contact_models(const content::Assembly& assembly,
                                                          const servo::Setup& setup);
 

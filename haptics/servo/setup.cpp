@@ -19,6 +19,7 @@ NutGeometry nut_geometry(const joint::JointDesign& design) {
     nut.e1 = glm::normalize(helper - nut.axis * glm::dot(helper, nut.axis));
     nut.e2 = glm::cross(nut.axis, nut.e1);
     const joint::TurnedPartSize part = joint::turned_part_size(design);
+    nut.is_head = design.turned == joint::TurnedPart::head;
     nut.height = part.height;
     nut.across_flats = part.across_flats;
     nut.bearing_diameter = part.bearing;

@@ -14,9 +14,10 @@
 
 namespace bolt::servo {
 
-// Geometry of a nut with a right-hand thread, in the assembly's frame. All axes are unit vectors; `axis`
-// points from the members to the nut; e1 × e2 = axis.
+// Geometry of a nut, or of a head that is turned, with a right-hand thread, in the assembly's frame. All axes
+// are unit vectors; `axis` points from the members to the nut; e1 × e2 = axis.
 struct NutGeometry {
+    bool is_head = false;  // its shank lies below the bearing face
     Vec3 seat{0.0};
     Vec3 axis{0.0, 1.0, 0.0};
     Vec3 e1{1.0, 0.0, 0.0};

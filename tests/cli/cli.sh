@@ -9,6 +9,11 @@ expect 0 'torque_Nm 205\.8' "$bin/bolt-author" torque --size M16 --class 8.8 --m
 expect 2 'did you mean "M16"' "$bin/bolt-author" torque --size N16 --class 8.8
 expect 2 'did you mean "8.8"' "$bin/bolt-author" torque --size M16 --class 88
 expect 2 '' "$bin/bolt-author" torque --size M16 --class 8.8 --mu -1
+expect 0 '^engagement_needed_vdi_mm 14\.4$' "$bin/bolt-author" torque --size M12 --class 10.9 --head socket --tapped GJL-250
+expect 0 '^strips_at_kN 159\.8$' "$bin/bolt-author" torque --size M12 --class 10.9 --tapped GJL-250 --engagement 20
+expect 0 '^prevailing_fifth_off_least_Nm 3\.00$' "$bin/bolt-author" torque --size M16 --class 8.8 --locking
+expect 2 'did you mean "GJL-250"' "$bin/bolt-author" torque --size M12 --class 8.8 --tapped GJL250
+expect 2 'no socket head of M4' "$bin/bolt-author" torque --size M4 --class 8.8 --head socket
 expect 2 '' "$bin/bolt-author"
 expect 0 'boltwright|bolt-author' "$bin/bolt-author" --version
 

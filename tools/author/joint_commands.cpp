@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
@@ -19,6 +20,7 @@
 #include "game/plot/svg.hpp"
 #include "haptics/joint/design.hpp"
 #include "haptics/joint/group.hpp"
+#include "haptics/joint/tapped_thread.hpp"
 #include "tools/author/commands.hpp"
 
 namespace bolt::author {
@@ -168,41 +170,97 @@ namespace {
 
 struct TorqueOptions {
     std::string size, property_class;
+    std::string head = "hexagon";
+    std::string tapped;  // material of a tapped hole; empty: a nut
     double mu = 0.12;
     double pitch_mm = 0.0;
     double utilisation = 0.9;
+    double engagement_mm = 0.0;
+    bool locking = false;
     bool json = false;
 };
+
+// A named value of the answer; the name contains the unit.
+struct AnswerValue {
+    std::string name;
+    double value = 0.0;
+};
+
+// The joint that the options describe, without members.
+Result<joint::JointDesign> joint_of(const TorqueOptions& options, const std::string& size_name) {
+    joint::JointDesign design;
+    BOLT_TRY_ASSIGN(design.thread, joint::parse_thread(size_name));
+    BOLT_TRY_ASSIGN(design.bolt_class, joint::property_class(options.property_class, design.thread.size.d));
+    const std::string_view size = design.thread.size.name;
+    design.turned = joint::TurnedPart::head;  // table A1 of VDI 2230 has the bearing of a head
+    if (options.head == "socket") {
+        design.head = joint::HeadShape::socket;
+        if (!joint::socket_head(size))
+            return fail(ErrorCode::usage, fmt::format("there is no socket head of {} in our table", size),
+                        "M5, M6, M8, M10, M12, M16, M20 or M24");
+    }
+    if (options.locking && !joint::locking_nut(size))
+        return fail(ErrorCode::usage, fmt::format("there is no locking nut of {} in our table", size),
+                    "M5, M6, M8, M10, M12, M16, M20 or M24");
+    if (!options.tapped.empty()) {
+        design.form = joint::JointForm::tapped_hole;
+        BOLT_TRY_ASSIGN(design.hole.material, joint::tapped_material(options.tapped));
+        design.hole.engagement = options.engagement_mm * mm;
+    }
+    return design;
+}
+
+std::vector<AnswerValue> torque_values(const TorqueOptions& options, const joint::JointDesign& design) {
+    const joint::AssemblyPreload preload =
+        joint::assembly_preload(design.thread.thread, design.bolt_class, options.mu, options.mu,
+                                design.bearing_diameter(), options.utilisation);
+    std::vector<AnswerValue> values = {{"preload_kN", preload.force / 1e3}, {"torque_Nm", preload.torque}};
+    if (design.is_tapped()) {
+        constexpr double vdi_surplus = 1.2;
+        const joint::TappedHole& hole = design.hole;
+        const auto needed = [&](double surplus) {
+            return joint::needed_engagement(design.thread.thread, design.bolt_class, hole.material, surplus) /
+                   mm;
+        };
+        values.push_back({"engagement_needed_mm", needed(1.0)});
+        values.push_back({"engagement_needed_vdi_mm", needed(vdi_surplus)});
+        if (hole.engagement > 0.0)
+            values.push_back({"strips_at_kN", joint::stripping_forces(design.thread.thread, design.bolt_class,
+                                                                      hole.material, hole.engagement)
+                                                      .least() /
+                                                  1e3});
+    }
+    if (options.locking) {
+        const joint::LockingNut& nut = *joint::locking_nut(design.thread.size.name);
+        values.push_back({"prevailing_on_most_Nm", nut.most_on});
+        values.push_back({"prevailing_off_least_Nm", nut.least_off});
+        values.push_back({"prevailing_fifth_off_least_Nm", nut.least_off_5th});
+    }
+    return values;
+}
 
 int run_torque(const TorqueOptions& options) {
     const std::string name =
         options.pitch_mm > 0.0 ? fmt::format("{}x{:g}", options.size, options.pitch_mm) : options.size;
-    Result<joint::ThreadSize> size = joint::parse_thread(name);
-    if (!size) {
-        size.error().code = ErrorCode::usage;
-        return print_error(size.error());
+    Result<joint::JointDesign> design = joint_of(options, name);
+    if (!design) {
+        design.error().code = ErrorCode::usage;
+        return print_error(design.error());
     }
-    Result<joint::PropertyClass> bolt = joint::property_class(options.property_class, size->size.d);
-    if (!bolt) {
-        bolt.error().code = ErrorCode::usage;
-        return print_error(bolt.error());
-    }
-    const joint::AssemblyPreload preload = joint::assembly_preload(
-        size->thread, *bolt, options.mu, options.mu,
-        joint::bearing_mean_diameter(size->size.head_bearing, size->size.hole), options.utilisation);
+    const std::string& bolt = design->bolt_class.name;
+    const std::vector<AnswerValue> values = torque_values(options, *design);
     std::string text;
     if (options.json) {
-        const nlohmann::ordered_json json = {{"size", name},
-                                             {"class", bolt->name},
-                                             {"mu", options.mu},
-                                             {"utilisation", options.utilisation},
-                                             {"preload_kN", preload.force / 1e3},
-                                             {"torque_Nm", preload.torque}};
+        nlohmann::ordered_json json = {
+            {"size", name}, {"class", bolt}, {"mu", options.mu}, {"utilisation", options.utilisation}};
+        for (const AnswerValue& answer : values) json[answer.name] = answer.value;
         text = json.dump() + "\n";
     } else {
-        text = fmt::format("{} {}, mu {:g}, {:.0f} % of yield\npreload_kN {:.1f}\ntorque_Nm {:.1f}\n", name,
-                           bolt->name, options.mu, 100.0 * options.utilisation, preload.force / 1e3,
-                           preload.torque);
+        text = fmt::format("{} {}, mu {:g}, {:.0f} % of yield\n", name, bolt, options.mu,
+                           100.0 * options.utilisation);
+        for (const AnswerValue& answer : values)
+            text += fmt::format("{} {:.{}f}\n", answer.name, answer.value,
+                                answer.name.starts_with("prevailing") ? 2 : 1);
     }
     const Status printed = print(text);
     return printed ? 0 : print_error(printed.error());
@@ -225,6 +283,19 @@ void add_torque(CLI::App& app, int& exit_code) {
     torque->add_option("--utilisation", options->utilisation, "Share of the yield strength")
         ->check(CLI::Range(0.01, 1.0))
         ->capture_default_str();
+    torque->add_option("--head", options->head, "Head: hexagon (ISO 4014) or socket (ISO 4762)")
+        ->check(CLI::IsMember({"hexagon", "socket"}))
+        ->capture_default_str();
+    CLI::Option* tapped =
+        torque->add_option("--tapped", options->tapped,
+                           "Material of a tapped hole, such as GJL-250: adds the engagement at "
+                           "which the bolt breaks before a thread strips");
+    torque
+        ->add_option("--engagement", options->engagement_mm, "Engaged thread in mm: adds its stripping force")
+        ->check(CLI::Range(0.1, 1000.0))
+        ->needs(tapped);
+    torque->add_flag("--locking", options->locking,
+                     "Adds the prevailing torques of a locking nut (ISO 2320)");
     torque->add_flag("--json", options->json, "One JSON object");
     torque->callback([options, &exit_code] { exit_code = run_torque(*options); });
 }
