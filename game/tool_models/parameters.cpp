@@ -1,0 +1,281 @@
+#include "game/tool_models/parameters.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/math.hpp"
+#include "engine/base/nearest.hpp"
+
+namespace bolt::tool_models {
+
+namespace {
+
+constexpr KindInfo kinds[] = {
+    {ToolKind::open_end, "open_end", "open-end wrench, head at 15°", SizeMeasure::nut},
+    {ToolKind::ring, "ring", "cranked ring wrench, 12 points", SizeMeasure::nut},
+    {ToolKind::combination, "combination", "open end and ring of one size", SizeMeasure::nut},
+    {ToolKind::hex_key, "hex_key", "hexagon key, ISO 2936", SizeMeasure::socket_screw},
+    {ToolKind::socket, "socket", "12-point socket on a ratchet handle", SizeMeasure::nut},
+    {ToolKind::extension_bar, "extension_bar", "extension bar between socket and handle", SizeMeasure::drive},
+    {ToolKind::adaptor, "adaptor", "adaptor from one square drive to another", SizeMeasure::drive},
+    {ToolKind::hex_bit, "hex_bit", "hexagon bit in a socket for a square drive", SizeMeasure::socket_screw},
+    {ToolKind::torque_wrench, "torque_wrench", "click torque wrench with an open-end insert",
+     SizeMeasure::nut},
+    {ToolKind::electronic_torque_wrench, "electronic_torque_wrench",
+     "torque wrench with a display and a light, open-end insert", SizeMeasure::nut},
+};
+
+// Widths across flats of the hexagons of ISO 4014 and ISO 4032 from M5 to M30, and further sizes of sets of
+// wrenches.
+constexpr double nut_sizes[] = {8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 21, 22,
+                                24, 25, 27, 28, 30, 32, 34, 36, 38, 41, 42, 44, 46};
+// ISO 2936, as in the table iso2936def.csv of the Fasteners workbench of FreeCAD.
+struct KeyRow {
+    double size, arm, handle;  // mm
+};
+constexpr KeyRow key_rows[] = {
+    {2, 18, 52},   {2.5, 20.5, 58.5}, {3, 23, 66},   {3.5, 25.5, 69.5}, {4, 29, 74},   {4.5, 30.5, 80},
+    {5, 33, 85},   {6, 38, 96},       {7, 41, 102},  {8, 44, 108},      {9, 47, 114},  {10, 50, 122},
+    {11, 53, 129}, {12, 57, 137},     {13, 63, 145}, {14, 70, 154},     {15, 73, 161}, {16, 76, 168},
+    {17, 80, 177}, {18, 84, 188},     {19, 89, 199}, {21, 96, 211},     {22, 102, 222}};
+constexpr double key_sizes[] = {2,  2.5, 3,  3.5, 4,  4.5, 5,  6,  7,  8,  9, 10,
+                                11, 12,  13, 14,  15, 16,  17, 18, 19, 21, 22};
+
+// Square drives of ISO 1174-1. Torques: catalogues, from memory, so they are estimates.
+struct DriveRow {
+    double size, torque;  // mm, N·m
+};
+constexpr DriveRow drive_rows[] = {{6.3, 30}, {10, 135}, {12.5, 340}, {20, 1000}, {25, 2700}};
+constexpr double drive_sizes[] = {6.3, 10, 12.5, 20, 25};
+
+// ISO 1711-1 in tables of Gedore's catalogue, N·m.
+struct TorqueRow {
+    double size, open_end, ring;
+};
+constexpr TorqueRow torque_rows[] = {
+    {10, 31, 58.1}, {13, 64.5, 107}, {16, 115, 175}, {18, 160, 230}, {24, 359, 451}};
+
+bool same(double a, double b) { return std::abs(a - b) < 1e-6; }
+
+// A power law through neighbouring rows: test torques grow as a power of the size.
+TestTorque interpolated_torque(double size_mm, double TorqueRow::*column) {
+    const std::size_t last = std::size(torque_rows) - 1;
+    std::size_t i = 0;
+    while (i + 1 < last && size_mm > torque_rows[i + 1].size) ++i;
+    const TorqueRow &a = torque_rows[i], &b = torque_rows[i + 1];
+    for (const TorqueRow& row : {a, b})
+        if (same(row.size, size_mm)) return {row.*column, TorqueSource::read};
+    const double exponent = std::log(b.*column / (a.*column)) / std::log(b.size / a.size);
+    const double torque = a.*column * std::pow(size_mm / a.size, exponent);
+    const bool within = size_mm > torque_rows[0].size && size_mm < torque_rows[last].size;
+    return {torque, within ? TorqueSource::interpolated : TorqueSource::estimated};
+}
+
+std::string in_mm(double metres) { return fmt::format("{:g}", metres / mm); }
+
+tl::unexpected<Error> usage(std::string what, std::string expected) {
+    return fail(ErrorCode::usage, std::move(what), std::move(expected));
+}
+
+Status check_size(const ToolParameters& p) {
+    const auto sizes = standard_sizes(info_of(p.kind).measure);
+    const double size = p.size / mm, low = sizes.front(), high = sizes.back();
+    const bool is_drive = info_of(p.kind).measure == SizeMeasure::drive;
+    const auto near = std::min_element(sizes.begin(), sizes.end(), [&](double a, double b) {
+        return std::abs(a - size) < std::abs(b - size);
+    });
+    if (!std::isfinite(size) || size < low - 1e-6 || size > high + 1e-6)
+        return usage(fmt::format("{} of {:g} mm: the size is out of range", info_of(p.kind).name, size),
+                     fmt::format("{:g} to {:g} mm; the nearest is {:g}", low, high, *near));
+    if (is_drive && !same(*near, size))
+        return usage(fmt::format("{} of {:g} mm: there is no such square drive", info_of(p.kind).name, size),
+                     fmt::format("{:g} mm, the nearest of {}", *near, fmt::join(sizes, ", ")));
+    return {};
+}
+
+double standard_drive(const ToolParameters& p) {
+    const double s = p.size / mm;
+    switch (p.kind) {
+        case ToolKind::adaptor:  // the next greater drive, the greatest one to the next smaller
+            for (const double drive : drive_sizes)
+                if (drive > s + 1e-6) return drive * mm;
+            return drive_sizes[3] * mm;
+        case ToolKind::socket:
+            return (s <= 13.0 ? 10.0 : s <= 32.0 ? 12.5 : 20.0) * mm;
+        case ToolKind::hex_bit:
+            return (s <= 5.0 ? 10.0 : s <= 17.0 ? 12.5 : 20.0) * mm;
+        default:
+            return 0.0;
+    }
+}
+
+// Lengths follow common tools and no standard, except those of keys. m.
+double standard_length(const ToolParameters& p) {
+    const double s = p.size;
+    switch (p.kind) {
+        case ToolKind::open_end:
+        case ToolKind::ring:
+            return std::round((8.2 * s + 83.0 * mm) / (5.0 * mm)) * 5.0 * mm;
+        case ToolKind::combination:
+            return std::round((9.5 * s + 55.0 * mm) / (5.0 * mm)) * 5.0 * mm;
+        case ToolKind::hex_key:
+            return key_arms(s).handle;
+        case ToolKind::socket:
+            return (p.drive < 11.0 * mm ? 200.0 : p.drive < 15.0 * mm ? 270.0 : 500.0) * mm;
+        case ToolKind::extension_bar:
+            return 10.0 * s;
+        case ToolKind::adaptor:
+            return 0.9 * s + 1.6 * p.drive;
+        case ToolKind::hex_bit:
+            return 55.0 * mm;
+        default:
+            return std::max(8.2 * s + 290.0 * mm, 380.0 * mm);
+    }
+}
+
+double shortest_length(const ToolParameters& p) {
+    switch (p.kind) {
+        case ToolKind::hex_key:
+            return 4.0 * p.size;
+        case ToolKind::extension_bar:
+            return 3.5 * p.size;
+        case ToolKind::adaptor:
+            return 0.5 * p.size + 1.2 * p.drive;
+        case ToolKind::hex_bit:
+            return 1.6 * p.drive + 0.6 * p.size;
+        case ToolKind::socket:
+            return 8.0 * p.drive;
+        case ToolKind::combination:
+            return 5.2 * p.size + 30.0 * mm;
+        case ToolKind::torque_wrench:
+        case ToolKind::electronic_torque_wrench:
+            return 3.0 * p.size + 130.0 * mm;
+        default:
+            return 3.8 * p.size + 30.0 * mm;
+    }
+}
+
+bool has_ratchet(ToolKind kind) { return kind == ToolKind::socket; }
+
+bool has_drive(ToolKind kind) {
+    return kind == ToolKind::socket || kind == ToolKind::adaptor || kind == ToolKind::hex_bit;
+}
+
+Status check_options(const ToolParameters& p) {
+    const std::string_view name = info_of(p.kind).name;
+    if (p.teeth != 0 && !has_ratchet(p.kind))
+        return usage(fmt::format("{} has no ratchet, so it has no teeth", name), "no number of teeth");
+    if (p.teeth != 0 && std::find(ratchet_teeth.begin(), ratchet_teeth.end(), p.teeth) == ratchet_teeth.end())
+        return usage(fmt::format("a ratchet of {} teeth is unknown", p.teeth),
+                     fmt::format("{}", fmt::join(ratchet_teeth, ", ")));
+    if (p.drive == 0.0) return {};
+    if (!has_drive(p.kind))
+        return usage(fmt::format("{} has no square drive beside its size", name), "no drive");
+    for (const double drive : drive_sizes)
+        if (same(drive, p.drive / mm)) {
+            if (p.kind == ToolKind::adaptor && same(p.drive, p.size))
+                return usage(fmt::format("an adaptor from {} mm to the same drive", in_mm(p.drive)),
+                             "another drive");
+            return {};
+        }
+    return usage(fmt::format("there is no square drive of {} mm", in_mm(p.drive)),
+                 fmt::format("{} mm", fmt::join(drive_sizes, ", ")));
+}
+
+}  // namespace
+
+std::span<const KindInfo> tool_kinds() { return kinds; }
+
+const KindInfo& info_of(ToolKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
+
+Result<ToolKind> kind_named(std::string_view name) {
+    std::vector<std::string> names;
+    for (const KindInfo& info : kinds) {
+        if (info.name == name) return info.kind;
+        names.emplace_back(info.name);
+    }
+    const std::string near = nearest(name, names);
+    return usage(
+        fmt::format("there is no tool of the kind \"{}\"", name),
+        near.empty() ? fmt::format("{}", fmt::join(names, ", ")) : fmt::format("did you mean \"{}\"?", near));
+}
+
+std::span<const double> standard_sizes(SizeMeasure measure) {
+    switch (measure) {
+        case SizeMeasure::socket_screw:
+            return key_sizes;
+        case SizeMeasure::drive:
+            return drive_sizes;
+        default:
+            return nut_sizes;
+    }
+}
+
+KeyArms key_arms(double size) {
+    const double s = size / mm;
+    std::size_t i = 0;
+    while (i + 2 < std::size(key_rows) && s > key_rows[i + 1].size) ++i;
+    const KeyRow &a = key_rows[i], &b = key_rows[i + 1];
+    const double part = (s - a.size) / (b.size - a.size);
+    return {(a.arm + part * (b.arm - a.arm)) * mm, (a.handle + part * (b.handle - a.handle)) * mm,
+            same(s, a.size) || same(s, b.size)};
+}
+
+TestTorque test_torque(ToolKind kind, double size) {
+    const double s = size / mm;
+    switch (kind) {
+        case ToolKind::ring:
+        case ToolKind::socket:
+            return interpolated_torque(s, &TorqueRow::ring);
+        case ToolKind::extension_bar:
+        case ToolKind::adaptor:
+            for (const DriveRow& row : drive_rows)
+                if (same(row.size, s)) return {row.torque, TorqueSource::estimated};
+            return {};
+        case ToolKind::hex_key:
+        case ToolKind::hex_bit:
+            return {};  // no table of ISO 2936 or ISO 2351 was to be had
+        default:
+            return interpolated_torque(s, &TorqueRow::open_end);
+    }
+}
+
+Result<ToolParameters> completed(ToolParameters p) {
+    BOLT_TRY(check_size(p));
+    BOLT_TRY(check_options(p));
+    const bool inside = info_of(p.kind).measure == SizeMeasure::nut;
+    if (p.opening == 0.0) p.opening = inside ? p.size + standard_play : p.size;
+    if (has_drive(p.kind) && p.drive == 0.0) p.drive = standard_drive(p);
+    if (has_ratchet(p.kind) && p.teeth == 0) p.teeth = ratchet_teeth[1];
+    if (!p.head_angle)
+        p.head_angle = p.kind == ToolKind::torque_wrench || p.kind == ToolKind::electronic_torque_wrench
+                           ? 0.0
+                           : to_radians(15.0);
+    if (p.length == 0.0) p.length = standard_length(p);
+    const double shortest = shortest_length(p), longest = 2.5;
+    if (!(p.length >= shortest - 1e-9 && p.length <= longest))
+        return usage(fmt::format("{} of {} mm: a length of {} mm is impossible", info_of(p.kind).name,
+                                 in_mm(p.size), in_mm(p.length)),
+                     fmt::format("{:.0f} to {:.0f} mm", std::ceil(shortest / mm), longest / mm));
+    return p;
+}
+
+std::string description(const ToolParameters& p) {
+    std::string text = fmt::format("{}: size {} mm, opening {} mm, length {} mm", info_of(p.kind).name,
+                                   in_mm(p.size), in_mm(p.opening), in_mm(p.length));
+    if (p.head_angle) text += fmt::format(", head at {:g} degrees", to_degrees(*p.head_angle));
+    const auto add = [&](const char* name, double value) {
+        if (value > 0.0) text += fmt::format(", {} {} mm", name, in_mm(value));
+    };
+    add("drive", p.drive);
+    add("head", p.head_thickness);
+    add("jaw depth", p.jaw_depth);
+    add("jaw tip", p.jaw_tip);
+    if (p.teeth > 0) text += fmt::format(", {} teeth", p.teeth);
+    return text;
+}
+
+}  // namespace bolt::tool_models

@@ -1,0 +1,88 @@
+// The kinds of tools that are generated, their parameters, and the standard sizes, lengths and test torques.
+// Frame of every tool: metres, the origin on the bolt's axis in the middle of the part that grips, +X along
+// the handle, +Z along the bolt away from the members. The handle of sockets, keys and bits lies above.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/result.hpp"
+
+namespace bolt::tool_models {
+
+enum class ToolKind : std::uint8_t {
+    open_end,
+    ring,
+    combination,
+    hex_key,
+    socket,
+    extension_bar,
+    adaptor,
+    hex_bit,
+    torque_wrench,
+    electronic_torque_wrench
+};
+
+// What the size of a kind measures.
+enum class SizeMeasure : std::uint8_t { nut, socket_screw, drive };
+
+struct KindInfo {
+    ToolKind kind;
+    std::string_view name;         // on the command line and in sessions
+    std::string_view description;  // one line
+    SizeMeasure measure;
+};
+std::span<const KindInfo> tool_kinds();
+const KindInfo& info_of(ToolKind kind);
+
+// Fails if there is no such kind; the error suggests the nearest name.
+Result<ToolKind> kind_named(std::string_view name);
+
+// Metres and radians. 0: the standard value.
+struct ToolParameters {
+    ToolKind kind = ToolKind::open_end;
+    double size = 0.0;  // across flats of the nut or the socket screw, or the width of the drive
+    double opening =
+        0.0;              // between the flats of the tool: the size and the play; of keys the size, less play
+    double length = 0.0;  // from the origin to the far end
+    double drive = 0.0;   // width of the square drive
+    int teeth = 0;        // of the ratchet
+    // Open ends and the inserts of torque wrenches; jaw dimensions as in haptics/collision/jaw.hpp.
+    std::optional<double> head_angle = {};
+    double head_thickness = 0.0, jaw_depth = 0.0, jaw_tip = 0.0;
+};
+
+// The sizes of a kind in mm, ascending.
+std::span<const double> standard_sizes(SizeMeasure measure);
+
+// The lengths of a hex key's arms, m: from the tip to the outside of the bend, and from there to the end.
+struct KeyArms {
+    double arm = 0.0, handle = 0.0;
+    bool tabulated = false;  // false: interpolated between the sizes of the table
+};
+KeyArms key_arms(double size);
+
+// A test torque, N·m, with its origin.
+enum class TorqueSource : std::uint8_t { none, read, interpolated, estimated };
+struct TestTorque {
+    double torque = 0.0;
+    TorqueSource source = TorqueSource::none;
+};
+TestTorque test_torque(ToolKind kind, double size);
+
+// Play of the jaws of generated tools, m, as of the shipped wrenches.
+inline constexpr double standard_play = 0.2e-3;
+inline constexpr std::array ratchet_teeth = {24, 72, 90};
+
+// Replaces zeros by standard values. Fails if a value is impossible; the error gives the nearest valid one.
+Result<ToolParameters> completed(ToolParameters parameters);
+
+// The dimensions in words and numbers: equal texts mean equal tools.
+std::string description(const ToolParameters& completed);
+
+}  // namespace bolt::tool_models

@@ -1,0 +1,75 @@
+// The parts of generated tools as closed shells, in the frame of parameters.hpp. Millimetres and radians.
+// Shells of one part may overlap. Each builder makes a fine shape for pictures or a coarse one for contact.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "game/tool_models/parameters.hpp"
+#include "game/tool_models/shell.hpp"
+
+namespace bolt::tool_models {
+
+// Appearances of content/materials.json, and the screen and the light of an electronic torque wrench.
+enum class Finish : std::uint8_t { chrome_vanadium, black_oxide, rubber, signal_red, screen, light };
+
+enum class Detail : std::uint8_t { drawn, contact };
+
+struct ToolPart {
+    std::string name;
+    Finish finish = Finish::chrome_vanadium;
+    std::vector<Shell> shells;
+};
+using ToolParts = std::vector<ToolPart>;
+
+// Dimensions of an open-end head; the proportions are those of tools/assets/models/wrench.cpp.
+struct OpenEndHead {
+    double size = 0.0, opening = 0.0, angle = 0.0, thickness = 0.0, depth = 0.0, tip = 0.0;
+    double radius = 0.0, middle = 0.0;  // of the disc; its middle lies on the slot's axis, behind the jaw
+
+    // The largest x of the slot: a handle starts beyond it.
+    [[nodiscard]] double slot_end() const;
+};
+OpenEndHead open_end_head(const ToolParameters& p);
+Shell open_end_shell(const OpenEndHead& head, double edge, Detail detail);
+
+// A handle in the plane y = 0 as a row of cross-sections with rounded edges.
+struct Station {
+    double x = 0.0, z = 0.0;          // middle of the section
+    double pitch = 0.0;               // of the handle's direction above +X
+    double half = 0.0, high = 0.0;    // half of the width and of the height
+    double edge = 0.0;                // radius of the edges
+    double end_angle = 0.0;           // of the outline's normal from the side to the end, at a round end
+    double hollow = 0.0, deep = 0.0;  // half of the width and the depth of the hollows on both sides
+};
+Shell handle_shell(const std::vector<Station>& stations, Detail detail);
+
+// Appends the sections of a round end: half a disc with the half width of `last`.
+void add_round_end(std::vector<Station>& stations, const Station& last, int steps);
+
+struct RingHead {
+    double opening = 0.0, outside = 0.0, thickness = 0.0;  // widths
+};
+RingHead ring_head(const ToolParameters& p);
+Shell ring_shell(const RingHead& ring, Detail detail);
+
+ToolParts open_end_parts(const ToolParameters& p, Detail detail);
+ToolParts ring_parts(const ToolParameters& p, Detail detail);
+ToolParts combination_parts(const ToolParameters& p, Detail detail);
+ToolParts hex_key_parts(const ToolParameters& p, Detail detail);
+ToolParts socket_parts(const ToolParameters& p, Detail detail);
+ToolParts extension_bar_parts(const ToolParameters& p, Detail detail);
+ToolParts adaptor_parts(const ToolParameters& p, Detail detail);
+ToolParts hex_bit_parts(const ToolParameters& p, Detail detail);
+ToolParts torque_wrench_parts(const ToolParameters& p, Detail detail);
+
+ToolParts parts_of(const ToolParameters& completed, Detail detail);
+
+// A size as it stands on a tool: "24", "12.5".
+std::string size_text(double size_mm);
+
+// A part "size" with raised strokes at the height z of a level face, read along +X; none in a contact model.
+void add_text(ToolParts& parts, std::string_view text, double height, double x, double z, Detail detail);
+
+}  // namespace bolt::tool_models

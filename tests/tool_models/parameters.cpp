@@ -1,0 +1,142 @@
+// Kinds, sizes, test torques and their messages.
+#include <doctest/doctest.h>
+
+#include "support.hpp"
+
+namespace tool_models_parameters_test {
+
+using namespace tool_models_test;
+
+namespace {
+
+std::string error_of(ToolParameters p) {
+    const auto made = completed(p);
+    return made ? "" : made.error().message();
+}
+
+ToolParameters tool(ToolKind kind, double size_mm) {
+    ToolParameters p;
+    p.kind = kind;
+    p.size = size_mm * mm;
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("Tool parameters: an unknown kind gives the nearest name, and every kind has a name") {
+    CHECK(kind_named("rign").error().message() ==
+          "there is no tool of the kind \"rign\"; did you mean \"ring\"?");
+    CHECK(kind_named("hammer").error().message().find("expected open_end, ring") != std::string::npos);
+    for (const KindInfo& info : tool_kinds()) {
+        CHECK(*kind_named(info.name) == info.kind);
+        CHECK(info_of(info.kind).name == info.name);
+    }
+}
+
+TEST_CASE("Tool parameters: impossible values are refused with the nearest valid one") {
+    CHECK(error_of(tool(ToolKind::ring, 60)) ==
+          "ring of 60 mm: the size is out of range; expected 8 to 46 mm; the nearest is 46");
+    CHECK(error_of(tool(ToolKind::hex_key, 1)) ==
+          "hex_key of 1 mm: the size is out of range; expected 2 to 22 mm; the nearest is 2");
+    CHECK(error_of(tool(ToolKind::extension_bar, 12)) ==
+          "extension_bar of 12 mm: there is no such square drive; expected 12.5 mm, the nearest of 6.3, 10, "
+          "12.5, 20, 25");
+    CHECK(error_of(tool(ToolKind::ring, bolt::nan)).find("out of range") != std::string::npos);
+    ToolParameters p = tool(ToolKind::socket, 24);
+    p.teeth = 73;
+    CHECK(error_of(p) == "a ratchet of 73 teeth is unknown; expected 24, 72, 90");
+    p.teeth = 24;
+    CHECK(error_of(p) == "");
+    p.drive = 11.0 * mm;
+    CHECK(error_of(p) == "there is no square drive of 11 mm; expected 6.3, 10, 12.5, 20, 25 mm");
+    p = tool(ToolKind::open_end, 24);
+    p.teeth = 24;
+    CHECK(error_of(p) == "open_end has no ratchet, so it has no teeth; expected no number of teeth");
+    p = tool(ToolKind::open_end, 24);
+    p.length = 50.0 * mm;
+    CHECK(error_of(p) == "open_end of 24 mm: a length of 50 mm is impossible; expected 122 to 2500 mm");
+    p = tool(ToolKind::adaptor, 10);
+    p.drive = 10.0 * mm;
+    CHECK(error_of(p) == "an adaptor from 10 mm to the same drive; expected another drive");
+}
+
+TEST_CASE("Tool parameters: the shortest and a long tool of each kind are closed too") {
+    for (ToolParameters p : all_tools())
+        for (const double factor : {0.0, 1.8}) {
+            p.length = 1.0 * mm;
+            const std::string refused = error_of(p);
+            const std::size_t at = refused.find("expected ") + 9;
+            p.length = factor > 0.0 ? 0.9 : std::stod(refused.substr(at)) * mm;
+            const auto made = completed(p);
+            REQUIRE(made);
+            for (const ToolPart& part : parts_of(*made, Detail::drawn))
+                for (const Shell& shell : part.shells) {
+                    CAPTURE(description(*made));
+                    CAPTURE(part.name);
+                    CHECK(unpaired_edges(shell) == 0);
+                    CHECK(volume(shell) > 0.0);
+                }
+        }
+}
+
+TEST_CASE("Tool parameters: test torques are those that were read, and a power law between them") {
+    const auto torque = [](ToolKind kind, double size) { return test_torque(kind, size * mm); };
+    CHECK(torque(ToolKind::open_end, 24).torque == 359.0);
+    CHECK(torque(ToolKind::open_end, 24).source == TorqueSource::read);
+    CHECK(torque(ToolKind::ring, 13).torque == 107.0);
+    CHECK(torque(ToolKind::socket, 13).torque == 107.0);
+    const TestTorque between = torque(ToolKind::ring, 17);
+    CHECK(between.source == TorqueSource::interpolated);
+    CHECK(between.torque > 175.0);
+    CHECK(between.torque < 230.0);
+    CHECK(torque(ToolKind::ring, 30).source == TorqueSource::estimated);
+    CHECK(torque(ToolKind::hex_key, 8).source == TorqueSource::none);
+    CHECK(torque(ToolKind::extension_bar, 12.5).torque == 340.0);
+    double last = 0.0;
+    for (int size = 8; size <= 46; ++size) {
+        CHECK(torque(ToolKind::open_end, size).torque > last);
+        last = torque(ToolKind::open_end, size).torque;
+    }
+}
+
+TEST_CASE("Tool parameters: the arms of keys are those of ISO 2936, and interpolated between its sizes") {
+    CHECK(key_arms(6.0 * mm).arm == doctest::Approx(38.0 * mm));
+    CHECK(key_arms(6.0 * mm).handle == doctest::Approx(96.0 * mm));
+    CHECK(key_arms(14.0 * mm).handle == doctest::Approx(154.0 * mm));
+    CHECK(key_arms(6.0 * mm).tabulated);
+    CHECK_FALSE(key_arms(5.5 * mm).tabulated);
+    CHECK(key_arms(5.5 * mm).handle == doctest::Approx(90.5 * mm));
+}
+
+TEST_CASE("Tool parameters: every wrench that an assembly can describe has a closed model") {
+    for (const double jaw : {3.0, 7.0, 13.0, 13.2, 13.6, 18.2, 24.2, 60.5, 95.0, 150.0})
+        for (const double angle : {0.0, 15.0, 45.0, 90.0})
+            for (const double handle : {30.0, 140.0, 434.5, 2000.0})
+                for (const double swing : {0.0, 0.07})
+                    for (const double share : {0.0, 0.62, 1.3}) {
+                        content::WrenchDesign design;
+                        design.jaw = jaw * mm;
+                        design.head_angle = to_radians(angle);
+                        design.handle_length = handle * mm;
+                        design.click_swing = swing;
+                        design.jaw_depth = design.jaw_tip = share * jaw * mm;
+                        design.head_thickness = share > 1.0 ? 1.0 * mm : 0.0;
+                        const ToolParameters p = parameters_of(design);
+                        CAPTURE(description(p));
+                        for (const Detail detail : {Detail::drawn, Detail::contact})
+                            for (const ToolPart& part : parts_of(p, detail))
+                                for (const Shell& shell : part.shells) {
+                                    CAPTURE(part.name);
+                                    CHECK(unpaired_edges(shell) == 0);
+                                    CHECK(volume(shell) > 0.0);
+                                    CHECK(all_finite(shell));
+                                }
+                    }
+    content::WrenchDesign design;
+    for (const auto& [jaw, size] : {std::pair{24.2, 24.0}, {13.6, 13.0}, {13.0, 13.0}, {18.05, 18.0}}) {
+        design.jaw = jaw * mm;
+        CHECK(parameters_of(design).size == doctest::Approx(size * mm));
+    }
+}
+
+}  // namespace tool_models_parameters_test
