@@ -235,7 +235,6 @@ inline constexpr KeyRow key_rows[] = {
     {"menu.law.mechanistic.about", ""},
     {"menu.law.published.about", ""},
     {"menu.missing.contact", ""},
-    {"menu.missing.tool", ""},
     {"menu.missing.force", ""},
     // An arm that must be prepared (game/trainer/arm_screen.cpp).
     {"arm.starting", ""},

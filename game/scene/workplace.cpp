@@ -9,6 +9,7 @@
 #include "engine/assets/image.hpp"
 #include "game/scene/annotations.hpp"
 #include "game/session/contact_models.hpp"
+#include "game/tool_models/tool_model.hpp"
 
 namespace bolt::scene {
 
@@ -34,7 +35,9 @@ Result<LessonModels> load_lesson_models(const content::Assembly& assembly, hand:
     models.hand =
         read_optional(content / (side == hand::Side::left ? "hands/hand_left.glb" : "hands/hand_right.glb"),
                       models.missing);
-    if (!assembly.wrench.model.empty()) {
+    if (assembly.wrench.model.empty()) {
+        models.wrench = tool_models::drawn_model(tool_models::parameters_of(assembly.wrench));
+    } else {
         models.wrench = read_optional(assembly.wrench.model, models.missing);
         BOLT_TRY_ASSIGN(const auto turn, session::wrench_rotation(assembly.wrench));
         models.wrench_turn = turn;

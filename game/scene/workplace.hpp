@@ -108,8 +108,8 @@ inline Vec3 shoulder_position(const render::BoundingBox& workpiece, const Worker
     return at;
 }
 
-// The models of a lesson on the CPU. All but the workpiece are optional: a model that the assembly does not
-// name is empty, and one that cannot be read is listed in `missing`.
+// The models of a lesson on the CPU. All but the workpiece are optional: a model that cannot be read is empty
+// and listed in `missing`. A wrench without a file is generated (game/tool_models).
 struct LessonModels {
     view::LoadedModel workpiece;
     assets::Model workshop, wrench, hand;

@@ -13,6 +13,7 @@
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/hash.hpp"
+#include "game/tool_models/tool_model.hpp"
 
 namespace bolt::session {
 
@@ -45,8 +46,8 @@ Error content_error(const std::filesystem::path& file, std::string what, std::st
     return error;
 }
 
-Result<std::vector<MeshNode>> read_mesh_nodes(const std::filesystem::path& file) {
-    BOLT_TRY_ASSIGN(auto model, assets::read_gltf(file));
+// `file`: for messages.
+Result<std::vector<MeshNode>> mesh_nodes_of(const assets::Model& model, const std::filesystem::path& file) {
     std::vector<MeshNode> nodes;
     const std::function<Status(int, const glm::dmat4&)> visit = [&](int index,
                                                                     const glm::dmat4& above) -> Status {
@@ -74,6 +75,11 @@ Result<std::vector<MeshNode>> read_mesh_nodes(const std::filesystem::path& file)
         BOLT_TRY(visit(root, glm::dmat4(1.0)));
     }
     return nodes;
+}
+
+Result<std::vector<MeshNode>> read_mesh_nodes(const std::filesystem::path& file) {
+    BOLT_TRY_ASSIGN(const auto model, assets::read_gltf(file));
+    return mesh_nodes_of(model, file);
 }
 
 Result<collision::ContactMesh> mesh_of(const MeshNode& mesh_node, const std::filesystem::path& file,
@@ -114,6 +120,12 @@ std::filesystem::path wrench_file(const content::WrenchDesign& design) {
     return std::filesystem::exists(own) ? own : std::filesystem::path(design.model);
 }
 
+// Names the wrench in messages: its file, or the description of a generated wrench.
+std::filesystem::path wrench_name(const content::WrenchDesign& design) {
+    if (!design.model.empty()) return wrench_file(design);
+    return "generated " + tool_models::description(tool_models::parameters_of(design));
+}
+
 // Rotates a point of the wrench's model, with bounds low…high, into the tool's frame. `side` = −1 also turns
 // the wrench over, for a head that points to the other side.
 Vec3 to_tool_frame(const glm::dvec3& low, const glm::dvec3& high, double side, const Vec3& p) {
@@ -137,7 +149,26 @@ Result<std::string> identity_of(const std::filesystem::path& file) {
     return fmt::format("{} {} bytes, fnv1a {:016x}", file.filename().string(), bytes->size(), hash.value());
 }
 
+Result<std::string> wrench_identity(const content::WrenchDesign& design) {
+    if (design.model.empty()) return tool_models::identity_of(tool_models::parameters_of(design));
+    return identity_of(wrench_file(design));
+}
+
+// The generated wrench of a design that names no model. It is made in the tool's frame.
+Result<WrenchModel> generate_wrench(const content::WrenchDesign& design) {
+    const std::filesystem::path name = wrench_name(design);
+    BOLT_TRY_ASSIGN(const auto nodes,
+                    mesh_nodes_of(tool_models::contact_model(tool_models::parameters_of(design)), name));
+    WrenchModel wrench{{}, Quat(1.0, 0.0, 0.0, 0.0)};
+    for (const MeshNode& mesh_node : nodes) {
+        BOLT_TRY_ASSIGN(auto mesh, mesh_of(mesh_node, name, [](const Vec3& p) { return p; }));
+        wrench.meshes.push_back(std::move(mesh));
+    }
+    return wrench;
+}
+
 Result<WrenchModel> read_wrench(const content::WrenchDesign& design) {
+    if (design.model.empty()) return generate_wrench(design);
     const std::filesystem::path file = wrench_file(design);
     BOLT_TRY_ASSIGN(const auto nodes, read_mesh_nodes(file));
     glm::dvec3 low(1e9), high(-1e9);
@@ -173,18 +204,9 @@ Result<Quat> wrench_rotation(const content::WrenchDesign& design) {
 }
 
 std::optional<Error> missing_contact_model(const content::Assembly& assembly) {
-    Error missing = content_error(assembly.file, {});
-    if (assembly.models.contact.empty()) {
-        missing.what = "the assembly has no contact model";
-        missing.expected = "\"contact_model\": a .glb of the obstacles as closed meshes";
-        return missing;
-    }
-    if (!assembly.wrench.model.empty()) return std::nullopt;
-    const bool usual = assembly.tools.empty() || assembly.tool == assembly.tools.front().name;
-    missing.pointer = usual ? "/tool" : "/more_tools/" + assembly.tool;
-    missing.what = fmt::format("the tool \"{}\" has no model", assembly.tool);
-    missing.expected = "\"model\": the .glb of the wrench";
-    return missing;
+    if (!assembly.models.contact.empty()) return std::nullopt;
+    return content_error(assembly.file, "the assembly has no contact model",
+                         "\"contact_model\": a .glb of the obstacles as closed meshes");
 }
 
 Result<std::optional<ContactModels>> load_contact_models(const content::Assembly& assembly,
@@ -195,10 +217,10 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
     const Result<WrenchModel> wrench = read_wrench(assembly.wrench);
     if (!wrench) return fail(wrench.error());
     BOLT_TRY_ASSIGN(const auto file_identity, identity_of(file));
-    BOLT_TRY_ASSIGN(const auto wrench_identity, identity_of(wrench_file(assembly.wrench)));
+    BOLT_TRY_ASSIGN(const auto tool_identity, wrench_identity(assembly.wrench));
 
     ContactModels models;
-    models.files = file_identity + "; " + wrench_identity;
+    models.files = file_identity + "; " + tool_identity;
     std::vector<collision::ContactMesh> fixed, nuts(setup.nuts.size());
     for (const MeshNode& mesh_node : nodes) {
         std::size_t joint = 0;
@@ -230,12 +252,9 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
 }
 
 Result<collision::ToolShape> load_wrench(const content::Assembly& assembly) {
-    if (assembly.wrench.model.empty())
-        return fail(content_error(assembly.file, "the assembly's wrench has no model",
-                                  "\"model\": a .glb of the wrench"));
     BOLT_TRY_ASSIGN(const auto parts, read_wrench(assembly.wrench));
     Result<collision::ToolShape> tool = collision::make_tool(parts.meshes);
-    if (!tool) return fail(content_error(wrench_file(assembly.wrench), tool.error().what));
+    if (!tool) return fail(content_error(wrench_name(assembly.wrench), tool.error().what));
     return tool;
 }
 

@@ -36,17 +36,18 @@ inline Vec3 to_nut_frame(const servo::NutGeometry& nut, const HexagonPose& hexag
 struct ContactModels {
     servo::ToolContact tool_contact;
     std::vector<ObstacleName> names;  // node names, by obstacle id
-    std::string files;                // each with its size and checksum (FNV-1a, 64 bits)
+    std::string files;                // files and generated tools, each with size and checksum (FNV-1a)
 };
 
-// Returns an error if the assembly file names no contact model for the assembly, or no model for its tool;
-// none if it names both.
+// Returns an error if the assembly file names no contact model. A tool without a model is no error: its model
+// is generated (game/tool_models).
 std::optional<Error> missing_contact_model(const content::Assembly& assembly);
 
-// None if a model is missing (missing_contact_model). A joint's turned part is the node
+// None if the contact model is missing (missing_contact_model). A joint's turned part is the node
 // content::turned_node() below the joint's node; all other nodes are fixed. The wrench is `NAME.contact.glb`
-// beside its `NAME.glb` if that file exists, else `NAME.glb`. Fails, and names the file, if a model cannot be
-// read, has no triangles, or has an open surface where a closed one is required.
+// beside its `NAME.glb` if that file exists, else `NAME.glb`; without a file it is generated. Fails, and names
+// the file, if a model cannot be read, has no triangles, or has an open surface where a closed one is
+// required.
 Result<std::optional<ContactModels>> load_contact_models(const content::Assembly& assembly,
                                                          const servo::Setup& setup);
 
@@ -56,8 +57,7 @@ Result<Quat> wrench_rotation(const content::WrenchDesign& design);
 Result<std::optional<servo::ToolContact>> load_tool_contact(const content::Assembly& assembly,
                                                             const servo::Setup& setup);
 
-// The assembly's wrench alone, in the tool's frame. Fails if the assembly names no wrench model, or as
-// load_contact_models().
+// The assembly's wrench alone, in the tool's frame. Fails as load_contact_models().
 Result<collision::ToolShape> load_wrench(const content::Assembly& assembly);
 
 // The visibility of a joint's nut in a named view of its assembly.

@@ -190,14 +190,7 @@ void draw_missing(const ScreenContext& context, float width, const ChoiceOptions
                   const LessonChoice& choice) {
     const AssemblyEntry& entry = *options.entry;
     std::vector<std::string> missing;
-    if (!entry.error) {
-        if (!entry.contact_model) missing.push_back(context.words["menu.missing.contact"]);
-        const auto tool = std::find_if(entry.tools.begin(), entry.tools.end(), [&](const content::Tool& t) {
-            return t.name == choice.tool || choice.tool.empty();
-        });
-        if (tool != entry.tools.end() && tool->wrench.model.empty())
-            missing.push_back(context.words["menu.missing.tool"]);
-    }
+    if (!entry.error && !entry.contact_model) missing.push_back(context.words["menu.missing.contact"]);
     for (const std::string& line : missing) draw_wrapped(line, warning_text, width);
     const bool connected = std::any_of(options.devices.begin(), options.devices.end(),
                                        [](const DeviceOption& o) { return !o.equipment.devices.empty(); });

@@ -80,6 +80,35 @@ int add_mesh(assets::Model& model, const PrismMesh& shape) {
     return static_cast<int>(model.meshes.size()) - 1;
 }
 
+struct OutlinePoint {
+    double x, y;
+};
+
+void quad(std::vector<geometry::Triangle>& out, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    out.push_back({a, b, c, 0});
+    out.push_back({a, c, d, 0});
+}
+
+// Appends a prism along Z over a quadrangle with counterclockwise corners.
+void block(std::vector<geometry::Triangle>& out, const OutlinePoint (&base)[4], double half) {
+    const auto low = [&](int i) { return Vec3{base[i].x, base[i].y, -half}; };
+    const auto high = [&](int i) { return Vec3{base[i].x, base[i].y, half}; };
+    quad(out, high(0), high(1), high(2), high(3));
+    quad(out, low(3), low(2), low(1), low(0));
+    for (int i = 0; i < 4; ++i) {
+        const int k = (i + 1) % 4;
+        quad(out, low(i), low(k), high(k), high(i));
+    }
+}
+
+// Distance from the middle of the jaw at which a ray leaves the slot: at |y| = half_jaw or at the bottom x =
+// depth.
+double slot_exit(double angle, double half_jaw, double depth) {
+    const double c = std::cos(angle), s = std::abs(std::sin(angle));
+    const double side = s > 0.0 ? half_jaw / s : 1e9, bottom = c > 0.0 ? depth / c : 1e9;
+    return std::min(side, bottom);
+}
+
 // A temporary content folder; $BOLTWRIGHT_CONTENT names it during its lifetime.
 struct TemporaryContent {
     test::Folder root;
@@ -246,8 +275,56 @@ void replace(std::string& text, std::string_view from, std::string_view to) {
     text.replace(at, from.size(), to);
 }
 
-CheckOutput check(const Machine& machine, const Edit& edit, const Machine* far, const assets::Model* contact,
-                  const assets::Model* tool) {
+geometry::WrenchShape plain_wrench(const content::WrenchDesign& design) {
+    geometry::WrenchShape wrench;
+    const double s = design.jaw, radius = 0.5 * head_width_ratio * s, depth = jaw_depth_ratio * s;
+    wrench.head_angle = design.head_angle;
+    wrench.head_size = radius;
+    wrench.half_thickness = 0.5 * thickness_ratio * s;
+    wrench.reach = std::max(handle_beyond_grip * design.handle_length, radius);
+    // The head is a disc without the slot, built of wedges from the edge of the slot to the rim.
+    constexpr int wedges = 72;
+    const double prong = std::asin(0.5 * s / radius);  // half angle of the mouth
+    const double first = -pi + prong, step = 2.0 * (pi - prong) / wedges;
+    for (int i = 0; i < wedges; ++i) {
+        const double a = first + i * step, b = a + step;
+        const auto point = [&](double angle, double r) {
+            const double turned = angle + design.head_angle;
+            return OutlinePoint{r * std::cos(turned), r * std::sin(turned)};
+        };
+        const double inner_a = std::min(radius, slot_exit(a, 0.5 * s, depth));
+        const double inner_b = std::min(radius, slot_exit(b, 0.5 * s, depth));
+        block(wrench.triangles, {point(a, inner_a), point(a, radius), point(b, radius), point(b, inner_b)},
+              wrench.half_thickness);
+    }
+    const double half = 0.5 * handle_width_ratio * s;
+    block(wrench.triangles, {{0.8 * s, -half}, {wrench.reach, -half}, {wrench.reach, half}, {0.8 * s, half}},
+          wrench.half_thickness);
+    return wrench;
+}
+
+assets::Model model_of(const geometry::WrenchShape& wrench, double shift_mm, double scale, bool lies) {
+    PrismMesh shape;
+    for (const geometry::Triangle& t : wrench.triangles) {
+        const auto base = static_cast<std::uint32_t>(shape.points.size());
+        shape.indices.insert(shape.indices.end(), {base, base + 1, base + 2});
+        for (const Vec3& p : {t.a, t.b, t.c}) {
+            const Vec3 q = (p + Vec3{0.0, shift_mm * mm, 0.0}) * scale / mm;
+            shape.points.push_back(lies ? Vec3{q.x, q.z, -q.y} : q);
+        }
+    }
+    assets::Model model;
+    model.meshes.push_back(mesh_of(shape));
+    model.nodes.emplace_back().mesh = 0;
+    model.nodes[0].name = "wrench";
+    model.roots = {0};
+    return model;
+}
+
+namespace {
+
+CheckOutput check_with(const Machine& machine, const Edit& edit, const Machine* far,
+                       const assets::Model* contact, const assets::Model* tool, bool generated) {
     const TemporaryContent world;
     std::vector<Vec3> positions;
     for (const assets::Node& node : machine.model.nodes)
@@ -264,10 +341,27 @@ CheckOutput check(const Machine& machine, const Edit& edit, const Machine* far, 
     if (far != nullptr) REQUIRE(assets::write_glb(world.folder / "far.glb", far->model));
     if (contact != nullptr) REQUIRE(assets::write_glb(world.folder / "contact.glb", *contact));
     if (tool != nullptr) REQUIRE(assets::write_glb(world.root / "tools" / "wrench.glb", *tool));
-    const auto loaded = content::load_assembly(world.folder);
+    auto loaded = content::load_assembly(world.folder);
     for (const Error& error : loaded.errors) FAIL(error.message());
+    for (content::Tool& other : loaded.assembly.tools) {
+        if (generated || !other.wrench.model.empty()) continue;
+        const fs::path file = world.root / "tools" / (other.name + ".glb");
+        REQUIRE(assets::write_glb(file, model_of(plain_wrench(other.wrench))));
+        other.wrench.model = file.string();
+    }
     const auto findings = geometry::check_geometry(loaded.assembly);
     return {without_file(findings.errors), without_file(findings.notes)};
+}
+
+}  // namespace
+
+CheckOutput check(const Machine& machine, const Edit& edit, const Machine* far, const assets::Model* contact,
+                  const assets::Model* tool) {
+    return check_with(machine, edit, far, contact, tool, false);
+}
+
+CheckOutput check_generated(const Machine& machine, const Edit& edit) {
+    return check_with(machine, edit, nullptr, nullptr, nullptr, true);
 }
 
 }  // namespace geometry_test

@@ -12,6 +12,7 @@
 #include "engine/base/math.hpp"
 #include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/check.hpp"
+#include "tools/author/geometry/wrench.hpp"
 
 namespace geometry_test {
 
@@ -54,6 +55,23 @@ struct Machine {
     void add(const std::string& name, const PrismMesh& shape);
 };
 
+// Dimensions of a plain wrench relative to the jaw opening, close to forged double-ended wrenches (DIN 3110:
+// a 24 mm wrench has a head of 50 to 52 mm, 10 to 11 mm thick). The handle has the thickness of the head,
+// which is conservative.
+inline constexpr double head_width_ratio = 2.1;
+inline constexpr double thickness_ratio = 0.45;
+inline constexpr double handle_width_ratio = 0.85;
+inline constexpr double jaw_depth_ratio = 0.6;  // middle of the jaw to its throat; a hexagon needs 0.577
+// Length of the wrench from the middle of the jaw / distance from there to the middle of the grip.
+inline constexpr double handle_beyond_grip = 1.12;
+
+// A wrench whose swing between walls has a closed form: a disc with a slot, and a straight handle.
+bolt::geometry::WrenchShape plain_wrench(const bolt::content::WrenchDesign& design);
+
+// The wrench's triangles as a model; millimetres are multiplied by `scale`.
+bolt::assets::Model model_of(const bolt::geometry::WrenchShape& wrench, double shift_mm = 0.0,
+                             double scale = 1.0, bool lies = false);
+
 // Output of bolt-author validate.
 struct CheckOutput {
     std::vector<std::string> errors, notes;  // "line:column: pointer: what; expected"
@@ -61,9 +79,11 @@ struct CheckOutput {
 std::string all(const std::vector<std::string>& messages);  // one line each
 using Edit = std::function<void(std::string&)>;
 // Writes the machine and its file into a temporary folder, loads and checks them. `edit` changes the text of
-// assembly.json before it is written.
+// assembly.json before it is written. Tools without a model get that of plain_wrench().
 CheckOutput check(const Machine& machine, const Edit& edit = {}, const Machine* far = nullptr,
                   const bolt::assets::Model* contact = nullptr, const bolt::assets::Model* tool = nullptr);
+// The same with generated tools.
+CheckOutput check_generated(const Machine& machine, const Edit& edit = {});
 
 void replace(std::string& text, std::string_view from, std::string_view to);
 

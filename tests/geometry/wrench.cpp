@@ -20,7 +20,7 @@ constexpr double jaw = 13.2, inner = 40.0, outer = 200.0;  // mm
 
 // Half the angle between the walls that leaves a swing of `swing_deg`.
 double half_opening(double swing_deg) {
-    return 0.5 * swing_deg + to_degrees(std::asin(0.5 * geometry::handle_width_ratio * jaw / inner));
+    return 0.5 * swing_deg + to_degrees(std::asin(0.5 * handle_width_ratio * jaw / inner));
 }
 
 // Two walls around a nut that leave a swing of `swing_deg`, centred at -Z.
@@ -62,7 +62,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Geometry: the free swing agrees with the closed form within 0.025 degrees") {
-    const geometry::WrenchShape wrench = geometry::envelope_wrench(design);
+    const geometry::WrenchShape wrench = plain_wrench(design);
     for (const double swing : {5.0, 17.3, 29.0, 31.0, 100.0, 200.0}) {
         const double half = half_opening(swing);
         const geometry::Bvh walls(triangles_of(sector(inner, outer, half, 360.0 - half, 0.0, 10.0)));
@@ -166,21 +166,7 @@ TEST_CASE("Geometry: the jaw, the origin and the unit of a wrench model are meas
     const auto model_of = [](double opening, double shift, double scale, bool lies) {
         const content::WrenchDesign other{
             .jaw = opening * mm, .head_angle = to_radians(15.0), .handle_length = 140.0 * mm, .model = {}};
-        PrismMesh shape;
-        for (const geometry::Triangle& t : geometry::envelope_wrench(other).triangles) {
-            const auto base = static_cast<std::uint32_t>(shape.points.size());
-            shape.indices.insert(shape.indices.end(), {base, base + 1, base + 2});
-            for (const Vec3& p : {t.a, t.b, t.c}) {
-                const Vec3 q = (p + Vec3{0.0, shift * mm, 0.0}) * scale / mm;
-                shape.points.push_back(lies ? Vec3{q.x, q.z, -q.y} : q);
-            }
-        }
-        assets::Model model;
-        model.meshes.push_back(mesh_of(shape));
-        model.nodes.emplace_back().mesh = 0;
-        model.nodes[0].name = "wrench";
-        model.roots = {0};
-        return model;
+        return geometry_test::model_of(plain_wrench(other), shift, scale, lies);
     };
     const auto errors_with = [&](const assets::Model& tool) {
         return all(check(Machine(), {}, nullptr, nullptr, &tool).errors);
@@ -197,11 +183,32 @@ TEST_CASE("Geometry: the jaw, the origin and the unit of a wrench model are meas
     CHECK(
         errors_with(model_of(13.2, 0.0, 1000.0, false)).find("expected metres: it looks like millimetres") !=
         std::string::npos);
-    // The envelope exported as a model has the same swing.
+    // The plain wrench that lies flat has the same swing.
     const assets::Model same = model_of(13.2, 0.0, 1.0, true);
     CHECK(all(check(walled(29.0, 0.0, 10.0), {}, nullptr, nullptr, &same).errors).find("29.0 degrees") !=
           std::string::npos);
     CHECK(all(check(walled(31.0, 0.0, 10.0), {}, nullptr, nullptr, &same).errors) == "");
+}
+
+TEST_CASE("Geometry: a tool without a model is checked with the wrench that the trainer generates") {
+    // Its handle is 12.8 mm wide at the walls, and that of the plain wrench 11.2 mm.
+    const double lost = 2.0 * to_degrees(std::asin(6.4 / inner)) - 2.0 * (half_opening(29.0) - 14.5);
+    CHECK(lost == doctest::Approx(2.3).epsilon(0.05));
+    CHECK(all(check_generated(walled(29.0, 0.0, 10.0)).errors)
+              .find("the wrench has 26.7 degrees of free swing") != std::string::npos);
+    CHECK(all(check_generated(walled(30.0 + lost + 0.2, 0.0, 10.0)).errors) == "");
+    Machine machine;
+    machine.add("pipe", sector(12.0, 30.0, 0.0, 360.0, 0.0, 10.0));
+    CHECK(all(check_generated(machine).errors).find("the wrench has 0.0 degrees of free swing") !=
+          std::string::npos);
+    CHECK(all(check_generated(Machine()).errors) == "");
+    const auto clicks = [](std::string& text) { replace(text, "open_end_wrench", "click_torque_wrench"); };
+    CHECK(all(check_generated(Machine(), clicks).errors) == "");
+    // The frame of a generated wrench is known, however thick its head is.
+    const auto thick = [](std::string& text) {
+        replace(text, "\"jaw_mm\"", "\"head_thickness_mm\": 60, \"jaw_mm\"");
+    };
+    CHECK(all(check_generated(Machine(), thick).errors) == "");
 }
 
 TEST_CASE("Geometry: a straight head gains nothing from turning the wrench over") {

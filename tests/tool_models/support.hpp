@@ -71,7 +71,7 @@ inline double first_hit(const std::vector<Shell>& shells, const Vec3& from, cons
             if (along < 0.0 || along >= nearest) continue;
             const Vec3 p = from + along * direction;
             const auto inside = [&](const Vec3& u, const Vec3& v) {
-                return glm::dot(glm::cross(v - u, p - u), normal) >= 0.0;
+                return glm::dot(glm::cross(v - u, p - u), normal) >= -1e-9 * glm::dot(normal, normal);
             };
             if (inside(a, b) && inside(b, c) && inside(c, a)) nearest = along;
         }

@@ -14,6 +14,8 @@ void add_preview(CLI::App& app, int& exit_code);
 void add_import_step(CLI::App& app, int& exit_code);
 void add_curve(CLI::App& app, int& exit_code);
 void add_torque(CLI::App& app, int& exit_code);
+void add_tool(CLI::App& app, int& exit_code);
+void add_tools(CLI::App& app, int& exit_code);
 void add_views(CLI::App& app, int& exit_code);
 void add_words(CLI::App& app, int& exit_code);
 

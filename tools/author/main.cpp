@@ -13,6 +13,8 @@ int main(int argc, char** argv) {
     bolt::author::add_import_step(app, exit_code);
     bolt::author::add_curve(app, exit_code);
     bolt::author::add_torque(app, exit_code);
+    bolt::author::add_tool(app, exit_code);
+    bolt::author::add_tools(app, exit_code);
     bolt::author::add_views(app, exit_code);
     bolt::author::add_words(app, exit_code);
     return bolt::run_command_line(app, argc, argv, exit_code);

@@ -5,6 +5,7 @@
 
 #include "content/format/json_document.hpp"
 #include "engine/assets/gltf.hpp"
+#include "game/tool_models/tool_model.hpp"
 #include "tools/author/geometry/check_model.hpp"
 
 namespace bolt::geometry {
@@ -28,7 +29,19 @@ std::optional<FlattenedModel> read_scene(const std::string& path, std::string_vi
     return scene;
 }
 
-// Loads the author's wrench. Reports its errors and falls back to the envelope.
+// The wrench that the trainer generates for a tool without a model.
+WrenchShape generated_wrench(const content::WrenchDesign& design, const std::string& pointer,
+                             const Messages& messages) {
+    content::WrenchDesign bare = design;
+    bare.model.clear();
+    auto wrench = wrench_from_model(flatten(tool_models::contact_model(tool_models::parameters_of(bare))),
+                                    bare, ModelFrame::tool);
+    if (wrench) return std::move(*wrench);
+    messages.error(pointer, wrench.error().what, wrench.error().expected);
+    return {};
+}
+
+// Loads the author's wrench. Reports its errors and replaces it by a generated one.
 WrenchShape load_wrench(const content::WrenchDesign& design, const std::string& pointer,
                         const Messages& messages) {
     if (const auto scene = read_scene(design.model, pointer, messages)) {
@@ -36,7 +49,7 @@ WrenchShape load_wrench(const content::WrenchDesign& design, const std::string& 
         if (wrench) return std::move(*wrench);
         messages.error(pointer, wrench.error().what, wrench.error().expected);
     }
-    return envelope_wrench(design);
+    return generated_wrench(design, pointer, messages);
 }
 
 // The default wrench first, then those of "more_tools".

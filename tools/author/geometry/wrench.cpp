@@ -10,35 +10,6 @@ namespace bolt::geometry {
 
 namespace {
 
-struct OutlinePoint {
-    double x, y;
-};
-
-void quad(std::vector<Triangle>& out, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    out.push_back({a, b, c, 0});
-    out.push_back({a, c, d, 0});
-}
-
-// Appends a prism along Z over a quadrangle with counterclockwise corners.
-void block(std::vector<Triangle>& out, const OutlinePoint (&base)[4], double half) {
-    const auto low = [&](int i) { return Vec3{base[i].x, base[i].y, -half}; };
-    const auto high = [&](int i) { return Vec3{base[i].x, base[i].y, half}; };
-    quad(out, high(0), high(1), high(2), high(3));
-    quad(out, low(3), low(2), low(1), low(0));
-    for (int i = 0; i < 4; ++i) {
-        const int k = (i + 1) % 4;
-        quad(out, low(i), low(k), high(k), high(i));
-    }
-}
-
-// Distance from the middle of the jaw at which a ray leaves the slot: at |y| = half_jaw or at the bottom x =
-// depth.
-double slot_exit(double angle, double half_jaw, double depth) {
-    const double c = std::cos(angle), s = std::abs(std::sin(angle));
-    const double side = s > 0.0 ? half_jaw / s : 1e9, bottom = c > 0.0 ? depth / c : 1e9;
-    return std::min(side, bottom);
-}
-
 Vec3 jaw_direction(double angle) { return {std::cos(angle), std::sin(angle), 0.0}; }
 
 // Measured with rays from the middle of the jaw: two across it that must hit, one out of the mouth that must
@@ -66,35 +37,8 @@ tl::unexpected<Error> wrench_error(std::string what, std::string expected) {
 
 }  // namespace
 
-WrenchShape envelope_wrench(const content::WrenchDesign& design) {
-    WrenchShape wrench;
-    const double s = design.jaw, radius = 0.5 * head_width_ratio * s, depth = jaw_depth_ratio * s;
-    wrench.head_angle = design.head_angle;
-    wrench.head_size = radius;
-    wrench.half_thickness = 0.5 * thickness_ratio * s;
-    wrench.reach = std::max(handle_beyond_grip * design.handle_length, radius);
-    // The head is a disc without the slot, built of wedges from the edge of the slot to the rim.
-    constexpr int wedges = 72;
-    const double prong = std::asin(0.5 * s / radius);  // half angle of the mouth
-    const double first = -pi + prong, step = 2.0 * (pi - prong) / wedges;
-    for (int i = 0; i < wedges; ++i) {
-        const double a = first + i * step, b = a + step;
-        const auto point = [&](double angle, double r) {
-            const double turned = angle + design.head_angle;
-            return OutlinePoint{r * std::cos(turned), r * std::sin(turned)};
-        };
-        const double inner_a = std::min(radius, slot_exit(a, 0.5 * s, depth));
-        const double inner_b = std::min(radius, slot_exit(b, 0.5 * s, depth));
-        block(wrench.triangles, {point(a, inner_a), point(a, radius), point(b, radius), point(b, inner_b)},
-              wrench.half_thickness);
-    }
-    const double half = 0.5 * handle_width_ratio * s;
-    block(wrench.triangles, {{0.8 * s, -half}, {wrench.reach, -half}, {wrench.reach, half}, {0.8 * s, half}},
-          wrench.half_thickness);
-    return wrench;
-}
-
-Result<WrenchShape> wrench_from_model(const FlattenedModel& scene, const content::WrenchDesign& design) {
+Result<WrenchShape> wrench_from_model(const FlattenedModel& scene, const content::WrenchDesign& design,
+                                      ModelFrame frame) {
     WrenchShape wrench;
     Aabb box;
     for (const ModelPart& part : scene.parts) {
@@ -103,7 +47,7 @@ Result<WrenchShape> wrench_from_model(const FlattenedModel& scene, const content
             if (!part.box.empty()) box.add(p);
     }
     if (wrench.triangles.empty()) return wrench_error("the wrench has no triangles", "a mesh");
-    const bool lies = box.half().y < box.half().z;
+    const bool lies = frame == ModelFrame::found && box.half().y < box.half().z;
     for (Triangle& t : wrench.triangles) {
         for (Vec3* p : {&t.a, &t.b, &t.c}) {
             if (lies) *p = {p->x, -p->z, p->y};

@@ -1,7 +1,7 @@
-// An open-end wrench as triangles (the author's model, or an envelope of typical proportions), the angles
-// through which it can swing on a nut, and the search for a free path onto the nut. Tool frame: origin in the
-// middle of the jaw at mid thickness, +X along the handle, +Z normal to the flat side; the mouth of the jaw
-// opens at -X, rotated by the head angle about Z.
+// An open-end wrench as triangles (the author's model or a generated one), the angles through which it can
+// swing on a nut, and the search for a free path onto the nut. Tool frame: origin in the middle of the jaw at
+// mid thickness, +X along the handle, +Z normal to the flat side; the mouth of the jaw opens at -X, rotated
+// by the head angle about Z.
 #pragma once
 
 #include <limits>
@@ -14,16 +14,6 @@
 
 namespace bolt::geometry {
 
-// Dimensions of the envelope relative to the jaw opening, close to forged double-ended wrenches (DIN 3110: a
-// 24 mm wrench has a head of 50 to 52 mm, 10 to 11 mm thick). The handle has the thickness of the head, which
-// is conservative.
-inline constexpr double head_width_ratio = 2.1;
-inline constexpr double thickness_ratio = 0.45;
-inline constexpr double handle_width_ratio = 0.85;
-inline constexpr double jaw_depth_ratio = 0.6;  // middle of the jaw to its throat; a hexagon needs 0.577
-// Length of the wrench from the middle of the jaw / distance from there to the middle of the grip.
-inline constexpr double handle_beyond_grip = 1.12;
-
 struct WrenchShape {
     std::string name = "the wrench";  // used in messages
     std::vector<Triangle> triangles;  // in the tool frame, metres
@@ -33,12 +23,13 @@ struct WrenchShape {
     double reach = 0.0;               // m, largest distance from the middle of the jaw
 };
 
-// The envelope for an assembly without a wrench model.
-WrenchShape envelope_wrench(const content::WrenchDesign& design);
+// The frame of a wrench's model: found from its flat side, which is normal to Y (as import-step writes it) or
+// to Z, or the tool frame.
+enum class ModelFrame : std::uint8_t { found, tool };
 
-// The wrench of a model whose flat side is normal to Y (as import-step writes it) or to Z. Fails if the
-// measured jaw does not agree with the design.
-Result<WrenchShape> wrench_from_model(const FlattenedModel& scene, const content::WrenchDesign& design);
+// The wrench of a model. Fails if the measured jaw does not agree with the design.
+Result<WrenchShape> wrench_from_model(const FlattenedModel& scene, const content::WrenchDesign& design,
+                                      ModelFrame frame = ModelFrame::found);
 
 // The wrench on a nut with the axis +Y, its handle along +X. `turned_over`: rotated by 180° about the handle.
 Bvh place_on_nut(const WrenchShape& wrench, bool turned_over);
