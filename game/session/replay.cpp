@@ -38,7 +38,8 @@ Result<content::Assembly> assembly_of(const Header& header) {
     recorded.assembly.models = present.assembly.models;
     for (content::Tool& tool : recorded.assembly.tools)
         for (const content::Tool& present_tool : present.assembly.tools)
-            if (present_tool.name == tool.name) tool.wrench.model = present_tool.wrench.model;
+            if (present_tool.name == tool.name && !tool.wrench.model.empty())
+                tool.wrench.model = present_tool.wrench.model;  // else generated, as when it was recorded
     return std::move(recorded.assembly);
 }
 

@@ -158,6 +158,14 @@ double shortest_length(const ToolParameters& p) {
     }
 }
 
+bool is_torque_wrench(ToolKind kind) {
+    return kind == ToolKind::torque_wrench || kind == ToolKind::electronic_torque_wrench;
+}
+
+bool has_open_end(ToolKind kind) {
+    return kind == ToolKind::open_end || kind == ToolKind::combination || is_torque_wrench(kind);
+}
+
 bool has_ratchet(ToolKind kind) { return kind == ToolKind::socket; }
 
 bool has_drive(ToolKind kind) {
@@ -250,10 +258,8 @@ Result<ToolParameters> completed(ToolParameters p) {
     if (p.opening == 0.0) p.opening = inside ? p.size + standard_play : p.size;
     if (has_drive(p.kind) && p.drive == 0.0) p.drive = standard_drive(p);
     if (has_ratchet(p.kind) && p.teeth == 0) p.teeth = ratchet_teeth[1];
-    if (!p.head_angle)
-        p.head_angle = p.kind == ToolKind::torque_wrench || p.kind == ToolKind::electronic_torque_wrench
-                           ? 0.0
-                           : to_radians(15.0);
+    if (has_open_end(p.kind) && !p.head_angle)
+        p.head_angle = is_torque_wrench(p.kind) ? 0.0 : to_radians(15.0);
     if (p.length == 0.0) p.length = standard_length(p);
     const double shortest = shortest_length(p), longest = 2.5;
     if (!(p.length >= shortest - 1e-9 && p.length <= longest))

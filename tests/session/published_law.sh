@@ -52,19 +52,4 @@ for row in "B1 carbon_steel 14.4" "F1 carbon_steel 18.0" "B1 stainless 14.0" "F1
     check "$joint, $variant: ends at 72.126 N m" bash -c 'tail -1 curve.csv | grep -q ",yield,72\.126"'
 done
 
-# A tool without a model: the message names the tool, its position in the file and the missing key.
-mkdir bare && cp "$sources/content/assemblies/cover-m8/"* bare/
-python3 - bare/assembly.json <<'END'
-import json, sys
-assembly = json.load(open(sys.argv[1]))
-for tool in [assembly["tool"], *assembly.get("more_tools", {}).values()]:
-    tool.pop("model", None)
-json.dump(assembly, open(sys.argv[1], "w"))
-END
-expect 0 'no mistakes' "$bin/bolt-author" validate bare
-expect 3 'bare/assembly.json: /tool: the tool "wrench" has no model; expected "model": the .glb of the wrench' \
-    "$bin/boltwright" train bare --headless --no-pictures --obstacles --quiet --out never
-expect 0 'The wrench passes through everything: .*/tool: the tool "wrench" has no model' \
-    "$bin/boltwright" train bare --headless --no-pictures --out through
-
 finish_checks

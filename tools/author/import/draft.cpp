@@ -278,10 +278,14 @@ class DraftWriter {
         for (const auto& [key, file] : {std::pair{"model", &in_.model}, std::pair{"model_far", &in_.far},
                                         std::pair{"contact_model", &in_.contact}})
             if (!file->empty()) out += fmt::format("  \"{}\": {},\n", key, quoted(*file));
+        const double handle = rounded(8.2 * flats_ + 33.0 * mm, 10.0 * mm);
         out += fmt::format(
             "  \"tool\": {{ \"kind\": \"open_end_wrench\", \"jaw_mm\": {}, \"head_angle_deg\": 15, "
             "\"handle_length_mm\": {} }},\n",
-            in_mm(flats_ + 0.2 * mm), in_mm((8.2 * flats_ + 33.0 * mm), 10.0));
+            in_mm(flats_ + 0.2 * mm), in_mm(handle));
+        draft_.tool = fmt::format(
+            "an open-end wrench of {} mm, {} mm from the jaw to the grip, generated from these numbers",
+            in_mm(flats_), in_mm(handle));
         if (gasket_) out += "  \"materials\": { \"gasket\": { \"E_GPa\": 1 } },\n";
         std::vector<std::string> types, joints, ids;
         for (const DraftJointType& type : types_) types.push_back(type_text(type));

@@ -352,6 +352,7 @@ class Importer {
         input.schema = shipped ? fmt::format("../../schema/{}", schema) : schema;
         const Draft draft = make_draft(input);
         report().joints_drafted = draft.joints;
+        report().tool = draft.tool;
         report().remarks.insert(report().remarks.end(), draft.remarks.begin(), draft.remarks.end());
         if (draft.text.empty()) return true;
         for (const Error& error : content::parse_assembly(draft.text, "the draft").errors)

@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# Tools that are generated from parameters: the commands of bolt-author, and lessons whose tools have no model. tools.sh BIN SOURCES
+. "$(dirname "$0")/checks.sh"
+
+author=$bin/bolt-author
+mkdir first second
+sizes=(
+    "open_end 24" "ring 24" "combination 24" "hex_key 8" "socket 24" "extension_bar 12.5" "adaptor 10" "hex_bit 8"
+    "torque_wrench 24" "electronic_torque_wrench 24")
+for row in "${sizes[@]}"; do
+    read -r kind size <<<"$row"
+    expect 0 "^$kind: size $size mm" "$author" tool "$kind" --size "$size" -o "first/$kind"
+    expect 0 "$kind.contact.glb: [0-9]+ bytes" "$author" tool "$kind" --size "$size" -o "second/$kind.glb" --no-picture
+    for ending in glb contact.glb; do
+        check "$kind: the same $ending every time" cmp "first/$kind.$ending" "second/$kind.$ending"
+    done
+    check "$kind: a picture is drawn" test -s "first/$kind.png"
+    check "$kind: no picture on request" test ! -e "second/$kind.png"
+    expect 0 "first/$kind-drawn.png" "$bin/boltwright" render "first/$kind.glb" --size 160x120 --png "first/$kind-drawn.png"
+done
+check "all kinds are tried" [ "${#sizes[@]}" = "$("$author" tools | sed '/^$/q' | grep -c .)" ]
+validator=$sources/tools/gltf-validator
+if [[ -d $validator/node_modules/gltf-validator ]] && command -v node >/dev/null; then
+    node "$validator/validate.mjs" first/*.glb >messages.json
+    check "the Khronos validator finds no mistake" python3 -c '
+import json
+reports = json.load(open("messages.json"))
+assert len(reports) == 20
+assert not any(report["messages"] for report in reports), reports'
+else
+    skip_part "the glTF validator is not installed; expected tools/install-node-tools.sh to have installed it"
+fi
+
+# Sizes and options.
+expect 0 'note: 20 mm is not a standard size of ring' "$author" tool ring --size 20 -o odd --no-picture
+expect 0 'length 300 mm' "$author" tool ring --size 24 --length 300 -o long --no-picture
+check "another length gives other bytes" bash -c '! cmp -s long.glb first/ring.glb'
+expect 0 '24 teeth' "$author" tool socket --size 19 --teeth 24 --drive 12.5 -o ratchet --no-picture
+expect 0 'ISO 1711-1 as read' "$author" tools
+expect 0 '^  24 mm +359 +451$' "$author" tools
+expect 0 '^  17 mm +~1' "$author" tools
+expect 0 '^   8 mm +44 \+ 108$' "$author" tools
+
+# Mistakes.
+expect 2 'no tool of the kind "rign"; did you mean "ring"\?' "$author" tool rign --size 24 -o never
+expect 2 'ring of 60 mm: the size is out of range; expected 8 to 46 mm; the nearest is 46' "$author" tool ring --size 60 -o never
+expect 2 'a ratchet of 73 teeth is unknown; expected 24, 72, 90' "$author" tool socket --size 24 --teeth 73 -o never
+expect 2 'a length of 20 mm is impossible' "$author" tool ring --size 24 --length 20 -o never
+expect 2 'is not a size' "$author" tool ring --size 24 --picture-size huge -o never
+expect 2 '' "$author" tool ring -o never
+check "a mistake leaves no files" bash -c '! ls never* 2>/dev/null'
+touch file
+expect 1 'cannot be written' "$author" tool ring --size 24 --no-picture -o file/ring
+(ulimit -f 40 && trap '' XFSZ && "$author" tool ring --size 24 --no-picture -o disk) >full.log 2>&1
+check "a full disk gives exit code 1" [ $? = 1 ]
+check "a full disk is reported" grep -q 'disk.*cannot be written' full.log
+check "a full disk leaves no files" bash -c '! ls disk* 2>/dev/null'
+expect 1 'standard output' bash -c "'$author' tools > /dev/full"
+
+# A lesson whose tools have no model: they are generated, drawn and touch the parts, and the session replays.
+mkdir bare && cp "$sources/content/assemblies/cover-m8/"* bare/
+python3 - bare/assembly.json <<'END'
+import json, sys
+assembly = json.load(open(sys.argv[1]))
+for tool in [assembly["tool"], *assembly.get("more_tools", {}).values()]:
+    tool.pop("model", None)
+assembly["joints"] = [joint for joint in assembly["joints"] if joint["id"] == "B1"]
+assembly["order"] = ["B1"]
+assembly["passes"] = [{"kind": "run_down"}, {"kind": "tighten", "percent": 100}]
+json.dump(assembly, open(sys.argv[1], "w"))
+END
+expect 0 'no mistakes' "$author" validate bare
+expect 0 'B1' "$author" views bare
+for tool in wrench torque_wrench; do
+    expect 0 'score' "$bin/boltwright" train bare --tool $tool --headless --no-pictures --obstacles --out "with-$tool"
+    expect 0 'all as they were recorded' "$bin/boltwright" replay "with-$tool/session.boltwright"
+    expect 0 '' "$bin/boltwright" export "with-$tool/session.boltwright" --csv "$tool.csv"
+    check "$tool: the tool touches parts" awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "touched") c = i }
+        NR > 1 && $c != "" { n++ } END { exit n < 200 }' "$tool.csv"
+done
+check "the session names the generated tool" grep -aq 'generated open_end: size 13 mm, opening 13.2 mm' with-wrench/session.boltwright
+check "... and the torque wrench" grep -aq 'generated torque_wrench: size 13 mm' with-torque_wrench/session.boltwright
+expect 0 'film.png' "$bin/boltwright" replay with-wrench/session.boltwright --at 3 --png film.png
+# The tool of a session is that of its recorded text: the file may change, and name a model.
+cp bare/assembly.json before.json
+sed -i 's/"handle_length_mm": 140/"handle_length_mm": 150/' bare/assembly.json
+check "the wrench is another one now" bash -c '! cmp -s before.json bare/assembly.json'
+expect 0 'all as they were recorded' "$bin/boltwright" replay with-wrench/session.boltwright
+cp "$sources/content/assemblies/cover-m8/assembly.json" bare/
+expect 0 'all as they were recorded' "$bin/boltwright" replay with-wrench/session.boltwright
+
+finish_checks
