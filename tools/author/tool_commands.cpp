@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +34,39 @@ struct ToolOptions {
     bool no_picture = false;
 };
 
+// The nearest viewpoint above and in front of the model from which every vertex is in the picture.
+view::Viewpoint close_viewpoint(const assets::Model& model, float aspect) {
+    constexpr float filled = 0.92F;  // of the picture
+    const std::vector<glm::mat4> worlds = assets::world_transforms(model);
+    std::vector<glm::vec3> points;
+    glm::vec3 low(1e9F), high(-1e9F);
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        if (model.nodes[i].mesh < 0) continue;
+        for (const auto& primitive : model.meshes[static_cast<std::size_t>(model.nodes[i].mesh)].primitives)
+            for (const glm::vec3& p : primitive.positions) {
+                points.emplace_back(worlds[i] * glm::vec4(p, 1.0F));
+                low = glm::min(low, points.back());
+                high = glm::max(high, points.back());
+            }
+    }
+    view::Viewpoint view;
+    view.target = 0.5F * (low + high);
+    view.fov = view::default_fov;
+    const glm::vec3 back = glm::normalize(glm::vec3(0.3F, 0.75F, 1.0F));
+    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0.0F, 1.0F, 0.0F), back));
+    const glm::vec3 up = glm::cross(back, right);
+    const float half = filled * std::tan(0.5F * view.fov);
+    float distance = 0.0F;
+    for (const glm::vec3& p : points) {
+        const glm::vec3 d = p - view.target;
+        const float needed =
+            std::max(std::abs(glm::dot(d, up)) / half, std::abs(glm::dot(d, right)) / (half * aspect));
+        distance = std::max(distance, needed + glm::dot(d, back));
+    }
+    view.eye = view.target + distance * back;
+    return view;
+}
+
 // Draws the model with its Z axis upwards and returns the bytes of a PNG file.
 Result<std::string> draw_tool(assets::Model model, VkExtent2D size) {
     view::LoadedModel loaded;
@@ -45,9 +79,9 @@ Result<std::string> draw_tool(assets::Model model, VkExtent2D size) {
     BOLT_TRY_ASSIGN(auto light, render::upload_environment(*gpu_context.device, radiance));
     BOLT_TRY_ASSIGN(const auto shown, view::show_model(*gpu_context.device, loaded, light));
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    const view::Viewpoint view = view::default_viewpoint(shown->box, view::default_fov, aspect);
-    const render::Eye eye = render::make_eye(
-        view.eye, view.target, view::lens(shown->box, view.eye, view.target, view::default_fov, aspect));
+    const view::Viewpoint view = close_viewpoint(loaded.model, aspect);
+    const render::Eye eye = render::make_eye(view.eye, view.target,
+                                             view::lens(shown->box, view.eye, view.target, view.fov, aspect));
     BOLT_TRY_ASSIGN(const auto pictures,
                     render::take_pictures(*gpu_context.device, *gpu_context.frames, *gpu_context.renderer,
                                           shown->scene, {&eye, 1}, size));
