@@ -45,8 +45,8 @@ std::optional<Error> missing_contact_model(const content::Assembly& assembly);
 
 // None if the contact model is missing (missing_contact_model). A joint's turned part is the node
 // content::turned_node() below the joint's node; all other nodes are fixed. The wrench is `NAME.contact.glb`
-// beside its `NAME.glb` if that file exists, else `NAME.glb`; without a file it is generated. Fails, and names
-// the file, if a model cannot be read, has no triangles, or has an open surface where a closed one is
+// beside its `NAME.glb` if that file exists, else `NAME.glb`; without a file it is generated. Fails, and
+// names the file, if a model cannot be read, has no triangles, or has an open surface where a closed one is
 // required.
 Result<std::optional<ContactModels>> load_contact_models(const content::Assembly& assembly,
                                                          const servo::Setup& setup);
