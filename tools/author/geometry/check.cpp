@@ -81,7 +81,7 @@ void check_model(const content::Assembly& assembly, const FlattenedModel& scene,
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
         if (nodes[i] < 0) continue;
         const content::AssemblyJoint& joint = assembly.joints[i];
-        const JointParts parts = find_joint_parts(scene, nodes[i], joint.design.id);
+        const JointParts parts = find_joint_parts(scene, nodes[i], joint.design);
         if (!check_fasteners_and_members(joint, i, parts, scene, everything, assembly.tools, messages))
             continue;
         for (const WrenchShape& wrench : wrenches) check_wrench(joint, i, parts, scene, wrench, messages);

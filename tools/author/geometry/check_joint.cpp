@@ -8,7 +8,6 @@
 #include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/check_model.hpp"
 #include "tools/author/geometry/scene.hpp"
-#include "tools/author/geometry/wrench.hpp"
 
 namespace bolt::geometry {
 
@@ -33,6 +32,12 @@ struct JointCheck {
         messages.error(joint_pointer(index), std::move(what), std::move(expected));
     }
     [[nodiscard]] const joint::FastenerSize& size() const { return joint.design.thread.size; }
+    [[nodiscard]] double across_flats() const { return joint::turned_part_size(joint.design).across_flats; }
+    [[nodiscard]] double grip() const {  // m, of the members
+        double sum = 0.0;
+        for (const joint::Member& member : joint.design.members) sum += member.thickness;
+        return sum;
+    }
     [[nodiscard]] std::string name_of(std::uint32_t part) const {
         return content::in_quotes(scene.parts[part].name);
     }
@@ -87,16 +92,16 @@ bool check_nut(const JointCheck& s, std::span<const content::Tool> tools) {
     if (!hexagon || hexagon->unevenness > 0.1 * mm) {
         s.error(
             fmt::format("{} is not a hexagon about the joint's axis", content::in_quotes(s.parts.nut.name)),
-            fmt::format("a hexagon nut, {:g} mm across flats", s.size().across_flats / mm));
+            fmt::format("a hexagon, {:g} mm across flats", s.across_flats() / mm));
         return false;
     }
     const double flats = hexagon->across_flats, off = std::hypot(hexagon->centre.x, hexagon->centre.z);
     const std::string name = content::in_quotes(s.parts.nut.name);
     if (off > offset_tolerance)
         s.error(fmt::format("{} is {:.3g} mm beside the joint's axis", name, off / mm), "at most 0.01 mm");
-    if (flats > s.size().across_flats + contact_tolerance || flats < s.size().across_flats - nut_play)
+    if (flats > s.across_flats() + contact_tolerance || flats < s.across_flats() - nut_play)
         s.error(fmt::format("{} measures {:.2f} mm across flats", name, flats / mm),
-                fmt::format("{:g} mm for {}", s.size().across_flats / mm, s.size().name));
+                fmt::format("{:g} mm for {}", s.across_flats() / mm, s.size().name));
     for (const content::Tool& tool : tools) check_jaw(s, tool, &tool == tools.data(), flats);
     return true;
 }
@@ -152,8 +157,7 @@ void check_members(const JointCheck& s) {
     const auto& design = s.joint.design;
     const double washer = design.washer_under_nut ? s.size().washer_outer : s.size().nut_bearing;
     const double radius = 0.25 * (s.size().hole + washer);
-    double grip = 0.0;
-    for (const joint::Member& member : design.members) grip += member.thickness;
+    const double grip = s.grip();
     const double above = 0.5 * s.size().nut_height;
     const auto top = find_face(s, radius, above, -1.0, above + grip);
     if (!top) {
@@ -206,8 +210,7 @@ std::optional<CircleFit> fit_circle(const std::vector<Vec3>& points) {
 // bolt.
 std::set<std::uint32_t> check_hole(const JointCheck& s) {
     constexpr int heights = 8, rays = 36;
-    double grip = 0.0;
-    for (const joint::Member& member : s.joint.design.members) grip += member.thickness;
+    const double grip = s.grip();
     std::set<std::uint32_t> tight;
     std::map<std::uint32_t, std::vector<Vec3>> walls;
     for (int i = 0; i < heights; ++i)
@@ -260,8 +263,7 @@ void check_bolt(const JointCheck& s) {
         s.error(fmt::format("{} measures {:.2f} mm under its head", content::in_quotes(s.parts.bolt.name),
                             length / mm),
                 fmt::format("{:g} mm (bolt_length_mm)", s.joint.design.bolt_length / mm));
-    double grip = 0.0;
-    for (const joint::Member& member : s.joint.design.members) grip += member.thickness;
+    const double grip = s.grip();
     // These faces look along -Y, so all heights are negated.
     if (s.parts.washer_head.exists()) {
         check_seat(s, s.parts.bolt.name, -*underside, content::in_quotes(s.parts.washer_head.name),
@@ -271,6 +273,64 @@ void check_bolt(const JointCheck& s) {
     } else {
         check_seat(s, s.parts.bolt.name, -*underside, "the member under the head", grip);
     }
+}
+
+// Checks the face under the head of a screw, and that the tapped part begins at the end of the grip.
+void check_screw_members(const JointCheck& s) {
+    const auto& design = s.joint.design;
+    const double outer =
+        design.washer_under_head ? s.size().washer_outer : joint::turned_part_size(design).bearing;
+    const double radius = 0.25 * (s.size().hole + outer), grip = s.grip();
+    const double above = 0.5 * s.size().head_height;
+    const auto top = find_face(s, radius, above, -1.0, above + grip);
+    if (!top) {
+        s.error("no member is under the head at position_mm", "a face at position_mm");
+        return;
+    }
+    const double face = above - top->distance;
+    if (std::abs(face) > contact_tolerance)
+        s.error(fmt::format("the face of {} under the head is {:.2f} mm {} position_mm", s.name_of(top->part),
+                            std::abs(face) / mm, face > 0.0 ? "beyond" : "below"),
+                "position_mm on the face");
+    // From inside the last member to its far face, which lies on the tapped part.
+    const double inside = 0.5 * design.members.back().thickness;
+    const auto bottom = find_face(s, radius, -grip + inside, -1.0, 2.0 * inside + grip);
+    if (!bottom || std::abs(bottom->distance - inside) > length_tolerance)
+        s.error(bottom
+                    ? fmt::format("the members measure {:.2f} mm in the model, and {:g} mm in the joint type",
+                                  (grip + bottom->distance - inside) / mm, grip / mm)
+                    : "no part with a tapped hole is behind the members",
+                "both within 0.1 mm");
+}
+
+// Checks a screw in a tapped hole: its thread, its length and the hole around its end.
+void check_screw(const JointCheck& s) {
+    const auto& design = s.joint.design;
+    const double face = design.washer_under_head ? s.size().washer_thickness : 0.0;
+    double radius = 0.0;
+    for (const Triangle& t : s.parts.bolt.triangles)
+        for (const Vec3& p : {t.a, t.b, t.c})
+            if (p.y < face - 0.1 * design.bolt_length) radius = std::max(radius, std::hypot(p.x, p.z));
+    if (std::abs(2.0 * radius - s.size().d) > 0.3 * mm)
+        s.error(fmt::format("{} measures {:.2f} mm across its thread", content::in_quotes(s.parts.bolt.name),
+                            2.0 * radius / mm),
+                fmt::format("{:g} mm for {}", s.size().d / mm, s.size().name));
+    const double length = face - s.parts.bolt.box.low.y;
+    if (std::abs(length - design.bolt_length) > length_tolerance)
+        s.error(fmt::format("{} measures {:.2f} mm under its head", content::in_quotes(s.parts.bolt.name),
+                            length / mm),
+                fmt::format("{:g} mm (bolt_length_mm)", design.bolt_length / mm));
+    constexpr int rays = 12;
+    int walls = 0;
+    for (int i = 0; i < rays; ++i) {
+        const double angle = (i + 0.5) * 2.0 * pi / rays;
+        if (s.ray({0.0, -s.grip() - 0.5 * design.hole.engagement, 0.0},
+                  {std::cos(angle), 0.0, std::sin(angle)}, 0.55 * s.size().d))
+            ++walls;
+    }
+    if (walls < rays / 2)
+        s.error(fmt::format("no hole is around the end of {}", content::in_quotes(s.parts.bolt.name)),
+                fmt::format("the tapped hole, at most {:g} mm wide", 1.1 * s.size().d / mm));
 }
 
 // Reports a part outside the joint that crosses the fastener after shrinking it by the contact tolerance.
@@ -301,136 +361,33 @@ bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_
                                  const JointParts& parts, const FlattenedModel& scene, const Bvh& everything,
                                  std::span<const content::Tool> tools, const Messages& messages) {
     const JointCheck s{joint, index, parts, scene, everything, messages};
+    const bool screw = joint.design.form == joint::JointForm::tapped_hole;
     check_presence(s, parts.bolt, true);
     check_presence(s, parts.washer_head, joint.design.washer_under_head);
     check_presence(s, parts.washer_nut, joint.design.washer_under_nut);
-    check_presence(s, parts.nut, true);
-    check_members(s);
+    if (!screw) check_presence(s, parts.nut, true);
+    if (screw)
+        check_screw_members(s);
+    else
+        check_members(s);
     const std::set<std::uint32_t> tight = check_hole(s);
-    if (parts.bolt.exists()) check_bolt(s);
+    if (parts.bolt.exists() && screw) check_screw(s);
+    if (parts.bolt.exists() && joint.design.form == joint::JointForm::through_bolt) check_bolt(s);
     const bool gripped = parts.nut.exists() && check_nut(s, tools);
-    if (parts.washer_nut.exists()) {
-        check_seat(s, parts.washer_nut.name, parts.washer_nut.box.low.y, "the member under the nut", 0.0);
+    const Fastener& washer = screw ? parts.washer_head : parts.washer_nut;
+    const std::string member = screw ? "the member under the head" : "the member under the nut";
+    if (washer.exists()) {
+        check_seat(s, washer.name, washer.box.low.y, member, 0.0);
         if (parts.nut.exists())
-            check_seat(s, parts.nut.name, parts.nut.box.low.y, content::in_quotes(parts.washer_nut.name),
-                       parts.washer_nut.box.high.y);
+            check_seat(s, parts.nut.name, parts.nut.box.low.y, content::in_quotes(washer.name),
+                       washer.box.high.y);
     } else if (parts.nut.exists()) {
-        check_seat(s, parts.nut.name, parts.nut.box.low.y, "the member under the nut", 0.0);
+        check_seat(s, parts.nut.name, parts.nut.box.low.y, member, 0.0);
     }
+    // The thread of a screw or a stud may overlap the part that it is screwed into.
     for (const Fastener* fastener : {&parts.bolt, &parts.washer_head, &parts.washer_nut, &parts.nut})
-        check_overlaps(s, *fastener, tight);
+        if (fastener != &parts.bolt || !joint.design.is_tapped()) check_overlaps(s, *fastener, tight);
     return gripped;
-}
-
-namespace {
-
-constexpr double hexagon_turn = to_radians(60.0);  // between two grips on the nut
-constexpr double min_swing = to_radians(30.0);     // for a 15° head that is turned over after every stroke
-constexpr double min_arc = to_radians(5.0);        // narrower free arcs are ignored
-constexpr double clearance = 0.2 * mm;             // between the wrench and the face under the nut
-
-// The swing of a wrench as it is and turned over.
-struct SwingPair {
-    FreeSwing plain, turned_over;
-
-    [[nodiscard]] double width(const FreeSwing& swing) const {
-        const Arc* arc = swing.widest();
-        return arc != nullptr ? arc->width() : 0.0;
-    }
-    [[nodiscard]] double most() const { return std::max(width(plain), width(turned_over)); }
-    [[nodiscard]] double least() const { return std::min(width(plain), width(turned_over)); }
-    [[nodiscard]] const FreeSwing& wider() const {
-        return width(turned_over) > width(plain) ? turned_over : plain;
-    }
-};
-
-// Appends the jaw angles of every free arc. Ignores arcs that are too narrow to bring a wrench into.
-void add_jaw_angles(const FreeSwing& swing, double head_angle,
-                    std::vector<std::pair<double, double>>& angles) {
-    for (const Arc& arc : swing.arcs)
-        if (arc.width() > min_arc) angles.emplace_back(arc.from + head_angle, arc.to + head_angle);
-}
-
-// Returns true if the wrench can grip the nut in every orientation of the nut, and can therefore turn it
-// without limit. Jaw angles repeat every 60°. `one_way_up`: without turning the wrench over.
-bool can_turn_fully(const SwingPair& swings, double head_angle, bool one_way_up) {
-    std::vector<std::pair<double, double>> plain, over;
-    add_jaw_angles(swings.plain, head_angle, plain);
-    add_jaw_angles(swings.turned_over, -head_angle, over);
-    if (one_way_up) return covers_period(plain, hexagon_turn) || covers_period(over, hexagon_turn);
-    plain.insert(plain.end(), over.begin(), over.end());
-    return covers_period(plain, hexagon_turn);
-}
-
-std::string name_of(const FlattenedModel& scene, std::uint32_t part) {
-    return part < scene.parts.size() ? content::in_quotes(scene.parts[part].name) : "no part";
-}
-
-std::string describe_limits(const FlattenedModel& scene, const FreeSwing& swing) {
-    const Arc* arc = swing.widest();
-    if (arc == nullptr) return fmt::format("{} is in its way", name_of(scene, swing.blocking));
-    if (arc->before == arc->after) return fmt::format("{} is on both sides", name_of(scene, arc->before));
-    return fmt::format("between {} and {}", name_of(scene, arc->before), name_of(scene, arc->after));
-}
-
-std::string in_degrees(const SwingPair& swings) {
-    std::string text = fmt::format("{:.1f} degrees", to_degrees(swings.most()));
-    if (to_degrees(swings.most() - swings.least()) > 0.1)
-        text += fmt::format(" ({:.1f} the other way up)", to_degrees(swings.least()));
-    return text;
-}
-
-// Reports too little swing. `where`: " where it starts, 21 mm above its seat", or empty.
-void check_swing(const SwingPair& swings, const WrenchShape& wrench, std::size_t index,
-                 const std::string& where, const FlattenedModel& scene, const Messages& messages) {
-    const double head_angle = std::abs(wrench.head_angle);
-    const std::string place = describe_limits(scene, swings.wider());
-    if (swings.most() < min_swing || !can_turn_fully(swings, head_angle, false)) {
-        messages.error(joint_pointer(index),
-                       fmt::format("{} has {} of free swing on the nut{}: {}", wrench.name,
-                                   in_degrees(swings), where, place),
-                       // If the swing is enough either way up, the head limits the wrench, at the same jaw
-                       // angles either way up, so that turning it over gains nothing.
-                       head_angle < to_radians(1.0) || swings.least() >= min_swing
-                           ? "60 degrees: turning the wrench over gains nothing here"
-                           : "30 degrees or more both ways up, or 60 one way up");
-    } else if (!can_turn_fully(swings, head_angle, true)) {
-        messages.note(joint_pointer(index),
-                      fmt::format("{} has {} of free swing on the nut{}, {}: it has to be turned over "
-                                  "after every stroke",
-                                  wrench.name, in_degrees(swings), where, place));
-    }
-}
-
-}  // namespace
-
-void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const JointParts& parts,
-                  const FlattenedModel& scene, const WrenchShape& wrench, const Messages& messages) {
-    const double low = parts.nut.box.low.y, high = parts.nut.box.high.y;
-    const double seated = std::max(0.5 * (low + high), low + wrench.half_thickness + clearance);
-    const Bvh plain = place_on_nut(wrench, false), over = place_on_nut(wrench, true);
-    const double lowest = seated + std::min(plain.box().low.y, over.box().low.y);
-    const Bvh around(nearby_triangles(scene, parts.to_joint, 3.0 * wrench.reach, lowest, parts.nut.parts));
-    const auto swings_at = [&](double height) {
-        return SwingPair{find_free_swing(around, plain, height), find_free_swing(around, over, height)};
-    };
-    const SwingPair swings = swings_at(seated);
-    check_swing(swings, wrench, index, "", scene, messages);
-    if (joint.design.start_gap > 1.0 * mm)
-        check_swing(swings_at(seated + joint.design.start_gap), wrench, index,
-                    fmt::format(" where it starts, {:.3g} mm above its seat", joint.design.start_gap / mm),
-                    scene, messages);
-    if (swings.most() <= 0.0) return;  // already reported
-    ExitPaths paths{seated, wrench.head_angle, wrench.head_size, wrench.reach};
-    std::uint32_t blocked = find_obstruction(around, plain, swings.plain, paths);
-    paths.jaw_angle = -wrench.head_angle;
-    if (blocked != no_part) blocked = find_obstruction(around, over, swings.turned_over, paths);
-    if (blocked != no_part)
-        messages.error(joint_pointer(index),
-                       fmt::format("{} cannot be brought onto the nut, neither along the bolt nor from "
-                                   "the side: {} is in its way",
-                                   wrench.name, name_of(scene, blocked)),
-                       "a free path");
 }
 
 }  // namespace bolt::geometry

@@ -157,6 +157,19 @@ bool is_near(const Aabb& box, double radius, double floor) {
     return box.high.y > floor && std::hypot(x, z) < radius;
 }
 
+// The triangles of a bolt at and above the bearing face of its head.
+Fastener head_of(const Fastener& bolt, const joint::JointDesign& design) {
+    constexpr double slack = 0.1e-3;  // m; a gap or a penetration at the face is reported later
+    const double face = design.washer_under_head ? design.thread.size.washer_thickness : 0.0;
+    Fastener head{bolt.name, {}, {}, bolt.parts};
+    for (const Triangle& t : bolt.triangles) {
+        if (std::min({t.a.y, t.b.y, t.c.y}) < face - slack) continue;
+        head.triangles.push_back(t);
+        for (const Vec3& p : {t.a, t.b, t.c}) head.box.add(p);
+    }
+    return head;
+}
+
 }  // namespace
 
 bool JointParts::owns(std::uint32_t part) const {
@@ -164,17 +177,17 @@ bool JointParts::owns(std::uint32_t part) const {
            nut.parts.contains(part);
 }
 
-JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, std::string_view id) {
+JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design) {
     JointParts parts;
     parts.to_assembly = scene.nodes[static_cast<std::size_t>(joint_node)].world;
     parts.to_joint = glm::inverse(parts.to_assembly);
     const auto find = [&](const char* what) {
-        return find_fastener(scene, joint_node, std::string(id) + what, parts.to_joint);
+        return find_fastener(scene, joint_node, design.id + what, parts.to_joint);
     };
     parts.bolt = find("_bolt");
     parts.washer_head = find("_washer_head");
     parts.washer_nut = find("_washer_nut");
-    parts.nut = find("_nut");
+    parts.nut = design.turned == joint::TurnedPart::head ? head_of(parts.bolt, design) : find("_nut");
     return parts;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/assets/model.hpp"
+#include "haptics/joint/design.hpp"
 #include "tools/author/geometry/bvh.hpp"
 
 namespace bolt::geometry {
@@ -44,8 +45,8 @@ struct FlattenedModel {
 // corners.
 FlattenedModel flatten(const assets::Model& model);
 
-// A fastener in the frame of its joint: origin in the middle of the hole on the face under the nut, +Y along
-// the bolt towards the nut.
+// A fastener in the frame of its joint: origin in the middle of the hole on the face under the turned part,
+// +Y along the bolt towards that part.
 struct Fastener {
     std::string name;                 // of its node
     std::vector<Triangle> triangles;  // Triangle::part: index into FlattenedModel::parts
@@ -58,14 +59,15 @@ struct Fastener {
 // The fasteners of one joint.
 struct JointParts {
     glm::dmat4 to_joint{1.0}, to_assembly{1.0};
-    Fastener bolt, washer_head, washer_nut, nut;
+    Fastener bolt, washer_head, washer_nut;
+    Fastener nut;  // or the head of a bolt that is turned at its head
 
     [[nodiscard]] bool owns(std::uint32_t part) const;
 };
 
 // Finds the nodes ID_bolt, ID_washer_head, ID_washer_nut and ID_nut under the joint's node; those that are
-// missing have no triangles.
-JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, std::string_view id);
+// missing have no triangles. A head that is turned is the part of ID_bolt above its bearing face.
+JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design);
 
 // Returns the triangles, in the joint's frame, whose bounding box is within `radius` of the joint's axis and
 // reaches above the height `floor`, without those of the parts in `left_out`.

@@ -16,12 +16,20 @@ struct MemberSpan {
     double solid = 0.0;           // m, thickness without cavities
 };
 
+// Diameters of holes, as shares of the bolt's diameter.
+struct HoleRange {
+    double least, most;
+};
+constexpr HoleRange clearance_hole{0.98, 1.5};
+constexpr HoleRange tapped_hole{0.75, 1.01};  // the core (0.78 for M4), or the nominal diameter
+
 // Radius of the part's hole around the bolt, m; 0 without a hole.
-double hole_around(const PartGeometry& part, const ScaledPose& pose, const InstalledBolt& bolt) {
+double hole_around(const PartGeometry& part, const ScaledPose& pose, const InstalledBolt& bolt,
+                   const HoleRange& range) {
     double hole = 0.0;
     for (const Hole& one : part.holes) {
         const double radius = one.radius * std::abs(pose.scale);
-        if (2.0 * radius < 0.98 * bolt.diameter || 2.0 * radius > 1.5 * bolt.diameter) continue;
+        if (2.0 * radius < range.least * bolt.diameter || 2.0 * radius > range.most * bolt.diameter) continue;
         if (coaxial(bolt.origin, bolt.axis, pose.point(one.point), pose.direction(one.axis)))
             hole = std::max(hole, radius);
     }
@@ -109,7 +117,7 @@ std::vector<ClampedMember> find_members(const std::vector<const PartGeometry*>& 
     std::vector<MemberSpan> spans;
     for (std::size_t n = 0; n < parts.size(); ++n) {
         if (parts[n] == nullptr) continue;
-        const double hole = hole_around(*parts[n], poses[n], bolt);
+        const double hole = hole_around(*parts[n], poses[n], bolt, clearance_hole);
         if (hole == 0.0) continue;
         if (auto span = measure(*parts[n], poses[n], bolt, 0.5 * (hole + 0.8 * bolt.diameter))) {
             span->node = static_cast<int>(n);
@@ -130,6 +138,21 @@ std::vector<ClampedMember> find_members(const std::vector<const PartGeometry*>& 
     std::vector<ClampedMember> members;
     for (const MemberSpan& span : spans) members.push_back({span.node, span.solid});
     return members;
+}
+
+std::optional<TappedPart> find_tapped_part(const std::vector<const PartGeometry*>& parts,
+                                           const std::vector<ScaledPose>& poses, const InstalledBolt& bolt) {
+    std::optional<TappedPart> last;
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+        if (parts[n] == nullptr) continue;
+        const double hole = hole_around(*parts[n], poses[n], bolt, tapped_hole);
+        if (hole == 0.0) continue;
+        const auto span = measure(*parts[n], poses[n], bolt, 0.65 * bolt.diameter);
+        if (!span || bolt.seat - span->from < 0.3 * bolt.diameter) continue;
+        if (!last || span->from > last->face)
+            last = TappedPart{static_cast<int>(n), 2.0 * hole, span->from, span->to};
+    }
+    return last;
 }
 
 }  // namespace bolt::step_import

@@ -1,6 +1,7 @@
 // Finds the parts that a bolt clamps between head and nut, and their thickness along the bolt.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tools/author/import/fasteners.hpp"
@@ -40,5 +41,18 @@ bool coaxial(const Vec3& p, const Vec3& a, const Vec3& q, const Vec3& b);
 // faces of two flanges and the gasket between them.
 std::vector<ClampedMember> find_members(const std::vector<const PartGeometry*>& parts,
                                         const std::vector<ScaledPose>& poses, const InstalledBolt& bolt);
+
+// A part with a hole that a bolt is screwed into. Heights along the bolt's axis, m.
+struct TappedPart {
+    int node = -1;
+    double hole = 0.0;                // diameter, m
+    double face = 0.0, bottom = 0.0;  // where its material around the hole begins and ends
+};
+
+// Returns the part that the end of a bolt without a nut is screwed into: its hole is as wide as the bolt's
+// thread or its core, and the bolt reaches at least 0.3 d into it. Of several the last one along the bolt.
+// The seat of `bolt` is the end of the bolt.
+std::optional<TappedPart> find_tapped_part(const std::vector<const PartGeometry*>& parts,
+                                           const std::vector<ScaledPose>& poses, const InstalledBolt& bolt);
 
 }  // namespace bolt::step_import

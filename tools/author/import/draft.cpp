@@ -55,6 +55,8 @@ struct JointTypeKey {
     double length = 0.0;  // mm
     bool washer_head = false, washer_nut = false;
     std::vector<std::pair<double, std::string>> members;  // mm, material
+    std::string tapped;                                   // material of the tapped part; empty: a nut
+    double engagement = 0.0;                              // mm
     friend bool operator==(const JointTypeKey&, const JointTypeKey&) = default;
 };
 
@@ -64,17 +66,39 @@ struct DraftJointType {
     double torque = 0.0;  // N·m
 };
 
+// The tapped material for a material of members.
+std::string_view tapped_material_of(std::string_view member) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 4> materials = {
+        {{"aluminium", "AlSi9Cu3"},
+         {"cast_iron", "GJL-250"},
+         {"ductile_iron", "GJS-400"},
+         {"stainless_steel", "A2"}}};
+    for (const auto& [name, tapped] : materials)
+        if (name == member) return tapped;
+    return "S235";
+}
+
+// Torque that a tapped thread bears without stripping, N·m: half of the torque at which it strips.
+double tapped_limit(const JointTypeKey& type, const joint::ThreadSize& size, const joint::PropertyClass& bolt,
+                    double bearing) {
+    const auto part = joint::tapped_material(type.tapped);
+    if (!part) return 0.0;
+    return 0.5 * joint::stripping_forces(size.thread, bolt, *part, type.engagement * mm).least() *
+           joint::torque_levers(size.thread, friction, friction, bearing).tighten();
+}
+
 double target_torque(const JointTypeKey& type) {
     const auto thread = joint::parse_thread(type.size);
     if (!thread) return 0.0;
     const auto bolt = joint::property_class(type.property_class, thread->size.d);
     if (!bolt) return 0.0;
-    const double torque =
+    const bool screw = !type.tapped.empty();
+    const double bearing = joint::bearing_mean_diameter(
+        screw ? thread->size.head_bearing : thread->size.nut_bearing, thread->size.hole);
+    double torque =
         torque_share *
-        joint::assembly_preload(thread->thread, *bolt, friction, friction,
-                                joint::bearing_mean_diameter(thread->size.nut_bearing, thread->size.hole),
-                                utilisation)
-            .torque;
+        joint::assembly_preload(thread->thread, *bolt, friction, friction, bearing, utilisation).torque;
+    if (screw) torque = std::min(torque, tapped_limit(type, *thread, *bolt, bearing));
     const double step = std::pow(10.0, std::floor(std::log10(torque)) - 1.0);  // two significant digits
     return std::floor(torque / step) * step;
 }
@@ -150,6 +174,10 @@ class DraftWriter {
         type.washer_nut = !joint.nut_washers.empty();
         for (const ClampedMember& member : joint.members)
             type.members.emplace_back(rounded(member.thickness / mm, 0.01), member_material(member));
+        if (joint.is_screw()) {
+            type.tapped = tapped_material_of(member_material({joint.tapped, 0.0}));
+            type.engagement = rounded(joint.engagement / mm, 0.1);
+        }
         for (std::size_t i = 0; i < types_.size(); ++i)
             if (types_[i].type == type) return i;
         std::string name = fmt::format("{}x{}", type.size, in_mm(type.length * mm));
@@ -199,7 +227,14 @@ class DraftWriter {
         for (const auto& [thickness, material] : type.members)
             members.push_back(fmt::format(R"(        {{ "thickness_mm": {}, "material": {} }})",
                                           in_mm(thickness * mm), quoted(material)));
-        return fmt::format(R"(    {}: {{
+        const std::string form =
+            type.tapped.empty()
+                ? std::string()
+                : fmt::format(
+                      "\n      \"form\": \"tapped_hole\",\n      \"tapped_hole\": {{ \"material\": {}, "
+                      "\"engagement_mm\": {} }},",
+                      quoted(type.tapped), in_mm(type.engagement * mm));
+        return fmt::format(R"(    {}: {{{}
       "size": {},
       "class": {},
       "bolt_length_mm": {},
@@ -213,7 +248,7 @@ class DraftWriter {
       "lubrication": "oiled",
       "spec": {{ "strategy": "torque", "target_torque_Nm": {:g}, "torque_tolerance_percent": 10, "risk_class": "C" }}
     }})",
-                           quoted(named.name), quoted(type.size), quoted(type.property_class),
+                           quoted(named.name), form, quoted(type.size), quoted(type.property_class),
                            in_mm(type.length * mm), fmt::join(members, ",\n"), type.washer_head,
                            type.washer_nut, friction, friction, named.torque);
     }
@@ -225,6 +260,17 @@ class DraftWriter {
                            quoted(joint.id), quoted(types_[type_of_[i]].name), quoted("joint_" + joint.id),
                            point_mm(joint.seat),
                            upright ? "" : fmt::format(R"(, "axis": {})", axis_text(joint.axis)));
+    }
+
+    bool has_screws() const {
+        return std::any_of(joints_.begin(), joints_.end(),
+                           [](const JointCandidate* joint) { return joint->is_screw(); });
+    }
+
+    const char* turned_parts() const {
+        const auto screws = static_cast<std::size_t>(std::count_if(
+            joints_.begin(), joints_.end(), [](const JointCandidate* joint) { return joint->is_screw(); }));
+        return screws == 0 ? "nuts" : screws == joints_.size() ? "screws" : "nuts and screws";
     }
 
     std::string views() const {
@@ -256,10 +302,14 @@ class DraftWriter {
             "2230 class "
             "B), strategy torque with {:g} % of the torque at {:g} % of yield, tolerance 10 %, risk class C, "
             "the "
-            "wrench, the order and the passes.",
+            "wrench, the order and the passes{}.",
             in_.source,
             unknown_members_ > 0 ? fmt::format(" (unknown for {}: steel is assumed)", unknown_members_) : "",
-            friction, 100.0 * torque_share, 100.0 * utilisation);
+            friction, 100.0 * torque_share, 100.0 * utilisation,
+            has_screws()
+                ? "; for screws the grade of the tapped part, and at most half of the torque at which its "
+                  "thread strips"
+                : "");
         if (gasket_) text += " The gasket's Young's modulus is a guess.";
         return text;
     }
@@ -271,9 +321,9 @@ class DraftWriter {
         out += fmt::format(
             "  \"lesson\": {{ \"en\": {} }},\n",
             quoted(fmt::format(
-                "Assemble {}: run all {} nuts down by hand, then tighten them in rounds to 30, 70 and "
+                "Assemble {}: run all {} {} down by hand, then tighten them in rounds to 30, 70 and "
                 "100 % of the target torque, and check every one again.",
-                in_.title, joints_.size())));
+                in_.title, joints_.size(), turned_parts())));
         out += fmt::format("  \"sources\": {},\n", quoted(sources()));
         for (const auto& [key, file] : {std::pair{"model", &in_.model}, std::pair{"model_far", &in_.far},
                                         std::pair{"contact_model", &in_.contact}})

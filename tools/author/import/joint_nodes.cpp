@@ -20,14 +20,15 @@ Quat rotation_to(const Vec3& axis) {
     return glm::normalize(Quat{1.0 + cos, cross.x, cross.y, cross.z});
 }
 
-// Adds a node at the seat, under the nearest common ancestor of bolt and nut.
+// Adds a node at the seat, under the nearest common ancestor of bolt and nut; of a screw beside it.
 int make_group(Tree& tree, const JointCandidate& joint) {
     const int node = static_cast<int>(tree.nodes.size());
     TreeNode group;
     group.local = {rotation_to(joint.axis), joint.seat, 1.0};
     tree.nodes.push_back(group);
     tree.roots.push_back(node);
-    if (const int parent = common_parent(tree, joint.bolt, joint.nut); parent >= 0)
+    if (const int parent = common_parent(tree, joint.bolt, joint.is_screw() ? joint.bolt : joint.nut);
+        parent >= 0)
         move_under(tree, node, parent);
     return node;
 }
@@ -40,7 +41,7 @@ void check_group(const Tree& tree, const JointCandidate& joint, std::vector<std:
     const std::string& name = tree.nodes[static_cast<std::size_t>(joint.group)].name;
     if (off > 0.01)
         remarks.push_back(
-            fmt::format("{}: its origin is {:.3f} mm from the centre of the hole under the nut", name, off));
+            fmt::format("{}: its origin is {:.3f} mm from the centre of the hole on its seat", name, off));
     if (turn < 1.0 - 1e-6)
         remarks.push_back(fmt::format("{}: its +Z axis is {:.2f} degrees off the bolt's", name,
                                       to_degrees(std::acos(std::clamp(turn, -1.0, 1.0)))));
@@ -65,7 +66,7 @@ void add_joint_nodes(Tree& tree, JointSearchResult& search) {
         add_child(joint.bolt, "bolt");
         for (const int washer : joint.head_washers) add_child(washer, "washer_head");
         for (const int washer : joint.nut_washers) add_child(washer, "washer_nut");
-        add_child(joint.nut, "nut");
+        if (!joint.is_screw()) add_child(joint.nut, "nut");
     }
 }
 

@@ -130,13 +130,14 @@ class JointFinder {
     JointSearchResult run() {
         for (const PlacedFastener& bolt : of_kind_[FastenerKind::bolt]) {
             const auto nut = nut_on(bolt);
-            const joint::FastenerSize* size = nut ? size_of(bolt) : nullptr;
+            const auto tapped = nut ? std::nullopt : tapped_part_of(bolt);
+            const joint::FastenerSize* size = nut || tapped ? size_of(bolt) : nullptr;
             if (size == nullptr) {
-                unused_bolts_.push_back({bolt, nut});
+                unused_bolts_.push_back({bolt, nut, tapped.has_value()});
                 continue;
             }
-            bolt_of_nut_[nut->node] = bolt.node;
-            search_.joints.push_back(make(bolt, *nut, *size));
+            if (nut) bolt_of_nut_[nut->node] = bolt.node;
+            search_.joints.push_back(nut ? make(bolt, *nut, *size) : make_screw(bolt, *tapped, *size));
         }
         explain_unused();
         assign_ids();
@@ -153,6 +154,7 @@ class JointFinder {
     struct UnusedBolt {
         PlacedFastener bolt;
         std::optional<PlacedFastener> nut;  // the nut on it, if the bolt's size is not metric
+        bool tapped = false;                // it is screwed into a part, and its size is not metric
     };
     std::vector<UnusedBolt> unused_bolts_;
 
@@ -196,7 +198,7 @@ class JointFinder {
             search_.remarks.push_back(fmt::format(
                 "{}: looks like a bolt (cylinder {:.2f} mm, hexagon {:.2f} mm across flats), but {}",
                 name_of(bolt.node), bolt.diameter / mm, bolt.across_flats / mm,
-                unused.nut ? explain_size(bolt) : explain_missing_nut(bolt)));
+                unused.nut || unused.tapped ? explain_size(bolt) : explain_missing_nut(bolt)));
             if (unused.nut) explained.insert(unused.nut->node);
         }
         for (const PlacedFastener& nut : placed_of(FastenerKind::nut))
@@ -227,8 +229,10 @@ class JointFinder {
             }
         }
         if (nearest == nullptr)
-            return "the file has no part with the shape of a nut; expected a nut on its axis, a hexagon with "
-                   "a hole";
+            return "the file has no part with the shape of a nut, and no part has a tapped hole around its "
+                   "end; "
+                   "expected a nut on its axis, a hexagon with a hole, or a hole as wide as its thread or "
+                   "core";
         const std::string& name = name_of(nearest->node);
         const double cosine = std::min(std::abs(glm::dot(bolt.axis, nearest->axis)), 1.0);
         if (!coaxial(bolt.origin, bolt.axis, nearest->origin, nearest->axis))
@@ -325,28 +329,65 @@ class JointFinder {
         joint.head_washers = washers_from(bolt, head, 1.0);
         joint.nut_washers = washers_from(bolt, seat, -1.0);
         joint.grip = seat - head;
+        joint.seat = bolt.origin + seat * bolt.axis;
+        find_members_of(bolt, joint, head, seat);
+        joint.group = group_of(joint);
+        return joint;
+    }
+
+    JointCandidate make_screw(const PlacedFastener& bolt, const TappedPart& tapped,
+                              const joint::FastenerSize& size) {
+        JointCandidate joint;
+        joint.bolt = bolt.node;
+        joint.tapped = tapped.node;
+        joint.axis = -bolt.axis;
+        joint.size = thread_name(size, tapped.hole);
+        double head = bolt.low;
+        joint.bolt_length = bolt.high - head;
+        joint.head_washers = washers_from(bolt, head, 1.0);
+        joint.grip = tapped.face - head;
+        joint.engagement = std::min(bolt.high, tapped.bottom) - tapped.face;
+        joint.seat = bolt.origin + head * bolt.axis;
+        find_members_of(bolt, joint, head, tapped.face);
+        joint.group = group_of(joint);
+        return joint;
+    }
+
+    std::optional<TappedPart> tapped_part_of(const PlacedFastener& bolt) const {
+        std::vector<const PartGeometry*> parts;
+        for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
+            parts.push_back(part_of(static_cast<int>(n)));
+            if (parts.back() != nullptr && parts.back()->fastener.kind != FastenerKind::none)
+                parts.back() = nullptr;
+        }
+        return find_tapped_part(parts, poses_, {bolt.origin, bolt.axis, bolt.diameter, bolt.low, bolt.high});
+    }
+
+    // Finds the members between the heights `head` and `seat`, and remarks on a gap.
+    void find_members_of(const PlacedFastener& bolt, JointCandidate& joint, double head, double seat) {
+        const char* const end = joint.is_screw() ? "tapped part" : "nut";
         joint.members = members_of(bolt, joint, head, seat);
         double sum = 0.0;
         for (const ClampedMember& member : joint.members) sum += member.thickness;
-        joint.seat = bolt.origin + seat * bolt.axis;
         if (joint.members.empty()) {
             joint.members.push_back({-1, joint.grip});
-            add_remark(joint,
-                       "no part with a hole was found between head and nut: one member fills the grip");
+            add_remark(
+                joint,
+                fmt::format("no part with a hole was found between head and {}: one member fills the grip",
+                            end));
         } else if (std::abs(sum - joint.grip) > 0.02 * mm) {
-            add_remark(joint, fmt::format("the parts between head and nut are {:.2f} mm thick; expected "
-                                          "{:.2f} mm, the distance from head to nut",
-                                          sum / mm, joint.grip / mm));
+            add_remark(joint, fmt::format("the parts between head and {} are {:.2f} mm thick; expected "
+                                          "{:.2f} mm, the distance from head to {}",
+                                          end, sum / mm, joint.grip / mm, end));
         }
-        joint.group = group_of(joint);
-        return joint;
     }
 
     std::vector<ClampedMember> members_of(const PlacedFastener& bolt, const JointCandidate& joint,
                                           double head, double seat) const {
         std::vector<const PartGeometry*> parts;
         for (std::size_t n = 0; n < tree_.nodes.size(); ++n) parts.push_back(part_of(static_cast<int>(n)));
-        for (const auto& list : {joint.head_washers, joint.nut_washers, std::vector{joint.bolt, joint.nut}})
+        for (const auto& list : {joint.head_washers, joint.nut_washers,
+                                 std::vector{joint.bolt, joint.is_screw() ? joint.tapped : joint.nut}})
             for (const int node : list) parts[static_cast<std::size_t>(node)] = nullptr;
         return find_members(parts, poses_, {bolt.origin, bolt.axis, bolt.diameter, head, seat});
     }
@@ -361,7 +402,7 @@ class JointFinder {
         const auto name = [&](int node) -> const std::string& {
             return tree_.nodes[static_cast<std::size_t>(node)].name;
         };
-        for (int up = common_parent(tree_, joint.bolt, joint.nut); up >= 0;
+        for (int up = common_parent(tree_, joint.bolt, joint.is_screw() ? joint.bolt : joint.nut); up >= 0;
              up = tree_.nodes[static_cast<std::size_t>(up)].parent)
             if (name(up).starts_with(joint_prefix) && name(up).size() > joint_prefix.size()) return up;
         return -1;

@@ -1,5 +1,5 @@
-// Finds joints by their geometry: a hexagon bolt with a nut on its axis, and the washers and parts between
-// them.
+// Finds joints by their geometry: a hexagon bolt with a nut on its axis, or screwed into a part, and the
+// washers and parts between.
 #pragma once
 
 #include <string>
@@ -18,13 +18,17 @@ struct JointCandidate {
     std::string id;
     std::string size;          // "M16", "M16x1.5"
     double bolt_length = 0.0;  // m, under the head
-    double grip = 0.0;         // m, distance between head and nut without washers
-    Vec3 seat{0.0};            // m, centre of the hole on the face of the member under the nut
-    Vec3 axis{0.0, 1.0, 0.0};  // from the members to the nut
-    int bolt = -1, nut = -1;   // nodes
+    double grip = 0.0;         // m, distance between head and nut or tapped part without washers
+    Vec3 seat{0.0};  // m, centre of the hole on the face of the member under the nut or the screw's head
+    Vec3 axis{0.0, 1.0, 0.0};  // from the members to the nut or the screw's head
+    int bolt = -1, nut = -1;   // nodes; a screw has no nut
+    int tapped = -1;           // node of the part that a screw is screwed into; −1 with a nut
+    double engagement = 0.0;   // m of a screw in that part
     std::vector<int> head_washers, nut_washers;
-    std::vector<ClampedMember> members;  // from head to nut
-    int group = -1;                      // node joint_ID
+    std::vector<ClampedMember> members;  // from head to nut or tapped part
+
+    [[nodiscard]] bool is_screw() const { return tapped >= 0; }
+    int group = -1;  // node joint_ID
 };
 
 struct JointSearchResult {
@@ -37,8 +41,8 @@ struct JointSearchResult {
 JointSearchResult find_joints(const Tree& tree, const std::vector<PartGeometry>& parts);
 
 // Gives every joint a node joint_ID, at the seat with +Y along the axis, and moves its fasteners under it as
-// ID_bolt, ID_washer_head, ID_washer_nut and ID_nut. A group that exists in the file keeps its pose.
-// Implemented in joint_nodes.cpp.
+// ID_bolt, ID_washer_head, ID_washer_nut and ID_nut (not of a screw). A group that exists in the file keeps
+// its pose. Implemented in joint_nodes.cpp.
 void add_joint_nodes(Tree& tree, JointSearchResult& search);
 
 }  // namespace bolt::step_import

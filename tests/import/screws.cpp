@@ -1,0 +1,112 @@
+// Hexagon screws in tapped holes: found by their geometry, drafted with their engagement, and accepted by the
+// checks of the model.
+#include <doctest/doctest.h>
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <gp_Ax2.hxx>
+#include <nlohmann/json.hpp>
+
+#include "content/format/assembly.hpp"
+#include "support.hpp"
+#include "tools/author/geometry/check.hpp"
+
+using namespace import_test;
+using nlohmann::json;
+
+namespace {
+
+// A block of 40 mm with a blind hole in its top, a cover of 16 mm on it, and an M12x40 with a washer whose
+// head is on top. Millimetres, Z up.
+struct Cover {
+    double hole = 10.106;      // of the block; the core of M12
+    double hole_depth = 30.0;  // of the block
+    double screw = 40.0;       // length under the head
+    double cover = 16.0;       // thickness
+    double across_flats = 18.0;
+};
+
+void write_cover(const Cover& c, const std::filesystem::path& file) {
+    StepMaker maker;
+    const TDF_Label root = maker.assembly("pump");
+    const auto block = [](double thickness, double hole, double from) {
+        const TopoDS_Shape box =
+            BRepPrimAPI_MakeBox(gp_Pnt(-40.0, -30.0, 0.0), 80.0, 60.0, thickness).Shape();
+        const gp_Ax2 axis(gp_Pnt(0.0, 0.0, from), gp_Dir(0.0, 0.0, 1.0));
+        return BRepAlgoAPI_Cut(box, BRepPrimAPI_MakeCylinder(axis, 0.5 * hole, thickness - from).Shape())
+            .Shape();
+    };
+    const TDF_Label base = maker.part("housing", block(40.0, c.hole, 40.0 - c.hole_depth), "#2F5D62");
+    const TDF_Label cover = maker.part("cover", block(c.cover, 13.5, 0.0), "#C4C6C8");
+    const TDF_Label screw = maker.part("screw", hexagon_bolt(12.0, c.across_flats, 7.5, c.screw), "#D5D9DC");
+    const TDF_Label washer = maker.part("washer", ring(24.0, 13.0, 2.5), "#D5D9DC");
+    gp_Trsf over;
+    over.SetRotation(gp_Ax1(gp_Pnt(0.0, 0.0, 0.0), gp_Dir(1.0, 0.0, 0.0)), pi);
+    maker.place(root, base, "housing");
+    maker.place(root, cover, "cover", moved(0.0, 0.0, 40.0));
+    maker.place(root, washer, "washer", moved(0.0, 0.0, 40.0 + c.cover));
+    maker.place(root, screw, "screw", moved(0.0, 0.0, 42.5 + c.cover) * over);
+    maker.write(file);
+}
+
+struct Imported {
+    json draft;
+    std::vector<std::string> remarks;
+    geometry::Findings findings;
+};
+
+Imported import_cover(const Cover& cover) {
+    const Folder folder;
+    write_cover(cover, folder / "pump.step");
+    const auto imported = import(folder / "pump.step", folder / "out");
+    REQUIRE(imported.ok());
+    Imported result;
+    result.remarks = imported.report.remarks;
+    if (!std::filesystem::exists(folder / "out" / "assembly.json")) return result;
+    const auto loaded = content::load_assembly(folder / "out");
+    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+    result.findings = geometry::check_geometry(loaded.assembly);
+    result.draft = json::parse(bytes(folder / "out" / "assembly.json"));
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("Screws: a hexagon screw in a tapped hole is found, drafted and accepted") {
+    const Imported found = import_cover({});
+    for (const std::string& remark : found.remarks) FAIL_CHECK(remark);
+    for (const Error& error : found.findings.errors) FAIL_CHECK(error.message());
+    REQUIRE(found.draft["joints"].size() == 1);
+    CHECK(found.draft["joints"][0]["position_mm"] == json({0, 56, 0}));
+    CHECK_FALSE(found.draft["joints"][0].contains("axis"));
+    const json& type = found.draft["joint_types"].front();
+    CHECK(type["form"] == "tapped_hole");
+    CHECK(type["tapped_hole"] == json({{"material", "GJL-250"}, {"engagement_mm", 21.5}}));
+    CHECK(type["size"] == "M12");
+    CHECK(type["bolt_length_mm"] == 40.0);
+    CHECK(type["washer_under_head"] == true);
+    CHECK(type["washer_under_nut"] == false);
+    CHECK(type["members"] == json({{{"thickness_mm", 16}, {"material", "steel"}}}));
+}
+
+TEST_CASE("Screws: the hole shows a fine pitch, and may be as wide as the thread") {
+    CHECK(import_cover({.hole = 10.647}).draft["joint_types"].front()["size"] == "M12x1.25");
+    CHECK(import_cover({.hole = 12.0}).draft["joint_types"].front()["form"] == "tapped_hole");
+}
+
+TEST_CASE("Screws: a thread that would strip gets a lower target") {
+    const double deep = import_cover({}).draft["joint_types"].front()["spec"]["target_torque_Nm"];
+    const double shallow =
+        import_cover({.screw = 26.0, .cover = 16.0}).draft["joint_types"].front()["spec"]["target_torque_Nm"];
+    CHECK(shallow < 0.6 * deep);
+}
+
+TEST_CASE("Screws: a screw that no metric size describes, or that ends in a clearance hole, is explained") {
+    const Imported inch = import_cover({.across_flats = 22.0});
+    REQUIRE_FALSE(inch.remarks.empty());
+    CHECK(inch.remarks[0].find("no metric size has both") != std::string::npos);
+    const Imported loose = import_cover({.hole = 13.5});
+    REQUIRE_FALSE(loose.remarks.empty());
+    CHECK(loose.remarks[0].find("no part has a tapped hole around its end") != std::string::npos);
+}
