@@ -135,11 +135,11 @@ Status add_workpiece(Workplace& workplace, const LessonModels& models, const Gpu
     }
     for (std::size_t i = 0; i < has_nut.size(); ++i)
         if (!has_nut[i])
-            return fail(
-                ErrorCode::bad_content,
-                fmt::format("{}: the model lacks the part of joint {} that is turned", assembly.file,
-                            assembly.joints[i].design.id),
-                fmt::format("a node \"{}\" below the joint's node", content::turned_node(assembly.joints[i])));
+            return fail(ErrorCode::bad_content,
+                        fmt::format("{}: the model lacks the part of joint {} that is turned", assembly.file,
+                                    assembly.joints[i].design.id),
+                        fmt::format("a node \"{}\" below the joint's node",
+                                    content::turned_node(assembly.joints[i])));
     return {};
 }
 
