@@ -52,7 +52,7 @@ Result<ReplayScene> make_replay_scene(gpu::Device& device, const scene::LessonMo
         scene::make_postures(start.state.tool_contact ? &start.state.tool_contact->wrench : nullptr,
                              start.setup.wrench.handle_length, hand, scene::widest_nut(start.setup));
     replay.workplace.world.only<world::WorkingHand>().rest =
-        scene::wrench_rest_pose(replay.workplace.workpiece, start.assembly.wrench.head_thickness, hand);
+        scene::wrench_rest_pose(replay.workplace.workpiece, start.setup.wrench.jaw.thickness, hand);
     replay.shoulder = scene::shoulder_position(replay.workplace.workpiece, {hand, std::nullopt});
     return replay;
 }

@@ -176,8 +176,8 @@ void place_trainee(ActiveLesson& active, const LessonContext& context, float asp
     const servo::State& state = active.session->state();
     const render::BoundingBox& workpiece = active.workplace.workpiece;
     const scene::Worker& worker = context.worker;
-    active.helped_hand = make_hand(
-        scene::wrench_rest_pose(workpiece, context.assembly.wrench.head_thickness, worker.side), worker.side);
+    active.helped_hand =
+        make_hand(scene::wrench_rest_pose(workpiece, setup.wrench.jaw.thickness, worker.side), worker.side);
     active.workplace.world.only<world::WorkingHand>() = hand_of(active.helped_hand);
     active.postures = scene::make_postures(state.tool_contact ? &state.tool_contact->wrench : nullptr,
                                            setup.wrench.handle_length, worker.side, scene::widest_nut(setup));

@@ -70,6 +70,8 @@ assembly["passes"] = [{"kind": "run_down"}, {"kind": "tighten", "percent": 100}]
 json.dump(assembly, open(sys.argv[1], "w"))
 END
 expect 0 'no mistakes' "$author" validate bare
+expect 0 'bare/assembly.json:[0-9]+:[0-9]+: /tool: no model is named, so the tool is generated: open_end: size 13 mm' "$author" validate bare
+expect 0 '/more_tools/torque_wrench: no model is named, so the tool is generated: torque_wrench: size 13 mm' "$author" validate bare
 expect 0 'B1' "$author" views bare
 for tool in wrench torque_wrench; do
     expect 0 'score' "$bin/boltwright" train bare --tool $tool --headless --no-pictures --obstacles --out "with-$tool"
@@ -81,6 +83,11 @@ done
 check "the session names the generated tool" grep -aq 'generated open_end: size 13 mm, opening 13.2 mm' with-wrench/session.boltwright
 check "... and the torque wrench" grep -aq 'generated torque_wrench: size 13 mm' with-torque_wrench/session.boltwright
 expect 0 'film.png' "$bin/boltwright" replay with-wrench/session.boltwright --at 3 --png film.png
+mkdir open && sed 's/"contact_model": *"[^"]*",//' bare/assembly.json >open/assembly.json && cp bare/*.glb open/
+expect 3 'open/assembly.json: the assembly has no contact model; expected "contact_model"' \
+    "$bin/boltwright" train open --headless --no-pictures --obstacles --quiet --out never
+expect 0 'The wrench passes through everything: .*the assembly has no contact model' \
+    "$bin/boltwright" train open --headless --no-pictures --out through
 # The tool of a session is that of its recorded text: the file may change, and name a model.
 cp bare/assembly.json before.json
 sed -i 's/"handle_length_mm": 140/"handle_length_mm": 150/' bare/assembly.json

@@ -1,5 +1,7 @@
 #include "tools/author/geometry/check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -36,18 +38,24 @@ WrenchShape generated_wrench(const content::WrenchDesign& design, const std::str
     bare.model.clear();
     auto wrench = wrench_from_model(flatten(tool_models::contact_model(tool_models::parameters_of(bare))),
                                     bare, ModelFrame::tool);
-    if (wrench) return std::move(*wrench);
-    messages.error(pointer, wrench.error().what, wrench.error().expected);
-    return {};
+    if (!wrench) {
+        messages.error(pointer, wrench.error().what, wrench.error().expected);
+        return {};
+    }
+    if (design.model.empty())
+        messages.note(pointer, fmt::format("no model is named, so the tool is generated: {}",
+                                           tool_models::description(tool_models::parameters_of(bare))));
+    return std::move(*wrench);
 }
 
-// Loads the author's wrench. Reports its errors and replaces it by a generated one.
+// Loads the author's wrench. Reports its errors and replaces it by a generated one. `pointer`: of the tool.
 WrenchShape load_wrench(const content::WrenchDesign& design, const std::string& pointer,
                         const Messages& messages) {
-    if (const auto scene = read_scene(design.model, pointer, messages)) {
+    const std::string model = pointer + "/model";
+    if (const auto scene = read_scene(design.model, model, messages)) {
         auto wrench = wrench_from_model(*scene, design);
         if (wrench) return std::move(*wrench);
-        messages.error(pointer, wrench.error().what, wrench.error().expected);
+        messages.error(model, wrench.error().what, wrench.error().expected);
     }
     return generated_wrench(design, pointer, messages);
 }
@@ -58,7 +66,7 @@ std::vector<WrenchShape> load_wrenches(const content::Assembly& assembly, const 
     for (const content::Tool& tool : assembly.tools) {
         const bool is_default = wrenches.empty();
         const std::string at = is_default ? "/tool" : "/more_tools/" + content::pointer_token(tool.name);
-        wrenches.push_back(load_wrench(tool.wrench, at + "/model", messages));
+        wrenches.push_back(load_wrench(tool.wrench, at, messages));
         if (!is_default) wrenches.back().name = "the tool " + content::in_quotes(tool.name);
     }
     return wrenches;
