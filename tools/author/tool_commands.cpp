@@ -72,7 +72,7 @@ Result<std::string> draw_tool(assets::Model model, VkExtent2D size) {
     view::LoadedModel loaded;
     model.nodes.front().rotation = glm::angleAxis(static_cast<float>(-0.5 * pi), glm::vec3(1.0F, 0.0F, 0.0F));
     loaded.model = std::move(model);
-    loaded.bare = true;
+    loaded.without_assembly = true;
     BOLT_TRY_ASSIGN(const auto radiance, view::load_light("studio"));
     BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create({}));
     BOLT_TRY_ASSIGN(auto gpu_context, view::make_gpu_context(instance, {}));
@@ -80,8 +80,8 @@ Result<std::string> draw_tool(assets::Model model, VkExtent2D size) {
     BOLT_TRY_ASSIGN(const auto shown, view::show_model(*gpu_context.device, loaded, light));
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     const view::Viewpoint view = close_viewpoint(loaded.model, aspect);
-    const render::Eye eye = render::make_eye(view.eye, view.target,
-                                             view::lens(shown->box, view.eye, view.target, view.fov, aspect));
+    const render::Eye eye = render::make_eye(
+        view.eye, view.target, view::perspective_for(shown->box, view.eye, view.target, view.fov, aspect));
     BOLT_TRY_ASSIGN(const auto pictures,
                     render::take_pictures(*gpu_context.device, *gpu_context.frames, *gpu_context.renderer,
                                           shown->scene, {&eye, 1}, size));
