@@ -17,12 +17,15 @@ cd "$work/empty"
 bash -euxo pipefail ../walk.sh > ../log 2>&1 || { cat ../log; exit 1; }
 failed=0
 expect() { grep -qE -- "$1" "$2" || { echo "FAILED: no /$1/ in $2"; cat "$2"; failed=1; }; }
-for file in bracket/bracket.glb bracket/bracket.far.glb bracket/bracket.contact.glb bracket.png curve.csv report.html; do
+for file in bracket/bracket.glb bracket/bracket.far.glb bracket/bracket.contact.glb bracket.png curve.csv report.html ring-18.glb ring-18.png; do
     [[ -s $file ]] || { echo "FAILED: $file is missing"; failed=1; }
 done
 expect '^bracket/assembly.json: 2 joints, 5 passes, variant -: no mistakes' ../log
 expect 'contact model: watertight' ../log
+expect 'tool: an open-end wrench of 18 mm, 180 mm from the jaw to the grip, generated from these numbers' ../log
+expect '^socket-18.contact.glb: [0-9]+ bytes' ../log
 expect '"id": "J2"' lesson/summary.json
+expect '"obstacles": true' lesson/summary.json
 expect '"assembly": "bracket"' lesson/summary.json
 expect '"model_far": "bracket.far.glb"' bracket/assembly.json
 # Both mistakes of the wrong copy are reported, each with its position.

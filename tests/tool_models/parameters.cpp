@@ -110,9 +110,14 @@ TEST_CASE("Tool parameters: test torques are those that were read, and a power l
 }
 
 TEST_CASE("Tool parameters: the arms of keys are those of ISO 2936, and interpolated between its sizes") {
-    CHECK(key_arms(6.0 * mm).arm == doctest::Approx(38.0 * mm));
-    CHECK(key_arms(6.0 * mm).handle == doctest::Approx(96.0 * mm));
-    CHECK(key_arms(14.0 * mm).handle == doctest::Approx(154.0 * mm));
+    struct {
+        double size, arm, handle;  // mm, for the socket screws M5 to M24
+    } const rows[] = {{4, 29, 74},   {5, 33, 85},   {6, 38, 96},   {8, 44, 108},
+                      {10, 50, 122}, {14, 70, 154}, {17, 80, 177}, {19, 89, 199}};
+    for (const auto& [size, arm, handle] : rows) {
+        CHECK(key_arms(size * mm).arm == doctest::Approx(arm * mm));
+        CHECK(key_arms(size * mm).handle == doctest::Approx(handle * mm));
+    }
     CHECK(key_arms(6.0 * mm).tabulated);
     CHECK_FALSE(key_arms(5.5 * mm).tabulated);
     CHECK(key_arms(5.5 * mm).handle == doctest::Approx(90.5 * mm));
