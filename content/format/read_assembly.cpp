@@ -69,7 +69,9 @@ WrenchDesign read_tool(JsonReader& reader, const JsonNode& node, const std::vect
     if (!jaw) return wrench;
     for (const AssemblyJoint& joint : joints) {
         const joint::FastenerSize& size = joint.design.thread.size;
-        const double s = size.across_flats;
+        const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
+        const double s = part.across_flats;
+        if (part.depth > 0.0) continue;  // a key turns it
         if (s <= 0.0 || (wrench.jaw > s - 1e-9 && wrench.jaw < s + max_jaw_play + 1e-9)) continue;
         reader.report(
             jaw.pointer,

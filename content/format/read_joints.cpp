@@ -355,11 +355,8 @@ AssemblyJoint read_joint(JointTypes& types, const JsonNode& node) {
     }
     joint.design.id = reader.text(reader.member(node, "id")).value_or("");
     joint.design.axis = read_axis(reader, node);
-    const bool on_washer = joint.design.turned == joint::TurnedPart::head ? joint.design.washer_under_head
-                                                                          : joint.design.washer_under_nut;
-    const double washer = on_washer ? joint.design.thread.size.washer_thickness : 0.0;
     joint.design.seat = reader.vector(reader.member(node, "position_mm")).value_or(Vec3{0.0}) * mm +
-                        washer * joint.design.axis;
+                        joint.design.washer_under_turned() * joint.design.axis;
     return joint;
 }
 

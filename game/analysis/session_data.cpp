@@ -101,10 +101,10 @@ double target_clamp(const content::Assembly& assembly, std::size_t joint) {
     if (assembly.law == joint::Law::published)
         return j.spec.torque.target / joint::published_lever(j.published.law, joint::Direction::tighten);
     const joint::FastenerSize& size = j.design.thread.size;
-    const double hole = j.design.washer_under_nut ? size.washer_inner : size.hole;
+    const double hole = j.design.washer_under_turned() > 0.0 ? size.washer_inner : size.hole;
     const joint::TorqueLevers levers =
         joint::torque_levers(j.design.thread.thread, j.design.friction.thread, j.design.friction.bearing,
-                             joint::bearing_mean_diameter(size.nut_bearing, hole));
+                             joint::bearing_mean_diameter(joint::turned_part_size(j.design).bearing, hole));
     return levers.tighten() > 0.0 ? j.spec.torque.target / levers.tighten() : nan;
 }
 

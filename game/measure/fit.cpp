@@ -167,8 +167,7 @@ void fit_loosening(JointFit& fit) {
     const joint::JointDesign& d = fit.design;
     const auto preload = [&](double mu) {
         const joint::TorqueLevers levers =
-            joint::torque_levers(d.thread.thread, mu, mu,
-                                 joint::bearing_mean_diameter(d.thread.size.nut_bearing, d.thread.size.hole));
+            joint::torque_levers(d.thread.thread, mu, mu, d.bearing_diameter());
         return fit.breakaway->mean / (d.friction.static_ratio * levers.friction() - levers.lead);
     };
     fit.preload = preload(fit.friction);
@@ -223,6 +222,27 @@ Result<JointFit> fit_joint(const joint::JointDesign& design, std::span<const Lan
     return fit;
 }
 
+namespace {
+
+// Adds the members that distinguish a joint from a through-bolt whose nut is turned.
+void add_form(const joint::JointDesign& d, nlohmann::ordered_json& type) {
+    if (d.head == joint::HeadShape::socket) type["head"] = "socket";
+    if (d.locking_insert) type["locking_insert"] = true;
+    if (!d.is_tapped()) {
+        if (d.turned == joint::TurnedPart::head) type["turned"] = "head";
+        return;
+    }
+    type["form"] = d.form == joint::JointForm::stud ? "stud" : "tapped_hole";
+    const joint::TappedMaterial& part = d.hole.material;
+    type["tapped_hole"] = {{"material", part.name},
+                           {"E_GPa", rounded_to(part.E / 1e9, 3)},
+                           {"tensile_strength_MPa", rounded_to(part.R_m / 1e6, 3)},
+                           {"shear_ratio", rounded_to(part.shear_ratio, 4)},
+                           {"engagement_mm", rounded_to(d.hole.engagement * 1e3, 4)}};
+}
+
+}  // namespace
+
 std::string joint_type_json(const JointFit& fit, const std::string& name, double target_torque) {
     const joint::JointDesign& d = fit.design;
     using nlohmann::ordered_json;
@@ -238,6 +258,7 @@ std::string joint_type_json(const JointFit& fit, const std::string& name, double
                        ? std::string(d.thread.size.name)
                        : fmt::format("{}x{:g}", d.thread.size.name, pitch * 1e3);
     type["class"] = d.bolt_class.name;
+    add_form(d, type);
     type["bolt_length_mm"] = rounded_to(d.bolt_length * 1e3, 4);
     if (d.bolt_thread_length > 0.0) type["bolt_thread_length_mm"] = rounded_to(d.bolt_thread_length * 1e3, 4);
     type["members"] = members;

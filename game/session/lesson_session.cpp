@@ -142,7 +142,27 @@ void lesson_system(const world::WriteHaptics& world, TickContext& tick) {
 
 LessonSession::~LessonSession() = default;
 
+namespace {
+
+// Fails if a tool of a lesson cannot turn a joint: hexagon keys are models only so far.
+Status check_turned_parts(const content::Assembly& assembly) {
+    for (const content::AssemblyJoint& joint : assembly.joints) {
+        if (joint::turned_part_size(joint.design).depth <= 0.0) continue;
+        Error error;
+        error.code = ErrorCode::bad_content;
+        error.file = assembly.file;
+        error.what =
+            fmt::format("joint {} has a socket head, and a lesson has no hexagon key yet", joint.design.id);
+        error.expected = "\"head\": \"hexagon\"";
+        return fail(std::move(error));
+    }
+    return {};
+}
+
+}  // namespace
+
 Result<SessionSetup> prepare_session(const content::Assembly& given, const LessonOptions& options) {
+    BOLT_TRY(check_turned_parts(given));
     SessionSetup start;
     start.assembly = lesson::apply_law(given, options.law, options.law_adaptation);
     start.setup = make_setup(start.assembly, options.law, options.device_limits, options.seed, options.dt);

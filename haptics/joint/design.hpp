@@ -83,6 +83,11 @@ struct JointDesign {
     }
 
     [[nodiscard]] bool is_tapped() const { return form != JointForm::through_bolt; }
+    [[nodiscard]] double washer_under_turned() const {  // m, thickness; 0 without one
+        return (turned == TurnedPart::head ? washer_under_head : washer_under_nut)
+                   ? thread.size.washer_thickness
+                   : 0.0;
+    }
     [[nodiscard]] double thread_on_bolt() const;  // m, bolt_thread_length or its standard's
     // Mean diameter of the bearing under the turned part, m: (d_w + d_h)/2.
     [[nodiscard]] double bearing_diameter() const;

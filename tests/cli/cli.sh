@@ -48,6 +48,11 @@ expect 3 '' "$bin/bolt-author" validate /dev/null
 expect 0 'assembly.json' "$bin/bolt-author" new pump-cover
 expect 0 'no mistakes' "$bin/bolt-author" validate pump-cover
 expect 2 "not empty" "$bin/bolt-author" new pump-cover
+cp -r pump-cover socket
+sed -i 's/"size": "M8",/&\n      "head": "socket", "turned": "head",/' socket/assembly.json
+expect 0 'angle_deg,stage' "$bin/bolt-author" curve socket --joint B1 --csv -
+expect 3 'joint B1 has a socket head, and a lesson has no hexagon key yet; expected "head": "hexagon"' \
+    "$bin/boltwright" train socket --headless --out socket-lesson
 mkdir broken && sed 's/"friction_thread": *[0-9.]*/"frction_thread": 0.12/; s/"size": *"M8"/"size": "N8"/' \
     pump-cover/assembly.json > broken/assembly.json
 expect 3 'broken/assembly.json:[0-9]+:[0-9]+: .*friction_thread' "$bin/bolt-author" validate broken

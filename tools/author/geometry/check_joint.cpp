@@ -92,7 +92,9 @@ bool check_nut(const JointCheck& s, std::span<const content::Tool> tools) {
     if (!hexagon || hexagon->unevenness > 0.1 * mm) {
         s.error(
             fmt::format("{} is not a hexagon about the joint's axis", content::in_quotes(s.parts.nut.name)),
-            fmt::format("a hexagon, {:g} mm across flats", s.across_flats() / mm));
+            fmt::format("a hexagon {}, {:g} mm across flats",
+                        s.joint.design.turned == joint::TurnedPart::head ? "head" : "nut",
+                        s.across_flats() / mm));
         return false;
     }
     const double flats = hexagon->across_flats, off = std::hypot(hexagon->centre.x, hexagon->centre.z);
@@ -306,7 +308,7 @@ void check_screw_members(const JointCheck& s) {
 // Checks a screw in a tapped hole: its thread, its length and the hole around its end.
 void check_screw(const JointCheck& s) {
     const auto& design = s.joint.design;
-    const double face = design.washer_under_head ? s.size().washer_thickness : 0.0;
+    const double face = design.washer_under_turned();
     double radius = 0.0;
     for (const Triangle& t : s.parts.bolt.triangles)
         for (const Vec3& p : {t.a, t.b, t.c})

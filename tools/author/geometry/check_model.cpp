@@ -176,9 +176,8 @@ bool is_rigid(const glm::dmat4& m) {
 }
 
 JointPlacement placement_of(const content::AssemblyJoint& joint, const glm::dmat4& world) {
-    const double washer = joint.design.washer_under_nut ? joint.design.thread.size.washer_thickness : 0.0;
-    return {joint.design.seat - washer * joint.design.axis, joint.design.axis, Vec3(world[3]),
-            glm::normalize(Vec3(world[1]))};
+    return {joint.design.seat - joint.design.washer_under_turned() * joint.design.axis, joint.design.axis,
+            Vec3(world[3]), glm::normalize(Vec3(world[1]))};
 }
 
 void report_misplaced(const JointPlacement& p, const std::string& name, std::size_t joint,

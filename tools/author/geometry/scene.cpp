@@ -160,7 +160,7 @@ bool is_near(const Aabb& box, double radius, double floor) {
 // The triangles of a bolt at and above the bearing face of its head.
 Fastener head_of(const Fastener& bolt, const joint::JointDesign& design) {
     constexpr double slack = 0.1e-3;  // m; a gap or a penetration at the face is reported later
-    const double face = design.washer_under_head ? design.thread.size.washer_thickness : 0.0;
+    const double face = design.washer_under_turned();
     Fastener head{bolt.name, {}, {}, bolt.parts};
     for (const Triangle& t : bolt.triangles) {
         if (std::min({t.a.y, t.b.y, t.c.y}) < face - slack) continue;
