@@ -18,6 +18,8 @@ for row in "${sizes[@]}"; do
     check "$kind: no picture on request" test ! -e "second/$kind.png"
     expect 0 "first/$kind-drawn.png" "$bin/boltwright" render "first/$kind.glb" --size 160x120 --png "first/$kind-drawn.png"
 done
+expect 0 'ring.png' "$author" tool ring --size 24 -o second/ring
+check "the same picture every time" cmp first/ring.png second/ring.png
 check "all kinds are tried" [ "${#sizes[@]}" = "$("$author" tools | sed '/^$/q' | grep -c .)" ]
 validator=$sources/tools/gltf-validator
 if [[ -d $validator/node_modules/gltf-validator ]] && command -v node >/dev/null; then

@@ -155,7 +155,8 @@ TEST_CASE("Tools: the closed form of the jaw covers the generated jaw") {
 TEST_CASE("Tools: rings and sockets grip a hexagon every 30 degrees with half the play at each flat") {
     for (int size = 8; size <= 46; ++size) {
         CAPTURE(size);
-        for (const auto& [kind, name] : {std::pair{ToolKind::ring, "ring"}, {ToolKind::socket, "socket"}}) {
+        for (const ToolKind kind : {ToolKind::ring, ToolKind::socket}) {
+            const std::string name(info_of(kind).name);
             CAPTURE(name);
             const std::vector<Shell> bore{shell_of(parts_of(standard(kind, size), Detail::drawn), name)};
             for (int i = 0; i < 12; ++i) {
