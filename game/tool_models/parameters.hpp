@@ -28,7 +28,7 @@ enum class ToolKind : std::uint8_t {
     electronic_torque_wrench
 };
 
-// What the size of a kind measures.
+// The measure that the size of a kind gives.
 enum class SizeMeasure : std::uint8_t { nut, socket_screw, drive };
 
 struct KindInfo {
