@@ -1,10 +1,13 @@
 // Hexagon screws in tapped holes: found by their geometry, drafted with their engagement, and accepted by the
 // checks of the model.
 #include <doctest/doctest.h>
+#include <sys/wait.h>
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <cstdlib>
+#include <filesystem>
 #include <gp_Ax2.hxx>
 #include <nlohmann/json.hpp>
 
@@ -109,4 +112,27 @@ TEST_CASE("Screws: a screw that no metric size describes, or that ends in a clea
     const Imported loose = import_cover({.hole = 13.5});
     REQUIRE_FALSE(loose.remarks.empty());
     CHECK(loose.remarks[0].find("no part has a tapped hole around its end") != std::string::npos);
+}
+
+TEST_CASE("Screws: the programs make a lesson of the file, in which a simulated trainee tightens the screw") {
+    const Folder folder;
+    write_cover({}, folder / "pump.step");
+    const auto bin = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    const auto run = [&](const std::string& program, const std::string& arguments) {
+        const std::string command = "cd '" + folder.path().string() + "' && '" + (bin / program).string() +
+                                    "' " + arguments + " > log 2>&1";
+        const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe): one thread
+        INFO(bytes(folder / "log"));
+        CHECK(WIFEXITED(status));
+        CHECK(WEXITSTATUS(status) == 0);
+    };
+    run("bolt-author", "import-step pump.step -o pump");
+    run("bolt-author", "validate pump");
+    run("boltwright", "train pump --headless --quiet --no-pictures --out lesson");
+    const json summary = json::parse(bytes(folder / "lesson" / "summary.json"));
+    CHECK(summary["finished"] == true);
+    CHECK(summary["obstacles"] == true);
+    CHECK(summary["joints"][0]["verdict"] == "OK");
+    run("boltwright", "export lesson/session.boltwright --csv ticks.csv --every 100");
+    CHECK(bytes(folder / "ticks.csv").find("J1") != std::string::npos);
 }
