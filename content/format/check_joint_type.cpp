@@ -39,9 +39,10 @@ void check_thread_length(const LayeredObject& layers, const joint::JointDesign& 
     if (grip < design.bolt_length - thread - length_tolerance)
         reader.report(
             thread_node ? thread_node.pointer : layers.find("bolt_length_mm").pointer,
-            fmt::format(
-                "the {} cannot reach its seat: the thread ends {:g} mm under the head, the grip is {:g} mm",
-                turned_name(design), (design.bolt_length - thread) / mm, grip / mm),
+            fmt::format("the {} cannot reach its seat: the thread ends {:g} mm {}, the grip is {:g} mm",
+                        turned_name(design), (design.bolt_length - thread) / mm,
+                        design.form == joint::JointForm::stud ? "above the tapped part" : "under the head",
+                        grip / mm),
             fmt::format("a shorter bolt, or bolt_thread_length_mm of at least {:g}",
                         (design.bolt_length - grip) / mm));
 }
@@ -94,8 +95,7 @@ void check_form(const LayeredObject& layers, const joint::JointDesign& design) {
     if (screw && design.turned == joint::TurnedPart::nut)
         reject("turned", "a screw in a tapped hole has no nut", "\"head\"");
     if (stud && design.turned == joint::TurnedPart::head) reject("turned", "a stud has no head", "\"nut\"");
-    if (stud && design.head == joint::HeadShape::socket)
-        reject("head", "a stud has no head", "no such value");
+    if (stud && design.head == joint::HeadShape::socket) reject("head", "a stud has no head", "\"hexagon\"");
     if (screw && has("washer_under_nut"))
         reject("washer_under_nut", "a screw in a tapped hole has no nut", "washer_under_head");
     if (stud && has("washer_under_head"))
@@ -158,8 +158,20 @@ void check_stripping(const LayeredObject& layers, const JointType& type) {
             "the thread in {} strips at {:.1f} kN with {:g} mm of engagement, and {:g} N·m clamps with "
             "{:.1f} kN",
             hole.material.name, strip * 1e-3, hole.engagement / mm, type.spec.torque.high, clamp * 1e-3),
-        fmt::format("an engagement of at least {:.1f} mm",
-                    joint::needed_engagement(thread, design.bolt_class, hole.material, share) / mm));
+        fmt::format(
+            "an engagement of at least {:.1f} mm",
+            std::ceil(joint::needed_engagement(thread, design.bolt_class, hole.material, share) / mm * 10.0) /
+                10.0));
+}
+
+// Requires a bolt that is long enough.
+void check_thread_and_gap(const LayeredObject& layers, const joint::JointDesign& design) {
+    if (layers.all_valid({"bolt_thread_length_mm"})) check_thread_length(layers, design);
+    const JsonNode gap = layers.find("start_gap_mm");
+    if (gap && design.start_gap > design.bolt_length - design.grip_length() + length_tolerance)
+        reader.report(gap.pointer,
+                      fmt::format("a gap of {:g} mm is beyond the bolt's end", design.start_gap / mm),
+                      fmt::format("less than {:g} mm", (design.bolt_length - design.grip_length()) / mm));
 }
 
 // Requires the size, the bolt's length and the complete grip. Returns false after an error.
@@ -168,23 +180,18 @@ bool check_lengths(const LayeredObject& layers, const joint::JointDesign& design
     const double grip = design.grip_length();
     if (design.form == joint::JointForm::tapped_hole) {
         if (!check_screw_length(layers, design)) return false;
-        if (layers.all_valid({"bolt_thread_length_mm"})) check_thread_length(layers, design);
+        check_thread_and_gap(layers, design);
         return true;
     }
-    const double needed = grip + design.thread.size.nut_height + design.thread.thread.pitch;
+    const double nut = joint::nut_height(design), needed = grip + nut + design.thread.thread.pitch;
     if (design.bolt_length < needed - length_tolerance) {
         reader.report(layers.find("bolt_length_mm").pointer,
                       fmt::format("a bolt of {:g} mm is too short for a grip of {:g} mm and a nut of {:g} mm",
-                                  design.bolt_length / mm, grip / mm, design.thread.size.nut_height / mm),
+                                  design.bolt_length / mm, grip / mm, nut / mm),
                       fmt::format("at least {:g} mm", needed / mm));
         return false;
     }
-    if (layers.all_valid({"bolt_thread_length_mm"})) check_thread_length(layers, design);
-    const JsonNode gap = layers.find("start_gap_mm");
-    if (gap && design.start_gap > design.bolt_length - grip + length_tolerance)
-        reader.report(gap.pointer,
-                      fmt::format("a gap of {:g} mm is beyond the bolt's end", design.start_gap / mm),
-                      fmt::format("less than {:g} mm", (design.bolt_length - grip) / mm));
+    check_thread_and_gap(layers, design);
     return true;
 }
 
@@ -251,7 +258,8 @@ void check_load(const LayeredObject& layers, const JointType& type) {
 // Reports a prevailing torque that is unusually large, or that leaves no torque to load the bolt.
 void check_prevailing(const LayeredObject& layers, const JointType& type, double smallest_pass_fraction) {
     constexpr double margin = 1.5;  // factor on ISO 2320, for other classes, coatings and dry threads
-    const JsonNode node = layers.find("prevailing_torque_Nm");
+    const JsonNode given = layers.find("prevailing_torque_Nm");
+    const JsonNode node = given ? given : layers.find("locking_insert");
     const double prevailing = type.design.prevailing_torque, target = type.spec.torque.target;
     if (!node || prevailing <= 0.0) return;
     const bool target_known = static_cast<bool>(layers.member_layers("spec").find("target_torque_Nm"));
@@ -368,7 +376,9 @@ void check_joint_type(const LayeredObject& layers, const JointType& type, double
     if (has_size(type) && has_property_class(type) && torques && spec.all_valid({"strategy"}) &&
         layers.all_valid({"friction_thread", "friction_bearing", "prevailing_torque_Nm"}))
         check_load(layers, type);
-    if (long_enough && has_property_class(type) && torques) check_stripping(layers, type);
+    if (long_enough && has_property_class(type) && torques &&
+        layers.all_valid({"friction_thread", "friction_bearing", "prevailing_torque_Nm"}))
+        check_stripping(layers, type);
     check_prevailing(layers, type, smallest_pass_fraction);
     check_limits(spec);
     if (torques) check_torques(spec, type.spec.torque, type.spec.snug_torque);

@@ -54,7 +54,8 @@ WrenchDesign read_tool(JsonReader& reader, const JsonNode& node, const std::vect
     // flats.
     double widest = 0.0;
     for (const AssemblyJoint& joint : joints)
-        widest = std::max(widest, joint::turned_part_size(joint.design).across_flats);
+        if (const auto part = joint::turned_part_size(joint.design); part.depth <= 0.0)
+            widest = std::max(widest, part.across_flats);
     const auto too_short = [&](const auto& value, double share, const char* what) {
         if (!value || *value * mm >= share * widest - 1e-9) return;
         reader.report(

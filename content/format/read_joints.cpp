@@ -127,58 +127,6 @@ joint::FrictionDesign read_friction(const LayeredObject& layers) {
     return friction;
 }
 
-// A built-in material, of which each value can be replaced, or one whose values are all given.
-joint::TappedMaterial read_tapped_material(const LayeredObject& hole) {
-    JsonReader& reader = hole.reader();
-    const auto name = hole.text("material");
-    const auto E = hole.number("E_GPa"), strength = hole.number("tensile_strength_MPa");
-    const auto ratio = hole.number("shear_ratio");
-    joint::TappedMaterial material;
-    if (name) {
-        const auto known = joint::tapped_material(*name);
-        if (known)
-            material = *known;
-        else if (!(E && strength && ratio) &&
-                 hole.all_valid({"E_GPa", "tensile_strength_MPa", "shear_ratio"}))
-            reader.report(name.pointer, known.error().what,
-                          known.error().expected.starts_with("did you mean")
-                              ? known.error().expected
-                              : known.error().expected +
-                                    ", or another one with E_GPa, tensile_strength_MPa and shear_ratio");
-        material.name = *name;
-    }
-    if (E) material.E = *E * 1e9;
-    if (strength) material.R_m = *strength * 1e6;
-    if (ratio) material.shear_ratio = *ratio;
-    return material;
-}
-
-// The form of the joint and the part that is turned.
-void read_form(const LayeredObject& layers, joint::JointDesign& design) {
-    using joint::JointForm;
-    const std::string form = layers.text("form").value_or("through_bolt");
-    design.form = form == "tapped_hole" ? JointForm::tapped_hole
-                  : form == "stud"      ? JointForm::stud
-                                        : JointForm::through_bolt;
-    design.head = layers.text("head").value_or("hexagon") == "socket" ? joint::HeadShape::socket
-                                                                      : joint::HeadShape::hexagon;
-    const std::string turned =
-        layers.text("turned").value_or(design.form == JointForm::tapped_hole ? "head" : "nut");
-    design.turned = turned == "head" ? joint::TurnedPart::head : joint::TurnedPart::nut;
-    const LayeredObject hole = layers.member_layers("tapped_hole");
-    if (!hole.objects().empty()) design.hole.material = read_tapped_material(hole);
-    design.hole.engagement = hole.number("engagement_mm").value_or(0.0) * mm;
-    design.hole.depth = hole.number("depth_mm").value_or(0.0) * mm;
-    design.locking_insert = layers.boolean("locking_insert").value_or(false);
-}
-
-// Torque of a locking nut without a value of its own: half of the most that ISO 2320 allows.
-double usual_prevailing_torque(const joint::JointDesign& design) {
-    const joint::LockingNut* const nut =
-        design.locking_insert ? joint::locking_nut(design.thread.size.name) : nullptr;
-    return nut ? 0.5 * nut->most_on : 0.0;
-}
-
 joint::JointDesign read_design(const LayeredObject& layers, const YoungsModuli& moduli) {
     JsonReader& reader = layers.reader();
     joint::JointDesign design{};
@@ -360,6 +308,14 @@ AssemblyJoint read_joint(JointTypes& types, const JsonNode& node) {
     return joint;
 }
 
+// Width of the part that is turned, m.
+double outer_width(const joint::JointDesign& design) {
+    const joint::TurnedPartSize part = joint::turned_part_size(design);
+    const joint::SocketHead* const socket =
+        part.depth > 0.0 ? joint::socket_head(design.thread.size.name) : nullptr;
+    return socket ? socket->diameter : part.across_flats;
+}
+
 // Checks that ids and nodes are unique and that the nuts of two joints do not overlap.
 void check_joints(JsonReader& reader, const std::vector<JsonNode>& nodes,
                   const std::vector<AssemblyJoint>& joints) {
@@ -391,11 +347,12 @@ void check_joints(JsonReader& reader, const std::vector<JsonNode>& nodes,
             if (!has_position(nodes[k])) continue;
             const Vec3 between = joints[i].design.seat - joints[k].design.seat;
             const double distance = std::sqrt(glm::dot(between, between));
-            const double nut = joint::turned_part_size(joints[i].design).across_flats;
+            const double nut = std::max(outer_width(joints[i].design), outer_width(joints[k].design));
             if (distance >= nut) continue;
             reader.report(position.pointer,
-                          fmt::format("this joint is {:.3g} mm from {}: their nuts overlap", distance / mm,
-                                      in_quotes(joints[k].design.id)),
+                          fmt::format("this joint is {:.3g} mm from {}: their {}s overlap", distance / mm,
+                                      in_quotes(joints[k].design.id),
+                                      joints[i].design.turned == joint::TurnedPart::head ? "head" : "nut"),
                           fmt::format("{:g} mm or more", nut / mm));
             break;
         }

@@ -105,7 +105,8 @@ double target_clamp(const content::Assembly& assembly, std::size_t joint) {
     const joint::TorqueLevers levers =
         joint::torque_levers(j.design.thread.thread, j.design.friction.thread, j.design.friction.bearing,
                              joint::bearing_mean_diameter(joint::turned_part_size(j.design).bearing, hole));
-    return levers.tighten() > 0.0 ? j.spec.torque.target / levers.tighten() : nan;
+    const double torque = std::max(0.0, j.spec.torque.target - j.design.prevailing_torque);
+    return levers.tighten() > 0.0 ? torque / levers.tighten() : nan;
 }
 
 Summary summarise(const SessionData& session) {

@@ -239,6 +239,7 @@ void add_form(const joint::JointDesign& d, nlohmann::ordered_json& type) {
                            {"tensile_strength_MPa", rounded_to(part.R_m / 1e6, 3)},
                            {"shear_ratio", rounded_to(part.shear_ratio, 4)},
                            {"engagement_mm", rounded_to(d.hole.engagement * 1e3, 4)}};
+    if (d.hole.depth > 0.0) type["tapped_hole"]["depth_mm"] = rounded_to(d.hole.depth * 1e3, 4);
 }
 
 }  // namespace
@@ -275,7 +276,8 @@ std::string joint_type_json(const JointFit& fit, const std::string& name, double
     type["misfit_um"] = rounded_to(d.misfit * 1e6, 3);
     type["embedding_time_s"] = rounded_to(d.embedding_time, 3);
     if (d.nut_strength > 0.0) type["nut_proof_stress_MPa"] = rounded_to(d.nut_strength / 1e6, 3);
-    if (d.prevailing_torque > 0.0) type["prevailing_torque_Nm"] = rounded_to(d.prevailing_torque, 4);
+    if (d.prevailing_torque > 0.0 || d.locking_insert)
+        type["prevailing_torque_Nm"] = rounded_to(d.prevailing_torque, 4);
     type["running_torque_Nm"] = rounded_to(d.running_drag, 4);
     type["spec"] = {{"strategy", "torque"}, {"target_torque_Nm", rounded_to(target_torque, 3)}};
     const ordered_json fragment = {{"materials", materials}, {"joint_types", {{name, type}}}};

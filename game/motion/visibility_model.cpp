@@ -30,9 +30,7 @@ const std::vector<collision::SurfacePoint>& nut_samples_of(VisibilityModel& mode
                                                            std::size_t joint) {
     if (model.nuts.size() <= joint) model.nuts.resize(contact.nut_bodies.size());
     std::vector<collision::SurfacePoint>& samples = model.nuts[joint];
-    if (samples.empty())
-        samples = collision::sample_outer_surface(
-            contact.world.shapes[contact.world.bodies[*contact.nut_bodies[joint]].shape].solid, nut_samples);
+    if (samples.empty()) samples = servo::turned_part_samples(contact, joint, nut_samples);
     return samples;
 }
 

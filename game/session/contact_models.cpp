@@ -293,8 +293,8 @@ std::vector<NutView> nut_views(const content::Assembly& assembly, const servo::T
     std::vector<NutView> views;
     if (joint >= contact.nut_bodies.size() || !contact.nut_bodies[joint]) return views;
     const std::size_t body = *contact.nut_bodies[joint];
-    const std::vector<collision::SurfacePoint> samples = collision::sample_outer_surface(
-        contact.world.shapes[contact.world.bodies[body].shape].solid, nut_samples);
+    const std::vector<collision::SurfacePoint> samples =
+        servo::turned_part_samples(contact, joint, nut_samples);
     for (const content::NamedView& view : assembly.views) {
         const collision::Visibility seen = collision::visibility_of(contact.world, body, samples, view.eye);
         views.push_back({seen.share, seen.angle / square(2.0 * std::tan(0.5 * view.field_of_view)),

@@ -46,12 +46,11 @@ Result<ToolKind> kind_named(std::string_view name);
 // Metres and radians. 0: the standard value.
 struct ToolParameters {
     ToolKind kind = ToolKind::open_end;
-    double size = 0.0;  // across flats of the nut or the socket screw, or the width of the drive
-    double opening =
-        0.0;              // between the flats of the tool: the size and the play; of keys the size, less play
-    double length = 0.0;  // from the origin to the far end
-    double drive = 0.0;   // width of the square drive
-    int teeth = 0;        // of the ratchet
+    double size = 0.0;     // across flats of the nut or the socket screw, or the width of the drive
+    double opening = 0.0;  // between the flats of the tool: the size and the play; of keys the size
+    double length = 0.0;   // from the origin to the far end
+    double drive = 0.0;    // width of the square drive
+    int teeth = 0;         // of the ratchet
     // Open ends and the inserts of torque wrenches; jaw dimensions as in haptics/collision/jaw.hpp.
     std::optional<double> head_angle = {};
     double head_thickness = 0.0, jaw_depth = 0.0, jaw_tip = 0.0;

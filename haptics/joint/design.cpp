@@ -54,8 +54,13 @@ TurnedPartSize turned_part_size(const JointDesign& design) {
         if (socket) return {socket->across_flats, socket->height, socket->bearing, socket->depth};
         return {size.across_flats, size.head_height, size.head_bearing, 0.0};
     }
+    return {size.across_flats, nut_height(design), size.nut_bearing, 0.0};
+}
+
+double nut_height(const JointDesign& design) {
+    const FastenerSize& size = design.thread.size;
     const LockingNut* const locking = design.locking_insert ? locking_nut(size.name) : nullptr;
-    return {size.across_flats, locking ? locking->height : size.nut_height, size.nut_bearing, 0.0};
+    return locking ? locking->height : size.nut_height;
 }
 
 BoltEnds bolt_ends(const JointDesign& design) {

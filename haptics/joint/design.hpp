@@ -102,6 +102,9 @@ struct TurnedPartSize {
 };
 TurnedPartSize turned_part_size(const JointDesign& design);
 
+// Height of the nut, m; a locking nut is higher.
+double nut_height(const JointDesign& design);
+
 // The lever arms of T = F (P/2π + μ_G r_t/cos β + μ_K r_b), m. Motosh, J. Eng. Ind. 98 (1976) 849.
 struct TorqueLevers {
     double lead = 0.0;     // P/2π, the part that stretches the bolt

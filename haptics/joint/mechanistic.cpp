@@ -63,14 +63,18 @@ constexpr double gravity = 9.81;  // m/s²
 constexpr double steel_density = 7850.0;
 
 // VDI 2230-1 table 5, shear-loaded joints, metres: thread; each of head and nut; each inner interface.
-double embedding_amount(double Rz, int bearings, int interfaces) {
+struct EmbeddingFaces {
+    int threads = 1, bearings = 2, interfaces = 0;
+};
+double embedding_amount(double Rz, const EmbeddingFaces& faces) {
     struct EmbeddingRow {
         double thread, bearing, interface;
     };
     const EmbeddingRow row = Rz < 10e-6   ? EmbeddingRow{3.0, 3.0, 2.0}
                              : Rz < 40e-6 ? EmbeddingRow{3.0, 4.5, 2.5}
                                           : EmbeddingRow{3.0, 6.5, 3.5};
-    return 1e-6 * (row.thread + bearings * row.bearing + interfaces * row.interface);
+    return 1e-6 *
+           (faces.threads * row.thread + faces.bearings * row.bearing + faces.interfaces * row.interface);
 }
 
 struct Wear {
@@ -282,9 +286,11 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
 
     const int layers = static_cast<int>(design.members.size()) + (design.washer_under_head ? 1 : 0) +
                        (design.washer_under_nut ? 1 : 0);
-    // A tapped part is one more layer, and has no bearing face.
-    p.embedding = embedding_amount(design.roughness_Rz, design.is_tapped() ? 1 : 2,
-                                   design.is_tapped() ? layers : std::max(0, layers - 1));
+    // A tapped part is one more layer, and has no bearing face. A stud has two loaded threads.
+    const EmbeddingFaces faces = design.is_tapped()
+                                     ? EmbeddingFaces{design.form == JointForm::stud ? 2 : 1, 1, layers}
+                                     : EmbeddingFaces{1, 2, std::max(0, layers - 1)};
+    p.embedding = embedding_amount(design.roughness_Rz, faces);
     p.embedding_time = design.embedding_time;
     p.reference_load = 0.9 * design.bolt_class.R_p02 * p.thread.A_s /
                        equivalent_stress_ratio(p.thread, design.friction.thread, p.kappa);

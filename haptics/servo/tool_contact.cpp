@@ -251,6 +251,16 @@ force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
     return request;
 }
 
+std::vector<collision::SurfacePoint> turned_part_samples(const ToolContact& contact, std::size_t joint,
+                                                         std::size_t count) {
+    if (joint >= contact.nut_bodies.size() || !contact.nut_bodies[joint]) return {};
+    const std::size_t shape = contact.world.bodies[*contact.nut_bodies[joint]].shape;
+    auto samples = collision::sample_outer_surface(contact.world.shapes[shape].solid, count);
+    constexpr double slack = 1e-4;  // m, of a bearing face that is not exactly at 0
+    std::erase_if(samples, [](const collision::SurfacePoint& sample) { return sample.at.z < -slack; });
+    return samples;
+}
+
 bool occluded(const ToolContact& contact, const Vec3& from, const Vec3& to, int joint) {
     const auto i = static_cast<std::size_t>(joint);
     const bool has_mesh = joint >= 0 && i < contact.nut_bodies.size();

@@ -71,6 +71,11 @@ force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& commanded_tool,
                                       bool held, int engaged_joint);
 
+// Points on the outer surface of a joint's nut or head, in its own frame: without the shank of a screw, which
+// lies below the bearing face. At most `count`; none without a mesh.
+std::vector<collision::SurfacePoint> turned_part_samples(const ToolContact& contact, std::size_t joint,
+                                                         std::size_t count);
+
 // Returns true if an obstacle other than `joint`'s nut crosses the segment. `joint` −1 excludes no nut.
 bool occluded(const ToolContact& contact, const Vec3& from, const Vec3& to, int joint);
 

@@ -115,16 +115,60 @@ TEST_CASE("Joint forms: mistakes are reported with their place and what would fi
     }
 }
 
-TEST_CASE("Joint forms: the engagement that a message demands is accepted") {
+TEST_CASE("Joint forms: the engagement that a message demands is accepted, and a little less is not") {
     const std::string hole =
         R"("form": "tapped_hole", "bolt_length_mm": 40, "bolt_thread_length_mm": 30, "tapped_hole": {"material": "AlSi9Cu3", "engagement_mm": )";
-    const std::vector<std::string> found = mistakes_of(hole + "6}");
+    for (const int target : {6, 9, 12, 15, 18, 20, 22, 24}) {
+        CAPTURE(target);
+        const std::string spec = R"("target_torque_Nm": )" + std::to_string(target);
+        const std::vector<std::string> found = mistakes_of(hole + "2.6}", spec);
+        REQUIRE(found.size() == 1);
+        const std::size_t at = found.front().find("at least ");
+        REQUIRE(at != std::string::npos);
+        const double least = std::stod(found.front().substr(at + 9));
+        CHECK(mistakes_of(hole + std::to_string(least) + "}", spec).empty());
+        CHECK_FALSE(mistakes_of(hole + std::to_string(least - 0.2) + "}", spec).empty());
+    }
+}
+
+TEST_CASE("Joint forms: a locking nut does not load the thread of its stud with its own torque") {
+    const std::string stud =
+        R"("form": "stud", "bolt_length_mm": 30, "locking_insert": true, "tapped_hole": {"material": "AlSi9Cu3", "engagement_mm": )";
+    CHECK(mistakes_of(stud + "7.8}").empty());
+    CHECK_FALSE(mistakes_of(stud + "7.3}").empty());
+}
+
+TEST_CASE("Joint forms: a variant that names another material does not keep the values of the first") {
+    std::string text = with_type(
+        R"("form": "tapped_hole", "tapped_hole": {"material": "ours", "E_GPa": 45, "tensile_strength_MPa": 200, "shear_ratio": 0.6}, "bolt_length_mm": 40, "bolt_thread_length_mm": 30)");
+    text = edited(
+        text, R"("order")",
+        R"("variants": {"steel": {"joint_types": {"T": {"tapped_hole": {"material": "C45"}}}}}, "order")");
+    const auto design = [&](const char* variant) {
+        const content::LoadedAssembly loaded = content::parse_assembly(text, "f", variant);
+        for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+        return loaded.assembly.joints.at(0).design;
+    };
+    CHECK(design("").hole.material.R_m == 200e6);
+    CHECK(design("steel").hole.material.R_m == 650e6);
+    CHECK(design("steel").hole.material.shear_ratio == 0.65);
+}
+
+TEST_CASE("Joint forms: a nut that is too high, a gap beyond the screw and heads that overlap are mistakes") {
+    CHECK(mistakes_of(R"("bolt_length_mm": 25.6, "locking_insert": true)").size() == 1);
+    CHECK(mistakes_of(R"("bolt_length_mm": 27, "locking_insert": true)").empty());
+    CHECK(
+        mistakes_of(
+            R"("form": "tapped_hole", "tapped_hole": {"material": "C45"}, "bolt_length_mm": 30, "start_gap_mm": 100)")
+            .size() == 1);
+    std::string two = with_type(
+        R"("form": "tapped_hole", "head": "socket", "tapped_hole": {"material": "C45"}, "bolt_length_mm": 30)");
+    two = edited(two, R"("position_mm": [0, 0, 0]})",
+                 R"("position_mm": [0, 0, 0]}, {"id": "S2", "type": "T", "position_mm": [12.5, 0, 0]})");
+    two = edited(two, R"("order": ["S1"])", R"("order": ["S1", "S2"])");
+    const std::vector<std::string> found = messages(two);
     REQUIRE(found.size() == 1);
-    const std::size_t at = found.front().find("at least ");
-    REQUIRE(at != std::string::npos);
-    const double least = std::stod(found.front().substr(at + 9));
-    CHECK(mistakes_of(hole + std::to_string(least) + "}").empty());
-    CHECK_FALSE(mistakes_of(hole + std::to_string(least - 0.2) + "}").empty());
+    CHECK(found.front().find("their heads overlap; expected 13 mm or more") != std::string::npos);
 }
 
 }  // namespace content_joint_forms_test

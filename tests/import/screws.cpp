@@ -85,7 +85,7 @@ TEST_CASE("Screws: a hexagon screw in a tapped hole is found, drafted and accept
     CHECK_FALSE(found.draft["joints"][0].contains("axis"));
     const json& type = found.draft["joint_types"].front();
     CHECK(type["form"] == "tapped_hole");
-    CHECK(type["tapped_hole"] == json({{"material", "GJL-250"}, {"engagement_mm", 21.5}}));
+    CHECK(type["tapped_hole"] == json({{"material", "GJL-250"}}));
     CHECK(type["size"] == "M12");
     CHECK(type["bolt_length_mm"] == 40.0);
     CHECK(type["washer_under_head"] == true);
@@ -96,6 +96,25 @@ TEST_CASE("Screws: a hexagon screw in a tapped hole is found, drafted and accept
 TEST_CASE("Screws: the hole shows a fine pitch, and may be as wide as the thread") {
     CHECK(import_cover({.hole = 10.647}).draft["joint_types"].front()["size"] == "M12x1.25");
     CHECK(import_cover({.hole = 12.0}).draft["joint_types"].front()["form"] == "tapped_hole");
+}
+
+TEST_CASE("Screws: odd thicknesses give a valid draft, and a hole through the part limits the engagement") {
+    CHECK(import_cover({.cover = 16.04}).draft["joints"].size() == 1);
+    const Imported through = import_cover({.hole_depth = 40.0, .screw = 70.0});
+    REQUIRE(through.draft["joints"].size() == 1);
+    CHECK(through.draft["joint_types"].front()["tapped_hole"]["engagement_mm"] == 40.0);
+    const Imported full = import_cover({.screw = 60.0, .cover = 16.0});
+    CHECK(full.draft["joint_types"].front()["bolt_thread_length_mm"] == 60.0);
+    for (const Imported* found : {&through, &full})
+        for (const Error& error : found->findings.errors) FAIL_CHECK(error.message());
+}
+
+TEST_CASE("Screws: a screw that clamps nothing, or engages too little, is no joint") {
+    const Imported shallow = import_cover({.screw = 23.0, .cover = 16.0});
+    REQUIRE_FALSE(shallow.remarks.empty());
+    CHECK(shallow.draft.is_null());
+    const Imported lost_nut = import_cover({.hole = 12.0, .hole_depth = 40.0, .screw = 80.0});
+    CHECK(lost_nut.draft.is_null());
 }
 
 TEST_CASE("Screws: a thread that would strip gets a lower target") {

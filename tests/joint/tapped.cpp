@@ -57,7 +57,7 @@ TEST_CASE("Tapped hole: the needed engagement agrees with Bossard's tests within
                 sum += needed_engagement(thread.thread, bolt, tapped_material(row.material).value(), 1.2) /
                        thread.size.d / 3.0;
             }
-            CHECK(sum == doctest::Approx(row.shares[i]).epsilon(0.1));
+            CHECK(std::abs(sum / row.shares[i] - 1.0) < 0.1);
         }
 }
 

@@ -157,7 +157,7 @@ int run_views(const std::string& name, bool as_json) {
     if (!*contact)
         return print_error({ErrorCode::bad_content,
                             fmt::format("{} has no contact model, so visibility cannot be computed", name),
-                            "\"contact_model\", and a wrench with a model"});
+                            "\"contact_model\""});
     session::seat_nuts(setup, **contact);
     std::vector<NutVisibility> rows;
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {

@@ -33,6 +33,9 @@ struct JointCheck {
     }
     [[nodiscard]] const joint::FastenerSize& size() const { return joint.design.thread.size; }
     [[nodiscard]] double across_flats() const { return joint::turned_part_size(joint.design).across_flats; }
+    [[nodiscard]] const char* turned_name() const {
+        return joint.design.turned == joint::TurnedPart::head ? "head" : "nut";
+    }
     [[nodiscard]] double grip() const {  // m, of the members
         double sum = 0.0;
         for (const joint::Member& member : joint.design.members) sum += member.thickness;
@@ -74,7 +77,7 @@ void check_presence(const JointCheck& s, const Fastener& fastener, bool wanted) 
 void check_jaw(const JointCheck& s, const content::Tool& tool, bool is_default, double flats) {
     const std::string owner =
         is_default ? std::string{} : fmt::format(" (the tool {})", content::in_quotes(tool.name));
-    const std::string name = content::in_quotes(s.parts.nut.name);
+    const std::string name = content::in_quotes(s.parts.turned.name);
     const double jaw = tool.wrench.jaw;
     const auto report = [&](const char* how) {
         s.error(fmt::format("a jaw of {:g} mm{} is too {} for {}, {:.2f} mm across flats", jaw / mm, owner,
@@ -87,18 +90,23 @@ void check_jaw(const JointCheck& s, const content::Tool& tool, bool is_default, 
         report("wide");
 }
 
-bool check_nut(const JointCheck& s, std::span<const content::Tool> tools) {
-    const auto hexagon = measure_hexagon(s.parts.nut.triangles);
+// Checks the hexagon of the nut or of the head that is turned.
+bool check_hexagon(const JointCheck& s, std::span<const content::Tool> tools) {
+    if (joint::turned_part_size(s.joint.design).depth > 0.0) {
+        s.messages.note(joint_pointer(s.index),
+                        fmt::format("{} has a socket head, and a lesson has no hexagon key yet",
+                                    content::in_quotes(s.parts.turned.name)));
+        return false;
+    }
+    const auto hexagon = measure_hexagon(s.parts.turned.triangles);
     if (!hexagon || hexagon->unevenness > 0.1 * mm) {
-        s.error(
-            fmt::format("{} is not a hexagon about the joint's axis", content::in_quotes(s.parts.nut.name)),
-            fmt::format("a hexagon {}, {:g} mm across flats",
-                        s.joint.design.turned == joint::TurnedPart::head ? "head" : "nut",
-                        s.across_flats() / mm));
+        s.error(fmt::format("{} is not a hexagon about the joint's axis",
+                            content::in_quotes(s.parts.turned.name)),
+                fmt::format("a hexagon {}, {:g} mm across flats", s.turned_name(), s.across_flats() / mm));
         return false;
     }
     const double flats = hexagon->across_flats, off = std::hypot(hexagon->centre.x, hexagon->centre.z);
-    const std::string name = content::in_quotes(s.parts.nut.name);
+    const std::string name = content::in_quotes(s.parts.turned.name);
     if (off > offset_tolerance)
         s.error(fmt::format("{} is {:.3g} mm beside the joint's axis", name, off / mm), "at most 0.01 mm");
     if (flats > s.across_flats() + contact_tolerance || flats < s.across_flats() - nut_play)
@@ -163,13 +171,14 @@ void check_members(const JointCheck& s) {
     const double above = 0.5 * s.size().nut_height;
     const auto top = find_face(s, radius, above, -1.0, above + grip);
     if (!top) {
-        s.error("no member is under the nut at position_mm", "a face at position_mm");
+        s.error(fmt::format("no member is under the {} at position_mm", s.turned_name()),
+                "a face at position_mm");
         return;
     }
     const double face = above - top->distance;
     if (std::abs(face) > contact_tolerance)
-        s.error(fmt::format("the face of {} under the nut is {:.2f} mm {} position_mm", s.name_of(top->part),
-                            std::abs(face) / mm, face > 0.0 ? "beyond" : "below"),
+        s.error(fmt::format("the face of {} under the {} is {:.2f} mm {} position_mm", s.name_of(top->part),
+                            s.turned_name(), std::abs(face) / mm, face > 0.0 ? "beyond" : "below"),
                 "position_mm on the face");
     const auto bottom = find_face(s, radius, -grip - above, 1.0, above + grip);
     const double measured = bottom ? grip + above - bottom->distance : 0.0;
@@ -277,38 +286,60 @@ void check_bolt(const JointCheck& s) {
     }
 }
 
-// Checks the face under the head of a screw, and that the tapped part begins at the end of the grip.
-void check_screw_members(const JointCheck& s) {
+// Checks the face under the turned part of a screw or a stud, and that the tapped part begins at the end of
+// the grip.
+void check_tapped_members(const JointCheck& s) {
     const auto& design = s.joint.design;
-    const double outer =
-        design.washer_under_head ? s.size().washer_outer : joint::turned_part_size(design).bearing;
+    const joint::TurnedPartSize part = joint::turned_part_size(design);
+    const double outer = design.washer_under_turned() > 0.0 ? s.size().washer_outer : part.bearing;
     const double radius = 0.25 * (s.size().hole + outer), grip = s.grip();
-    const double above = 0.5 * s.size().head_height;
+    const double above = 0.5 * part.height;
     const auto top = find_face(s, radius, above, -1.0, above + grip);
     if (!top) {
-        s.error("no member is under the head at position_mm", "a face at position_mm");
+        s.error(fmt::format("no member is under the {} at position_mm", s.turned_name()),
+                "a face at position_mm");
         return;
     }
     const double face = above - top->distance;
     if (std::abs(face) > contact_tolerance)
-        s.error(fmt::format("the face of {} under the head is {:.2f} mm {} position_mm", s.name_of(top->part),
-                            std::abs(face) / mm, face > 0.0 ? "beyond" : "below"),
+        s.error(fmt::format("the face of {} under the {} is {:.2f} mm {} position_mm", s.name_of(top->part),
+                            s.turned_name(), std::abs(face) / mm, face > 0.0 ? "beyond" : "below"),
                 "position_mm on the face");
     // From inside the last member to its far face, which lies on the tapped part.
-    const double inside = 0.5 * design.members.back().thickness;
+    const bool stud = design.form == joint::JointForm::stud;
+    const double inside = 0.5 * (stud ? design.members.front() : design.members.back()).thickness;
     const auto bottom = find_face(s, radius, -grip + inside, -1.0, 2.0 * inside + grip);
-    if (!bottom || std::abs(bottom->distance - inside) > length_tolerance)
-        s.error(bottom
-                    ? fmt::format("the members measure {:.2f} mm in the model, and {:g} mm in the joint type",
-                                  (grip + bottom->distance - inside) / mm, grip / mm)
-                    : "no part with a tapped hole is behind the members",
+    if (!bottom)
+        s.error("no part with a tapped hole is behind the members", "a part whose face ends the grip");
+    else if (std::abs(bottom->distance - inside) > length_tolerance)
+        s.error(fmt::format("the members measure {:.2f} mm in the model, and {:g} mm in the joint type",
+                            (grip + bottom->distance - inside) / mm, grip / mm),
                 "both within 0.1 mm");
 }
 
-// Checks a screw in a tapped hole: its thread, its length and the hole around its end.
+// The parts around the end of a screw or a stud in its tapped hole.
+std::set<std::uint32_t> parts_around_end(const JointCheck& s) {
+    constexpr int rays = 12;
+    constexpr double widest = 1.02;  // of the hole, in diameters; import-step accepts 1.01
+    std::set<std::uint32_t> found;
+    if (!s.joint.design.is_tapped()) return found;
+    const double height = -s.grip() - 0.5 * s.joint.design.hole.engagement;
+    for (int i = 0; i < rays; ++i) {
+        const double angle = (i + 0.5) * 2.0 * pi / rays;
+        if (const auto hit =
+                s.ray({0.0, height, 0.0}, {std::cos(angle), 0.0, std::sin(angle)}, 0.5 * widest * s.size().d))
+            found.insert(s.everything.triangles()[hit->triangle].part);
+    }
+    if (found.empty())
+        s.error(fmt::format("no hole is around the end of {}", content::in_quotes(s.parts.bolt.name)),
+                fmt::format("the tapped hole, at most {:g} mm wide", widest * s.size().d / mm));
+    return found;
+}
+
+// Checks the thread and the length of a screw in a tapped hole.
 void check_screw(const JointCheck& s) {
     const auto& design = s.joint.design;
-    const double face = design.washer_under_turned();
+    const double face = s.parts.turned.box.low.y;
     double radius = 0.0;
     for (const Triangle& t : s.parts.bolt.triangles)
         for (const Vec3& p : {t.a, t.b, t.c})
@@ -322,17 +353,6 @@ void check_screw(const JointCheck& s) {
         s.error(fmt::format("{} measures {:.2f} mm under its head", content::in_quotes(s.parts.bolt.name),
                             length / mm),
                 fmt::format("{:g} mm (bolt_length_mm)", design.bolt_length / mm));
-    constexpr int rays = 12;
-    int walls = 0;
-    for (int i = 0; i < rays; ++i) {
-        const double angle = (i + 0.5) * 2.0 * pi / rays;
-        if (s.ray({0.0, -s.grip() - 0.5 * design.hole.engagement, 0.0},
-                  {std::cos(angle), 0.0, std::sin(angle)}, 0.55 * s.size().d))
-            ++walls;
-    }
-    if (walls < rays / 2)
-        s.error(fmt::format("no hole is around the end of {}", content::in_quotes(s.parts.bolt.name)),
-                fmt::format("the tapped hole, at most {:g} mm wide", 1.1 * s.size().d / mm));
 }
 
 // Reports a part outside the joint that crosses the fastener after shrinking it by the contact tolerance.
@@ -363,32 +383,37 @@ bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_
                                  const JointParts& parts, const FlattenedModel& scene, const Bvh& everything,
                                  std::span<const content::Tool> tools, const Messages& messages) {
     const JointCheck s{joint, index, parts, scene, everything, messages};
-    const bool screw = joint.design.form == joint::JointForm::tapped_hole;
+    using joint::JointForm;
+    const JointForm form = joint.design.form;
+    const bool nut_turned = joint.design.turned == joint::TurnedPart::nut;
     check_presence(s, parts.bolt, true);
     check_presence(s, parts.washer_head, joint.design.washer_under_head);
     check_presence(s, parts.washer_nut, joint.design.washer_under_nut);
-    if (!screw) check_presence(s, parts.nut, true);
-    if (screw)
-        check_screw_members(s);
+    if (form != JointForm::tapped_hole) check_presence(s, parts.nut, true);
+    if (joint.design.is_tapped())
+        check_tapped_members(s);
     else
         check_members(s);
     const std::set<std::uint32_t> tight = check_hole(s);
-    if (parts.bolt.exists() && screw) check_screw(s);
-    if (parts.bolt.exists() && joint.design.form == joint::JointForm::through_bolt) check_bolt(s);
-    const bool gripped = parts.nut.exists() && check_nut(s, tools);
-    const Fastener& washer = screw ? parts.washer_head : parts.washer_nut;
-    const std::string member = screw ? "the member under the head" : "the member under the nut";
+    if (parts.bolt.exists() && parts.turned.exists() && form == JointForm::tapped_hole) check_screw(s);
+    if (parts.bolt.exists() && form == JointForm::through_bolt && nut_turned) check_bolt(s);
+    const bool gripped = parts.turned.exists() && check_hexagon(s, tools);
+    const Fastener& washer = parts.turned_washer;
+    const std::string member = fmt::format("the member under the {}", s.turned_name());
     if (washer.exists()) {
         check_seat(s, washer.name, washer.box.low.y, member, 0.0);
-        if (parts.nut.exists())
-            check_seat(s, parts.nut.name, parts.nut.box.low.y, content::in_quotes(washer.name),
+        if (parts.turned.exists())
+            check_seat(s, parts.turned.name, parts.turned.box.low.y, content::in_quotes(washer.name),
                        washer.box.high.y);
-    } else if (parts.nut.exists()) {
-        check_seat(s, parts.nut.name, parts.nut.box.low.y, member, 0.0);
+    } else if (parts.turned.exists()) {
+        check_seat(s, parts.turned.name, parts.turned.box.low.y, member, 0.0);
     }
     // The thread of a screw or a stud may overlap the part that it is screwed into.
-    for (const Fastener* fastener : {&parts.bolt, &parts.washer_head, &parts.washer_nut, &parts.nut})
-        if (fastener != &parts.bolt || !joint.design.is_tapped()) check_overlaps(s, *fastener, tight);
+    std::set<std::uint32_t> accepted = tight;
+    accepted.merge(parts_around_end(s));
+    check_overlaps(s, parts.bolt, accepted);
+    for (const Fastener* fastener : {&parts.washer_head, &parts.washer_nut, &parts.nut})
+        check_overlaps(s, *fastener, tight);
     return gripped;
 }
 

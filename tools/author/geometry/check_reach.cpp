@@ -98,11 +98,11 @@ void check_swing(const SwingPair& swings, const WrenchShape& wrench, std::size_t
 
 void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const JointParts& parts,
                   const FlattenedModel& scene, const WrenchShape& wrench, const Messages& messages) {
-    const double low = parts.nut.box.low.y, high = parts.nut.box.high.y;
+    const double low = parts.turned.box.low.y, high = parts.turned.box.high.y;
     const double seated = std::max(0.5 * (low + high), low + wrench.half_thickness + clearance);
     const Bvh plain = place_on_nut(wrench, false), over = place_on_nut(wrench, true);
     const double lowest = seated + std::min(plain.box().low.y, over.box().low.y);
-    const Bvh around(nearby_triangles(scene, parts.to_joint, 3.0 * wrench.reach, lowest, parts.nut.parts));
+    const Bvh around(nearby_triangles(scene, parts.to_joint, 3.0 * wrench.reach, lowest, parts.turned.parts));
     const auto swings_at = [&](double height) {
         return SwingPair{find_free_swing(around, plain, height), find_free_swing(around, over, height)};
     };

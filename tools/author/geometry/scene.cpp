@@ -157,13 +157,15 @@ bool is_near(const Aabb& box, double radius, double floor) {
     return box.high.y > floor && std::hypot(x, z) < radius;
 }
 
-// The triangles of a bolt at and above the bearing face of its head.
-Fastener head_of(const Fastener& bolt, const joint::JointDesign& design) {
+// The triangles of a bolt above the `face` (m) that its head bears on, or wider than its shank.
+Fastener head_of(const Fastener& bolt, double diameter, double face) {
     constexpr double slack = 0.1e-3;  // m; a gap or a penetration at the face is reported later
-    const double face = design.washer_under_turned();
+    const double shank = 0.55 * diameter;
+    const auto is_wide = [&](const Vec3& p) { return std::hypot(p.x, p.z) > shank; };
     Fastener head{bolt.name, {}, {}, bolt.parts};
     for (const Triangle& t : bolt.triangles) {
-        if (std::min({t.a.y, t.b.y, t.c.y}) < face - slack) continue;
+        const bool above = std::min({t.a.y, t.b.y, t.c.y}) > face - slack;
+        if (!above && !is_wide(t.a) && !is_wide(t.b) && !is_wide(t.c)) continue;
         head.triangles.push_back(t);
         for (const Vec3& p : {t.a, t.b, t.c}) head.box.add(p);
     }
@@ -187,7 +189,11 @@ JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, const j
     parts.bolt = find("_bolt");
     parts.washer_head = find("_washer_head");
     parts.washer_nut = find("_washer_nut");
-    parts.nut = design.turned == joint::TurnedPart::head ? head_of(parts.bolt, design) : find("_nut");
+    parts.nut = find("_nut");
+    const bool head = design.turned == joint::TurnedPart::head;
+    parts.turned_washer = head ? parts.washer_head : parts.washer_nut;
+    const double face = parts.turned_washer.exists() ? parts.turned_washer.box.high.y : 0.0;
+    parts.turned = head ? head_of(parts.bolt, design.thread.size.d, face) : parts.nut;
     return parts;
 }
 

@@ -59,14 +59,16 @@ struct Fastener {
 // The fasteners of one joint.
 struct JointParts {
     glm::dmat4 to_joint{1.0}, to_assembly{1.0};
-    Fastener bolt, washer_head, washer_nut;
-    Fastener nut;  // or the head of a bolt that is turned at its head
+    Fastener bolt, washer_head, washer_nut, nut;
+    Fastener turned;         // the nut, or the head of a bolt that is turned at its head
+    Fastener turned_washer;  // under that part
 
     [[nodiscard]] bool owns(std::uint32_t part) const;
 };
 
 // Finds the nodes ID_bolt, ID_washer_head, ID_washer_nut and ID_nut under the joint's node; those that are
-// missing have no triangles. A head that is turned is the part of ID_bolt above its bearing face.
+// missing have no triangles. A head that is turned is the part of ID_bolt above its bearing face or wider
+// than its shank.
 JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design);
 
 // Returns the triangles, in the joint's frame, whose bounding box is within `radius` of the joint's axis and

@@ -148,9 +148,12 @@ std::optional<TappedPart> find_tapped_part(const std::vector<const PartGeometry*
         const double hole = hole_around(*parts[n], poses[n], bolt, tapped_hole);
         if (hole == 0.0) continue;
         const auto span = measure(*parts[n], poses[n], bolt, 0.65 * bolt.diameter);
-        if (!span || bolt.seat - span->from < 0.3 * bolt.diameter) continue;
+        const double least = 0.5 * bolt.diameter;
+        if (!span || std::min(bolt.seat, span->to) - span->from < least) continue;
+        const bool nominal = 2.0 * hole > clearance_hole.least * bolt.diameter;
+        if (nominal && bolt.seat - span->to > 0.3 * bolt.diameter) continue;
         if (!last || span->from > last->face)
-            last = TappedPart{static_cast<int>(n), 2.0 * hole, span->from, span->to};
+            last = TappedPart{static_cast<int>(n), 2.0 * hole, span->from, span->to, nominal};
     }
     return last;
 }

@@ -47,11 +47,13 @@ struct TappedPart {
     int node = -1;
     double hole = 0.0;                // diameter, m
     double face = 0.0, bottom = 0.0;  // where its material around the hole begins and ends
+    bool nominal = false;             // the hole is as wide as the thread
 };
 
-// Returns the part that the end of a bolt without a nut is screwed into: its hole is as wide as the bolt's
-// thread or its core, and the bolt reaches at least 0.3 d into it. Of several the last one along the bolt.
-// The seat of `bolt` is the end of the bolt.
+// Returns the part that the end of a bolt without a nut is screwed into: its hole is as wide as the core of
+// the bolt's thread, and the bolt engages by at least half a diameter. A hole as wide as the whole thread
+// counts too, unless the bolt protrudes from it as a bolt does that has lost its nut. Of several parts the
+// last one along the bolt. The seat of `bolt` is the end of the bolt.
 std::optional<TappedPart> find_tapped_part(const std::vector<const PartGeometry*>& parts,
                                            const std::vector<ScaledPose>& poses, const InstalledBolt& bolt);
 

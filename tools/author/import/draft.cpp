@@ -56,7 +56,7 @@ struct JointTypeKey {
     bool washer_head = false, washer_nut = false;
     std::vector<std::pair<double, std::string>> members;  // mm, material
     std::string tapped;                                   // material of the tapped part; empty: a nut
-    double engagement = 0.0;                              // mm
+    double engagement = 0.0;                              // mm; 0: the whole end of the screw
     friend bool operator==(const JointTypeKey&, const JointTypeKey&) = default;
 };
 
@@ -83,6 +83,10 @@ double tapped_limit(const JointTypeKey& type, const joint::ThreadSize& size, con
                     double bearing) {
     const auto part = joint::tapped_material(type.tapped);
     if (!part) return 0.0;
+    double engagement = type.length - (type.washer_head ? size.size.washer_thickness / mm : 0.0);
+    for (const auto& [thickness, material] : type.members) engagement -= thickness;
+    if (type.engagement > 0.0) engagement = std::min(engagement, type.engagement);
+    engagement *= mm;
     return 0.5 * joint::stripping_forces(size.thread, bolt, *part, type.engagement * mm).least() *
            joint::torque_levers(size.thread, friction, friction, bearing).tighten();
 }
@@ -99,6 +103,7 @@ double target_torque(const JointTypeKey& type) {
         torque_share *
         joint::assembly_preload(thread->thread, *bolt, friction, friction, bearing, utilisation).torque;
     if (screw) torque = std::min(torque, tapped_limit(type, *thread, *bolt, bearing));
+    if (torque <= 0.0) return 0.0;
     const double step = std::pow(10.0, std::floor(std::log10(torque)) - 1.0);  // two significant digits
     return std::floor(torque / step) * step;
 }
@@ -175,8 +180,13 @@ class DraftWriter {
         for (const ClampedMember& member : joint.members)
             type.members.emplace_back(rounded(member.thickness / mm, 0.01), member_material(member));
         if (joint.is_screw()) {
-            type.tapped = tapped_material_of(member_material({joint.tapped, 0.0}));
-            type.engagement = rounded(joint.engagement / mm, 0.1);
+            const std::string material = member_material({joint.tapped, 0.0});
+            type.tapped = tapped_material_of(material);
+            if (material == "bronze" || material == "gasket")
+                draft_.remarks.push_back(fmt::format(
+                    "{}: the strength of a thread in {} is not built in; S235 is written, replace it",
+                    joint.id, material));
+            type.engagement = std::floor(joint.engagement / mm * 10.0) / 10.0;
         }
         for (std::size_t i = 0; i < types_.size(); ++i)
             if (types_[i].type == type) return i;
@@ -221,23 +231,36 @@ class DraftWriter {
         return order;
     }
 
+    // A bolt whose standard thread would end in the grip is threaded up to its head, as ISO 4017.
+    static std::string thread_text(const JointTypeKey& type) {
+        const auto thread = joint::parse_thread(type.size);
+        if (!thread) return {};
+        double grip = 0.0;
+        for (const auto& [thickness, material] : type.members) grip += thickness * mm;
+        const double length = type.length * mm;
+        if (length - joint::thread_length(thread->size.d, length) <= grip) return {};
+        return fmt::format("\n      \"bolt_thread_length_mm\": {},", in_mm(length));
+    }
+
     std::string type_text(const DraftJointType& named) const {
         const JointTypeKey& type = named.type;
         std::vector<std::string> members;
         for (const auto& [thickness, material] : type.members)
             members.push_back(fmt::format(R"(        {{ "thickness_mm": {}, "material": {} }})",
                                           in_mm(thickness * mm), quoted(material)));
-        const std::string form =
-            type.tapped.empty()
-                ? std::string()
-                : fmt::format(
-                      "\n      \"form\": \"tapped_hole\",\n      \"tapped_hole\": {{ \"material\": {}, "
-                      "\"engagement_mm\": {} }},",
-                      quoted(type.tapped), in_mm(type.engagement * mm));
+        std::string form;
+        if (!type.tapped.empty()) {
+            const std::string engagement =
+                type.engagement > 0.0 ? fmt::format(", \"engagement_mm\": {}", in_mm(type.engagement * mm))
+                                      : std::string();
+            form = fmt::format(
+                "\n      \"form\": \"tapped_hole\",\n      \"tapped_hole\": {{ \"material\": {}{} }},",
+                quoted(type.tapped), engagement);
+        }
         return fmt::format(R"(    {}: {{{}
       "size": {},
       "class": {},
-      "bolt_length_mm": {},
+      "bolt_length_mm": {},{}
       "members": [
 {}
       ],
@@ -249,8 +272,8 @@ class DraftWriter {
       "spec": {{ "strategy": "torque", "target_torque_Nm": {:g}, "torque_tolerance_percent": 10, "risk_class": "C" }}
     }})",
                            quoted(named.name), form, quoted(type.size), quoted(type.property_class),
-                           in_mm(type.length * mm), fmt::join(members, ",\n"), type.washer_head,
-                           type.washer_nut, friction, friction, named.torque);
+                           in_mm(type.length * mm), thread_text(type), fmt::join(members, ",\n"),
+                           type.washer_head, type.washer_nut, friction, friction, named.torque);
     }
 
     std::string joint_text(std::size_t i) const {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "haptics/joint/fastener.hpp"
+#include "tools/author/import/metric_size.hpp"
 #include "tools/author/import/names.hpp"
 
 namespace bolt::step_import {
@@ -41,72 +42,7 @@ std::pair<double, double> along(const PlacedFastener& placed, const Vec3& origin
     return {std::min(a, b), std::max(a, b)};
 }
 
-constexpr double flats_slack = 0.5 * mm;  // tolerance of the width across flats
-
-const joint::FastenerSize& nearest_size(double diameter) {
-    const auto& sizes = joint::fastener_sizes();
-    return *std::min_element(sizes.begin(), sizes.end(),
-                             [&](const joint::FastenerSize& a, const joint::FastenerSize& b) {
-                                 return std::abs(a.d - diameter) < std::abs(b.d - diameter);
-                             });
-}
-
-double diameter_slack(const joint::FastenerSize& size) { return std::max(0.35 * mm, 0.04 * size.d); }
-
-// Width across flats by DIN 931 and 934, which differs from ISO 272 for four sizes.
-double din_across_flats(const joint::FastenerSize& size) {
-    if (size.name == "M10") return 17.0 * mm;
-    if (size.name == "M12") return 19.0 * mm;
-    if (size.name == "M14") return 22.0 * mm;
-    if (size.name == "M22") return 32.0 * mm;
-    return size.across_flats;
-}
-
-// Returns the metric size that has this bolt's diameter over the crests and its width across flats; null if
-// there is none.
-const joint::FastenerSize* size_of(const PlacedFastener& bolt) {
-    const joint::FastenerSize& size = nearest_size(bolt.diameter);
-    if (std::abs(size.d - bolt.diameter) > diameter_slack(size)) return nullptr;
-    const auto fits = [&](double flats) { return std::abs(bolt.across_flats - flats) < flats_slack; };
-    return fits(size.across_flats) || fits(din_across_flats(size)) ? &size : nullptr;
-}
-
-// Nominal diameters of unified inch threads (ASME B1.1).
-constexpr std::array inch_diameters = {
-    std::pair{0.25, "1/4"},    std::pair{0.3125, "5/16"}, std::pair{0.375, "3/8"},
-    std::pair{0.4375, "7/16"}, std::pair{0.5, "1/2"},     std::pair{0.5625, "9/16"},
-    std::pair{0.625, "5/8"},   std::pair{0.75, "3/4"},    std::pair{0.875, "7/8"},
-    std::pair{1.0, "1"},       std::pair{1.125, "1 1/8"}, std::pair{1.25, "1 1/4"},
-    std::pair{1.375, "1 3/8"}, std::pair{1.5, "1 1/2"}};
-
-// Explains why size_of() returns null.
-std::string explain_size(const PlacedFastener& bolt) {
-    const joint::FastenerSize& size = nearest_size(bolt.diameter);
-    const double din = din_across_flats(size);
-    const std::string widths = din == size.across_flats
-                                   ? fmt::format("{:g} mm", size.across_flats / mm)
-                                   : fmt::format("{:g} or {:g} mm", size.across_flats / mm, din / mm);
-    std::string text = fmt::format(
-        "no metric size has both; expected {} with a cylinder {:.2f} to {:.2f} mm wide and a hexagon {} "
-        "across flats",
-        size.name, (size.d - diameter_slack(size)) / mm, (size.d + diameter_slack(size)) / mm, widths);
-    for (const auto& [inches, name] : inch_diameters)
-        if (std::abs(bolt.diameter - inches * 25.4 * mm) < 0.02 * mm)
-            text += fmt::format(" ({:.2f} mm is the inch thread {} in, which the joint laws do not cover)",
-                                bolt.diameter / mm, name);
-    return text;
-}
-
-// Returns the name of the thread. `hole`: diameter of the hole of the nut, m, which reveals a fine pitch by
-// D1 = d − 1.0825 P (ISO 68-1). Without a match the pitch is coarse.
-std::string thread_name(const joint::FastenerSize& size, double hole) {
-    const auto off = [&](double pitch) { return std::abs(size.d - 1.0825 * pitch - hole); };
-    double best = size.coarse_pitch;
-    for (const double fine : size.fine_pitches)
-        if (fine > 0.0 && off(fine) < 0.1 * mm && off(fine) + 0.1 * mm < off(best)) best = fine;
-    return best == size.coarse_pitch ? std::string(size.name)
-                                     : fmt::format("{}x{:g}", size.name, std::round(best / mm * 1e3) / 1e3);
-}
+constexpr double least_grip = 0.5 * mm;  // of a screw
 
 bool named_like_fastener(const std::string& name) {
     for (const char* pattern : {"*bolt*", "*screw*", "*nut*", "*hex*", "*stud*", "*fastener*", "*schraube*",
@@ -131,7 +67,15 @@ class JointFinder {
         for (const PlacedFastener& bolt : of_kind_[FastenerKind::bolt]) {
             const auto nut = nut_on(bolt);
             const auto tapped = nut ? std::nullopt : tapped_part_of(bolt);
-            const joint::FastenerSize* size = nut || tapped ? size_of(bolt) : nullptr;
+            if (tapped && tapped->face - bolt.low < least_grip) {
+                search_.remarks.push_back(fmt::format(
+                    "{}: is screwed into {} and clamps nothing; expected a part of at least {:g} mm "
+                    "under its head, and the tapped hole in another part",
+                    name_of(bolt.node), name_of(tapped->node), least_grip / mm));
+                continue;
+            }
+            const joint::FastenerSize* size =
+                nut || tapped ? size_of(bolt.diameter, bolt.across_flats) : nullptr;
             if (size == nullptr) {
                 unused_bolts_.push_back({bolt, nut, tapped.has_value()});
                 continue;
@@ -198,7 +142,8 @@ class JointFinder {
             search_.remarks.push_back(fmt::format(
                 "{}: looks like a bolt (cylinder {:.2f} mm, hexagon {:.2f} mm across flats), but {}",
                 name_of(bolt.node), bolt.diameter / mm, bolt.across_flats / mm,
-                unused.nut || unused.tapped ? explain_size(bolt) : explain_missing_nut(bolt)));
+                unused.nut || unused.tapped ? explain_size(bolt.diameter, bolt.across_flats)
+                                            : explain_missing_nut(bolt)));
             if (unused.nut) explained.insert(unused.nut->node);
         }
         for (const PlacedFastener& nut : placed_of(FastenerKind::nut))
@@ -346,10 +291,15 @@ class JointFinder {
         joint.bolt_length = bolt.high - head;
         joint.head_washers = washers_from(bolt, head, 1.0);
         joint.grip = tapped.face - head;
-        joint.engagement = std::min(bolt.high, tapped.bottom) - tapped.face;
+        // A screw that does not reach through the part engages with its whole end.
+        joint.engagement = bolt.high > tapped.bottom ? tapped.bottom - tapped.face : 0.0;
         joint.seat = bolt.origin + head * bolt.axis;
         find_members_of(bolt, joint, head, tapped.face);
         joint.group = group_of(joint);
+        if (tapped.nominal)
+            add_remark(joint,
+                       fmt::format("the hole in {} is as wide as the thread; it is taken for a tapped hole",
+                                   name_of(tapped.node)));
         return joint;
     }
 
