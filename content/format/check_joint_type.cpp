@@ -145,10 +145,10 @@ void check_stripping(const LayeredObject& layers, const JointType& type) {
     const joint::ScrewThread& thread = design.thread.thread;
     const double strip =
         joint::stripping_forces(thread, design.bolt_class, hole.material, hole.engagement).least();
-    const double clamp =
-        type.spec.torque.high / joint::torque_levers(thread, design.friction.thread, design.friction.bearing,
-                                                     design.bearing_diameter())
-                                    .tighten();
+    const double clamp = (type.spec.torque.high - design.prevailing_torque) /
+                         joint::torque_levers(thread, design.friction.thread, design.friction.bearing,
+                                              design.bearing_diameter())
+                             .tighten();
     if (strip >= clamp) return;
     const JsonNode engagement = layers.member_layers("tapped_hole").find("engagement_mm");
     const double share = clamp / (design.bolt_class.R_m * thread.A_s);
@@ -166,6 +166,7 @@ void check_stripping(const LayeredObject& layers, const JointType& type) {
 
 // Requires a bolt that is long enough.
 void check_thread_and_gap(const LayeredObject& layers, const joint::JointDesign& design) {
+    JsonReader& reader = layers.reader();
     if (layers.all_valid({"bolt_thread_length_mm"})) check_thread_length(layers, design);
     const JsonNode gap = layers.find("start_gap_mm");
     if (gap && design.start_gap > design.bolt_length - design.grip_length() + length_tolerance)

@@ -87,7 +87,7 @@ double tapped_limit(const JointTypeKey& type, const joint::ThreadSize& size, con
     for (const auto& [thickness, material] : type.members) engagement -= thickness;
     if (type.engagement > 0.0) engagement = std::min(engagement, type.engagement);
     engagement *= mm;
-    return 0.5 * joint::stripping_forces(size.thread, bolt, *part, type.engagement * mm).least() *
+    return 0.5 * joint::stripping_forces(size.thread, bolt, *part, engagement).least() *
            joint::torque_levers(size.thread, friction, friction, bearing).tighten();
 }
 

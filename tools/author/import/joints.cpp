@@ -142,8 +142,7 @@ class JointFinder {
             search_.remarks.push_back(fmt::format(
                 "{}: looks like a bolt (cylinder {:.2f} mm, hexagon {:.2f} mm across flats), but {}",
                 name_of(bolt.node), bolt.diameter / mm, bolt.across_flats / mm,
-                unused.nut || unused.tapped ? explain_size(bolt.diameter, bolt.across_flats)
-                                            : explain_missing_nut(bolt)));
+                unused.nut || unused.tapped ? explain_size(bolt.diameter) : explain_missing_nut(bolt)));
             if (unused.nut) explained.insert(unused.nut->node);
         }
         for (const PlacedFastener& nut : placed_of(FastenerKind::nut))

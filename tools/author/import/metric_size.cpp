@@ -47,7 +47,7 @@ const joint::FastenerSize* size_of(double diameter, double across_flats) {
     return fits(size.across_flats) || fits(din_across_flats(size)) ? &size : nullptr;
 }
 
-std::string explain_size(double diameter, double across_flats) {
+std::string explain_size(double diameter) {
     const joint::FastenerSize& size = nearest_size(diameter);
     const double din = din_across_flats(size);
     const std::string widths = din == size.across_flats
