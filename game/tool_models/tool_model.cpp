@@ -152,9 +152,11 @@ ToolParts parts_of(const ToolParameters& p, Detail detail) {
             return adaptor_parts(p, detail);
         case ToolKind::hex_bit:
             return hex_bit_parts(p, detail);
-        default:
-            return torque_wrench_parts(p, detail);
+        case ToolKind::torque_wrench:
+        case ToolKind::electronic_torque_wrench:
+            break;
     }
+    return torque_wrench_parts(p, detail);
 }
 
 assets::Model drawn_model(const ToolParameters& completed) {

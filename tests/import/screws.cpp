@@ -6,6 +6,7 @@
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <gp_Ax2.hxx>
@@ -26,7 +27,7 @@ struct Cover {
     double hole = 10.106;      // of the block; the core of M12
     double hole_depth = 30.0;  // of the block
     double screw = 40.0;       // length under the head
-    double cover = 16.0;       // thickness
+    double cover = 16.0;       // thickness; 0: no cover
     double across_flats = 18.0;
 };
 
@@ -41,13 +42,13 @@ void write_cover(const Cover& c, const std::filesystem::path& file) {
             .Shape();
     };
     const TDF_Label base = maker.part("housing", block(40.0, c.hole, 40.0 - c.hole_depth), "#2F5D62");
-    const TDF_Label cover = maker.part("cover", block(c.cover, 13.5, 0.0), "#C4C6C8");
+    const TDF_Label cover = maker.part("cover", block(std::max(c.cover, 1.0), 13.5, 0.0), "#C4C6C8");
     const TDF_Label screw = maker.part("screw", hexagon_bolt(12.0, c.across_flats, 7.5, c.screw), "#D5D9DC");
     const TDF_Label washer = maker.part("washer", ring(24.0, 13.0, 2.5), "#D5D9DC");
     gp_Trsf over;
     over.SetRotation(gp_Ax1(gp_Pnt(0.0, 0.0, 0.0), gp_Dir(1.0, 0.0, 0.0)), pi);
     maker.place(root, base, "housing");
-    maker.place(root, cover, "cover", moved(0.0, 0.0, 40.0));
+    if (c.cover > 0.0) maker.place(root, cover, "cover", moved(0.0, 0.0, 40.0));
     maker.place(root, washer, "washer", moved(0.0, 0.0, 40.0 + c.cover));
     maker.place(root, screw, "screw", moved(0.0, 0.0, 42.5 + c.cover) * over);
     maker.write(file);
@@ -113,6 +114,11 @@ TEST_CASE("Screws: a screw that clamps nothing, or engages too little, is no joi
     const Imported shallow = import_cover({.screw = 23.0, .cover = 16.0});
     REQUIRE_FALSE(shallow.remarks.empty());
     CHECK(shallow.draft.is_null());
+    const Imported bare = import_cover({.screw = 25.0, .cover = 0.0});
+    REQUIRE_FALSE(bare.remarks.empty());
+    CHECK(bare.remarks[0].find("screw: clamps nothing: 0.00 mm are between its head and housing") !=
+          std::string::npos);
+    CHECK(bare.draft.is_null());
     const Imported lost_nut = import_cover({.hole = 12.0, .hole_depth = 40.0, .screw = 80.0});
     CHECK(lost_nut.draft.is_null());
 }

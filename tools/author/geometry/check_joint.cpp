@@ -163,30 +163,47 @@ std::optional<double> head_underside(const JointCheck& s) {
     return top;
 }
 
-void check_members(const JointCheck& s) {
-    const auto& design = s.joint.design;
-    const double washer = design.washer_under_nut ? s.size().washer_outer : s.size().nut_bearing;
-    const double radius = 0.25 * (s.size().hole + washer);
-    const double grip = s.grip();
-    const double above = 0.5 * s.size().nut_height;
-    const auto top = find_face(s, radius, above, -1.0, above + grip);
+// The ring of rays that finds the faces under the turned part: its radius, and its height above them.
+struct FaceRing {
+    double radius = 0.0, above = 0.0;  // m
+};
+
+FaceRing face_ring(const JointCheck& s) {
+    const joint::TurnedPartSize part = joint::turned_part_size(s.joint.design);
+    const bool washer = s.joint.design.washer_under_turned() > 0.0;
+    return {0.25 * (s.size().hole + (washer ? s.size().washer_outer : part.bearing)), 0.5 * part.height};
+}
+
+// Returns the height of the member's face under the turned part, and reports a face away from position_mm;
+// nullopt after reporting that there is none.
+std::optional<double> check_face(const JointCheck& s, const FaceRing& ring) {
+    const auto top = find_face(s, ring.radius, ring.above, -1.0, ring.above + s.grip());
     if (!top) {
         s.error(fmt::format("no member is under the {} at position_mm", s.turned_name()),
                 "a face at position_mm");
-        return;
+        return std::nullopt;
     }
-    const double face = above - top->distance;
+    const double face = ring.above - top->distance;
     if (std::abs(face) > contact_tolerance)
         s.error(fmt::format("the face of {} under the {} is {:.2f} mm {} position_mm", s.name_of(top->part),
                             s.turned_name(), std::abs(face) / mm, face > 0.0 ? "beyond" : "below"),
                 "position_mm on the face");
-    const auto bottom = find_face(s, radius, -grip - above, 1.0, above + grip);
+    return face;
+}
+
+void check_members(const JointCheck& s) {
+    const FaceRing ring = face_ring(s);
+    const double grip = s.grip(), above = ring.above;
+    const bool nut_turned = s.joint.design.turned == joint::TurnedPart::nut;
+    const auto face = check_face(s, ring);
+    if (!face) return;
+    const auto bottom = find_face(s, ring.radius, -grip - above, 1.0, above + grip);
     const double measured = bottom ? grip + above - bottom->distance : 0.0;
-    if (!bottom || std::abs(measured + face - grip) > length_tolerance)
+    if (!bottom || std::abs(measured + *face - grip) > length_tolerance)
         s.error(bottom
                     ? fmt::format("the members measure {:.2f} mm in the model, and {:g} mm in the joint type",
-                                  (measured + face) / mm, grip / mm)
-                    : "no member is under the head",
+                                  (measured + *face) / mm, grip / mm)
+                    : fmt::format("no member is under the {}", nut_turned ? "head" : "nut"),
                 "both within 0.1 mm");
 }
 
@@ -290,25 +307,13 @@ void check_bolt(const JointCheck& s) {
 // the grip.
 void check_tapped_members(const JointCheck& s) {
     const auto& design = s.joint.design;
-    const joint::TurnedPartSize part = joint::turned_part_size(design);
-    const double outer = design.washer_under_turned() > 0.0 ? s.size().washer_outer : part.bearing;
-    const double radius = 0.25 * (s.size().hole + outer), grip = s.grip();
-    const double above = 0.5 * part.height;
-    const auto top = find_face(s, radius, above, -1.0, above + grip);
-    if (!top) {
-        s.error(fmt::format("no member is under the {} at position_mm", s.turned_name()),
-                "a face at position_mm");
-        return;
-    }
-    const double face = above - top->distance;
-    if (std::abs(face) > contact_tolerance)
-        s.error(fmt::format("the face of {} under the {} is {:.2f} mm {} position_mm", s.name_of(top->part),
-                            s.turned_name(), std::abs(face) / mm, face > 0.0 ? "beyond" : "below"),
-                "position_mm on the face");
+    const FaceRing ring = face_ring(s);
+    const double grip = s.grip();
+    if (!check_face(s, ring)) return;
     // From inside the last member to its far face, which lies on the tapped part.
     const bool stud = design.form == joint::JointForm::stud;
     const double inside = 0.5 * (stud ? design.members.front() : design.members.back()).thickness;
-    const auto bottom = find_face(s, radius, -grip + inside, -1.0, 2.0 * inside + grip);
+    const auto bottom = find_face(s, ring.radius, -grip + inside, -1.0, 2.0 * inside + grip);
     if (!bottom)
         s.error("no part with a tapped hole is behind the members", "a part whose face ends the grip");
     else if (std::abs(bottom->distance - inside) > length_tolerance)

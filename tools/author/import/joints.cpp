@@ -42,7 +42,7 @@ std::pair<double, double> along(const PlacedFastener& placed, const Vec3& origin
     return {std::min(a, b), std::max(a, b)};
 }
 
-constexpr double least_grip = 0.5 * mm;  // of a screw
+constexpr double least_grip = 0.5 * mm;  // the least thickness of a member in an assembly file
 
 bool named_like_fastener(const std::string& name) {
     for (const char* pattern : {"*bolt*", "*screw*", "*nut*", "*hex*", "*stud*", "*fastener*", "*schraube*",
@@ -50,6 +50,13 @@ bool named_like_fastener(const std::string& name) {
         if (matches(pattern, name)) return true;
     return false;
 }
+
+// The other end of a bolt: the nut on it, or the part that it is screwed into.
+struct BoltEnd {
+    std::optional<PlacedFastener> nut;
+    std::optional<TappedPart> tapped;
+    explicit operator bool() const { return nut || tapped; }
+};
 
 class JointFinder {
   public:
@@ -65,23 +72,15 @@ class JointFinder {
 
     JointSearchResult run() {
         for (const PlacedFastener& bolt : of_kind_[FastenerKind::bolt]) {
-            const auto nut = nut_on(bolt);
-            const auto tapped = nut ? std::nullopt : tapped_part_of(bolt);
-            if (tapped && tapped->face - bolt.low < least_grip) {
-                search_.remarks.push_back(fmt::format(
-                    "{}: is screwed into {} and clamps nothing; expected a part of at least {:g} mm "
-                    "under its head, and the tapped hole in another part",
-                    name_of(bolt.node), name_of(tapped->node), least_grip / mm));
-                continue;
-            }
-            const joint::FastenerSize* size =
-                nut || tapped ? size_of(bolt.diameter, bolt.across_flats) : nullptr;
+            BoltEnd end{nut_on(bolt), {}};
+            if (!end.nut) end.tapped = tapped_part_of(bolt);
+            const joint::FastenerSize* size = end ? size_of(bolt.diameter, bolt.across_flats) : nullptr;
             if (size == nullptr) {
-                unused_bolts_.push_back({bolt, nut, tapped.has_value()});
+                unused_bolts_.push_back({bolt, std::move(end)});
                 continue;
             }
-            if (nut) bolt_of_nut_[nut->node] = bolt.node;
-            search_.joints.push_back(nut ? make(bolt, *nut, *size) : make_screw(bolt, *tapped, *size));
+            if (end.nut) bolt_of_nut_[end.nut->node] = bolt.node;
+            if (auto joint = make(bolt, end, *size)) search_.joints.push_back(std::move(*joint));
         }
         explain_unused();
         assign_ids();
@@ -97,8 +96,7 @@ class JointFinder {
     std::map<int, int> bolt_of_nut_;  // nodes
     struct UnusedBolt {
         PlacedFastener bolt;
-        std::optional<PlacedFastener> nut;  // the nut on it, if the bolt's size is not metric
-        bool tapped = false;                // it is screwed into a part, and its size is not metric
+        BoltEnd end;  // empty, unless the bolt's size is not metric
     };
     std::vector<UnusedBolt> unused_bolts_;
 
@@ -142,8 +140,8 @@ class JointFinder {
             search_.remarks.push_back(fmt::format(
                 "{}: looks like a bolt (cylinder {:.2f} mm, hexagon {:.2f} mm across flats), but {}",
                 name_of(bolt.node), bolt.diameter / mm, bolt.across_flats / mm,
-                unused.nut || unused.tapped ? explain_size(bolt.diameter) : explain_missing_nut(bolt)));
-            if (unused.nut) explained.insert(unused.nut->node);
+                unused.end ? explain_size(bolt.diameter) : explain_missing_nut(bolt)));
+            if (unused.end.nut) explained.insert(unused.end.nut->node);
         }
         for (const PlacedFastener& nut : placed_of(FastenerKind::nut))
             if (!bolt_of_nut_.contains(nut.node) && !explained.contains(nut.node))
@@ -260,45 +258,43 @@ class JointFinder {
         return found;
     }
 
-    JointCandidate make(const PlacedFastener& bolt, const PlacedFastener& nut,
-                        const joint::FastenerSize& size) {
+    // Returns nullopt after a remark if the bolt clamps nothing.
+    std::optional<JointCandidate> make(const PlacedFastener& bolt, const BoltEnd& end,
+                                       const joint::FastenerSize& size) {
         JointCandidate joint;
         joint.bolt = bolt.node;
-        joint.nut = nut.node;
-        joint.axis = bolt.axis;
-        joint.size = thread_name(size, nut.diameter);
+        joint.bolt_length = bolt.high - bolt.low;
         double head = bolt.low;
-        double seat = along(nut, bolt.origin, bolt.axis).first;
-        joint.bolt_length = bolt.high - head;
+        double far = end.nut ? along(*end.nut, bolt.origin, bolt.axis).first : end.tapped->face;
         joint.head_washers = washers_from(bolt, head, 1.0);
-        joint.nut_washers = washers_from(bolt, seat, -1.0);
-        joint.grip = seat - head;
-        joint.seat = bolt.origin + seat * bolt.axis;
-        find_members_of(bolt, joint, head, seat);
+        if (end.nut) {
+            joint.nut = end.nut->node;
+            joint.axis = bolt.axis;
+            joint.size = thread_name(size, end.nut->diameter);
+            joint.nut_washers = washers_from(bolt, far, -1.0);
+        } else {
+            joint.tapped = end.tapped->node;
+            joint.axis = -bolt.axis;
+            joint.size = thread_name(size, end.tapped->hole);
+            // A screw that does not reach through the part engages with its whole end.
+            if (bolt.high > end.tapped->bottom) joint.engagement = end.tapped->bottom - end.tapped->face;
+        }
+        joint.grip = far - head;
+        joint.seat = bolt.origin + (end.nut ? far : head) * bolt.axis;
+        if (joint.grip < least_grip) {
+            add_remark(
+                joint,
+                fmt::format("clamps nothing: {:.2f} mm are between its head and {}; expected parts of at "
+                            "least {:g} mm between them",
+                            joint.grip / mm, name_of(end.nut ? joint.nut : joint.tapped), least_grip / mm));
+            return std::nullopt;
+        }
+        find_members_of(bolt, joint, head, far);
         joint.group = group_of(joint);
-        return joint;
-    }
-
-    JointCandidate make_screw(const PlacedFastener& bolt, const TappedPart& tapped,
-                              const joint::FastenerSize& size) {
-        JointCandidate joint;
-        joint.bolt = bolt.node;
-        joint.tapped = tapped.node;
-        joint.axis = -bolt.axis;
-        joint.size = thread_name(size, tapped.hole);
-        double head = bolt.low;
-        joint.bolt_length = bolt.high - head;
-        joint.head_washers = washers_from(bolt, head, 1.0);
-        joint.grip = tapped.face - head;
-        // A screw that does not reach through the part engages with its whole end.
-        joint.engagement = bolt.high > tapped.bottom ? tapped.bottom - tapped.face : 0.0;
-        joint.seat = bolt.origin + head * bolt.axis;
-        find_members_of(bolt, joint, head, tapped.face);
-        joint.group = group_of(joint);
-        if (tapped.nominal)
+        if (end.tapped && end.tapped->nominal)
             add_remark(joint,
                        fmt::format("the hole in {} is as wide as the thread; it is taken for a tapped hole",
-                                   name_of(tapped.node)));
+                                   name_of(joint.tapped)));
         return joint;
     }
 
