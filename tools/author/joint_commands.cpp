@@ -57,8 +57,9 @@ std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint
         highest_clamp = std::max(highest_clamp, s.clamp / 1e3);
     }
     const plot::AxisRange shown{torque.front().x, torque.back().x};
+    const char* const turned = joint.design.turned == joint::TurnedPart::head ? "head" : "nut";
     plot.x = {plot::degree_ticks(shown, 9),
-              tighten ? "nut angle from first contact, °" : "nut angle turned back, °"};
+              fmt::format("{} angle {}, °", turned, tighten ? "from first contact" : "turned back")};
     plot.y = {plot::covering_ticks(0.0, std::max(highest_torque, tighten ? joint.spec.torque.high : 0.0)),
               "torque, N·m"};
     plot.y2 = plot::PlotAxis{plot::covering_ticks(0.0, highest_clamp), "clamp, kN"};

@@ -343,10 +343,15 @@ class DraftWriter {
                           quoted(in_.title));
         out += fmt::format(
             "  \"lesson\": {{ \"en\": {} }},\n",
-            quoted(fmt::format(
-                "Assemble {}: run all {} {} down by hand, then tighten them in rounds to 30, 70 and "
-                "100 % of the target torque, and check every one again.",
-                in_.title, joints_.size(), turned_parts())));
+            quoted(
+                joints_.size() == 1
+                    ? fmt::format("Assemble {}: run the {} down by hand, then tighten it in rounds to 30, 70 "
+                                  "and 100 % of the target torque, and check it again.",
+                                  in_.title, has_screws() ? "screw" : "nut")
+                    : fmt::format(
+                          "Assemble {}: run all {} {} down by hand, then tighten them in rounds to 30, "
+                          "70 and 100 % of the target torque, and check every one again.",
+                          in_.title, joints_.size(), turned_parts())));
         out += fmt::format("  \"sources\": {},\n", quoted(sources()));
         for (const auto& [key, file] : {std::pair{"model", &in_.model}, std::pair{"model_far", &in_.far},
                                         std::pair{"contact_model", &in_.contact}})
