@@ -85,17 +85,17 @@ ToolParts hex_key_parts(const ToolParameters& p, Detail detail) {
     const double bend = std::max(1.5 * s, 3.0), top = tip + arms.arm / mm - flat;  // axis of the long arm
     const bool fine = detail == Detail::drawn;
     const double lead = 0.12 * s;
-    std::vector<Ring> rings;
+    std::vector<Loop> loops;
     // A section across the path in the plane y = 0; `angle`: of the path's direction from +Z towards +X.
     const auto add = [&](double x, double z, double angle, double scale) {
-        Ring ring;
+        Loop loop;
         for (int i = 0; i < 6; ++i) {
             // Two flats are perpendicular to the plane of the bend.
             const double at = pi / 6.0 + i * pi / 3.0, r = corner * scale;
             const double out = r * std::cos(at), side = r * std::sin(at);
-            ring.emplace_back(x + out * std::cos(angle), side, z - out * std::sin(angle));
+            loop.emplace_back(x + out * std::cos(angle), side, z - out * std::sin(angle));
         }
-        rings.push_back(std::move(ring));
+        loops.push_back(std::move(loop));
     };
     add(0.0, tip, 0.0, 1.0 - lead / corner);
     add(0.0, tip + 0.6 * lead, 0.0, 1.0);
@@ -107,7 +107,7 @@ ToolParts hex_key_parts(const ToolParameters& p, Detail detail) {
     const double end = p.length / mm;
     add(end - 0.6 * lead, top, 0.5 * pi, 1.0);
     add(end, top, 0.5 * pi, 1.0 - lead / corner);
-    ToolParts parts{{"key", Finish::black_oxide, {loft(rings)}}};
+    ToolParts parts{{"key", Finish::black_oxide, {loft(loops)}}};
     add_text(parts, size_text(s), 0.62 * s, bend + 0.35 * (end - bend), top + flat, detail);
     return parts;
 }
@@ -169,12 +169,12 @@ ToolParts ratchet_parts(double drive, int teeth, double low, double end, Detail 
     add_outside(head, low, low + high, radius, 0.12 * high, fine ? 5 : 2);
     ToolParts parts{{"drive", Finish::chrome_vanadium, {square_pin(low - 0.9 * drive, low + 1.0, drive)}},
                     {"head", Finish::chrome_vanadium, {lathe_z(head, fine ? 64 : 32)}}};
-    std::vector<Station> neck;
+    std::vector<HandleSection> neck;
     const double grip_from = 0.45 * end, grip_half = 0.85 * drive + 3.0;
     const int steps = fine ? 16 : 5;
     for (int i = 0; i <= steps; ++i) {
         const double t = static_cast<double>(i) / steps;
-        Station at;
+        HandleSection at;
         at.x = 0.55 * radius + (grip_from + 2.0 - 0.55 * radius) * t;
         at.z = z;
         at.half = radius * (0.52 + 0.3 * square(square(1.0 - t))) - 0.08 * radius * std::sin(pi * t);

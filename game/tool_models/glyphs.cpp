@@ -14,7 +14,7 @@ constexpr double slope_share = 0.4;                  // of half the stroke's wid
 
 // A stroke of constant width and round ends, from z0 to z1; its sides slope inwards.
 Shell stroke_shell(const std::vector<Vec2>& line, double half, double z0, double z1) {
-    std::vector<Ring> rings;
+    std::vector<Loop> loops;
     const auto add = [&](const Vec2& at, const Vec2& along, double wide) {
         const Vec2 left(-along.y, along.x);
         const double top = wide * (1.0 - slope_share);
@@ -22,7 +22,7 @@ Shell stroke_shell(const std::vector<Vec2>& line, double half, double z0, double
             const Vec2 p = at + out * left;
             return Vec3(p.x, p.y, z);
         };
-        rings.push_back({point(-wide, z0), point(wide, z0), point(top, z1), point(-top, z1)});
+        loops.push_back({point(-wide, z0), point(wide, z0), point(top, z1), point(-top, z1)});
     };
     const Vec2 first = glm::normalize(line[1] - line[0]);
     const Vec2 last = glm::normalize(line.back() - line[line.size() - 2]);
@@ -36,7 +36,7 @@ Shell stroke_shell(const std::vector<Vec2>& line, double half, double z0, double
     }
     add(line.back() + 0.7 * half * last, last, 0.72 * half);
     add(line.back() + 0.95 * half * last, last, 0.3 * half);
-    return loft(rings);
+    return loft(loops);
 }
 
 }  // namespace

@@ -35,18 +35,18 @@ OpenEndHead open_end_head(const ToolParameters& p);
 Shell open_end_shell(const OpenEndHead& head, double edge, Detail detail);
 
 // A handle in the plane y = 0 as a row of cross-sections with rounded edges.
-struct Station {
+struct HandleSection {
     double x = 0.0, z = 0.0;          // middle of the section
-    double pitch = 0.0;               // of the handle's direction above +X
+    double slope = 0.0;               // rad, of the handle above +X
     double half = 0.0, high = 0.0;    // half of the width and of the height
     double edge = 0.0;                // radius of the edges
     double end_angle = 0.0;           // of the outline's normal from the side to the end, at a round end
     double hollow = 0.0, deep = 0.0;  // half of the width and the depth of the hollows on both sides
 };
-Shell handle_shell(const std::vector<Station>& stations, Detail detail);
+Shell handle_shell(const std::vector<HandleSection>& sections, Detail detail);
 
 // Appends the sections of a round end: half a disc with the half width of `last`.
-void add_round_end(std::vector<Station>& stations, const Station& last, int steps);
+void add_round_end(std::vector<HandleSection>& sections, const HandleSection& last, int steps);
 
 struct RingHead {
     double opening = 0.0, outside = 0.0, thickness = 0.0;  // widths

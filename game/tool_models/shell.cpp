@@ -20,7 +20,7 @@ bool in_triangle(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& c) {
     return area(a, b, p) >= 0.0 && area(b, c, p) >= 0.0 && area(c, a, p) >= 0.0;
 }
 
-// Joins two rings by quadrangles, each divided along its shorter diagonal.
+// Joins two loops by quadrangles, each divided along its shorter diagonal.
 void join(Shell& shell, std::size_t below, std::size_t above, std::size_t size) {
     for (std::size_t k = 0; k < size; ++k) {
         const std::size_t next = (k + 1) % size;
@@ -37,18 +37,18 @@ void join(Shell& shell, std::size_t below, std::size_t above, std::size_t size) 
     }
 }
 
-// The ring in its own plane (Newell's normal), seen against the normal.
-std::vector<Vec2> flattened(std::span<const Vec3> ring) {
+// The loop in its own plane (Newell's normal), seen against the normal.
+std::vector<Vec2> flattened(std::span<const Vec3> loop) {
     Vec3 normal(0.0);
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Vec3 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-        normal += glm::cross(a - ring[0], b - ring[0]);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec3 &a = loop[i], &b = loop[(i + 1) % loop.size()];
+        normal += glm::cross(a - loop[0], b - loop[0]);
     }
     normal = glm::normalize(normal);
     const Vec3 least = std::abs(normal.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
     const Vec3 u = glm::normalize(glm::cross(least, normal)), v = glm::cross(normal, u);
     std::vector<Vec2> flat;
-    for (const Vec3& p : ring) flat.emplace_back(glm::dot(p - ring[0], u), glm::dot(p - ring[0], v));
+    for (const Vec3& p : loop) flat.emplace_back(glm::dot(p - loop[0], u), glm::dot(p - loop[0], v));
     return flat;
 }
 
@@ -61,17 +61,17 @@ void cap(Shell& shell, std::size_t first, std::size_t size, bool reversed) {
     }
 }
 
-Shell joined(const std::vector<Ring>& rings, bool closed) {
+Shell joined(const std::vector<Loop>& loops, bool closed) {
     Shell shell;
-    const std::size_t size = rings.front().size();
-    for (const Ring& ring : rings) shell.points.insert(shell.points.end(), ring.begin(), ring.end());
-    for (std::size_t i = 0; i + 1 < rings.size(); ++i) join(shell, i * size, (i + 1) * size, size);
+    const std::size_t size = loops.front().size();
+    for (const Loop& loop : loops) shell.points.insert(shell.points.end(), loop.begin(), loop.end());
+    for (std::size_t i = 0; i + 1 < loops.size(); ++i) join(shell, i * size, (i + 1) * size, size);
     if (closed) {
-        join(shell, (rings.size() - 1) * size, 0, size);
+        join(shell, (loops.size() - 1) * size, 0, size);
         return shell;
     }
     cap(shell, 0, size, true);
-    cap(shell, (rings.size() - 1) * size, size, false);
+    cap(shell, (loops.size() - 1) * size, size, false);
     return shell;
 }
 
@@ -110,8 +110,8 @@ std::vector<Triangle> triangulate(std::span<const Vec2> polygon) {
     return triangles;
 }
 
-Shell loft(const std::vector<Ring>& rings) { return joined(rings, false); }
-Shell closed_loft(const std::vector<Ring>& rings) { return joined(rings, true); }
+Shell loft(const std::vector<Loop>& loops) { return joined(loops, false); }
+Shell closed_loft(const std::vector<Loop>& loops) { return joined(loops, true); }
 
 void add_arc(std::vector<OutlinePoint>& outline, const Vec2& middle, double radius, double from, double to,
              int steps, double edge) {
@@ -131,20 +131,20 @@ Shell plate(std::span<const OutlinePoint> outline, double low, double high, int 
         const Vec2 a(-in.y, in.x), b(-out.y, out.x);
         inward[i] = (a + b) / std::max(0.3, 1.0 + glm::dot(a, b));
     }
-    std::vector<Ring> rings;
+    std::vector<Loop> loops;
     const auto add_ring = [&](double face, double up, int step) {
         const double angle = 0.5 * pi * step / steps;
-        Ring ring;
+        Loop loop;
         for (std::size_t i = 0; i < n; ++i) {
             const double edge = outline[i].edge;
             const Vec2 p = outline[i].at + edge * (1.0 - std::sin(angle)) * inward[i];
-            ring.emplace_back(p.x, p.y, face - up * edge * (1.0 - std::cos(angle)));
+            loop.emplace_back(p.x, p.y, face - up * edge * (1.0 - std::cos(angle)));
         }
-        rings.push_back(std::move(ring));
+        loops.push_back(std::move(loop));
     };
     for (int i = 0; i <= steps; ++i) add_ring(low, -1.0, i);
     for (int i = steps; i >= 0; --i) add_ring(high, 1.0, i);
-    return loft(rings);
+    return loft(loops);
 }
 
 Shell block(const Vec3& low, const Vec3& high, double corner, double edge, int steps) {
@@ -160,19 +160,19 @@ namespace {
 
 enum class LatheAxis : std::uint8_t { x, z };
 
-std::vector<Ring> turned_rings(std::span<const ProfilePoint> profile, int segments, LatheAxis axis) {
-    std::vector<Ring> rings;
+std::vector<Loop> turned_loops(std::span<const ProfilePoint> profile, int segments, LatheAxis axis) {
+    std::vector<Loop> loops;
     for (const ProfilePoint& p : profile) {
-        Ring ring;
+        Loop loop;
         for (int k = 0; k < segments; ++k) {
             const double angle = 2.0 * pi * k / segments;
             const double r = p.shape ? p.shape(angle, p.radius) : p.radius;
             const double c = r * std::cos(angle), s = r * std::sin(angle);
-            ring.push_back(axis == LatheAxis::z ? Vec3(c, s, p.along) : Vec3(p.along, c, s));
+            loop.push_back(axis == LatheAxis::z ? Vec3(c, s, p.along) : Vec3(p.along, c, s));
         }
-        rings.push_back(std::move(ring));
+        loops.push_back(std::move(loop));
     }
-    return rings;
+    return loops;
 }
 
 // The radius of a regular polygon with `sides` sides, one of which is perpendicular to the direction 0.
@@ -183,15 +183,15 @@ double polygon_radius(double angle, double radius, int sides) {
 }  // namespace
 
 Shell lathe_z(std::span<const ProfilePoint> profile, int segments) {
-    return loft(turned_rings(profile, segments, LatheAxis::z));
+    return loft(turned_loops(profile, segments, LatheAxis::z));
 }
 
 Shell lathe_x(std::span<const ProfilePoint> profile, int segments) {
-    return loft(turned_rings(profile, segments, LatheAxis::x));
+    return loft(turned_loops(profile, segments, LatheAxis::x));
 }
 
 Shell closed_lathe_z(std::span<const ProfilePoint> profile, int segments) {
-    return closed_loft(turned_rings(profile, segments, LatheAxis::z));
+    return closed_loft(turned_loops(profile, segments, LatheAxis::z));
 }
 
 double hexagon_radius(double angle, double radius) { return polygon_radius(angle, radius, 6); }

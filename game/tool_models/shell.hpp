@@ -1,4 +1,4 @@
-// Closed triangle meshes that are built from rings of points: lofts, plates with rounded edges and turned
+// Closed triangle meshes that are built from loops of points: lofts, plates with rounded edges and turned
 // parts. The triangles are counterclockwise seen from outside, and each edge has two of them. Millimetres.
 #pragma once
 
@@ -21,13 +21,13 @@ struct Shell {
 };
 
 // A closed curve; counterclockwise as seen against the direction in which a loft advances.
-using Ring = std::vector<Vec3>;
+using Loop = std::vector<Vec3>;
 
-// Joins rings of equal size in their order and closes both ends with caps.
-Shell loft(const std::vector<Ring>& rings);
+// Joins loops of equal size in their order and closes both ends with caps.
+Shell loft(const std::vector<Loop>& loops);
 
-// The same without caps: the last ring is joined to the first, as in a torus.
-Shell closed_loft(const std::vector<Ring>& rings);
+// The same without caps: the last loop is joined to the first, as in a torus.
+Shell closed_loft(const std::vector<Loop>& loops);
 
 // Returns the triangles of a simple polygon whose corners are counterclockwise.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec2> polygon);
@@ -48,13 +48,13 @@ Shell plate(std::span<const OutlinePoint> outline, double low, double high, int 
 // A rectangular plate with rounded corners and edges.
 Shell block(const Vec3& low, const Vec3& high, double corner, double edge, int steps);
 
-// The distance of a ring's point from its axis, from the angle (rad) and the radius of the profile there.
-using RingRadius = std::function<double(double angle, double radius)>;
+// The distance of a loop's point from its axis, from the angle (rad) and the radius of the profile there.
+using RadiusOfAngle = std::function<double(double angle, double radius)>;
 
 // A point of a turned part's profile: along the axis and from the axis. `shape` replaces the circle.
 struct ProfilePoint {
     double along = 0.0, radius = 0.0;
-    RingRadius shape = {};
+    RadiusOfAngle shape = {};
 };
 
 // Turned parts about Z and about X. The profile may run along the outside, over a rim and down a bore: the

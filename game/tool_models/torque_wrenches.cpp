@@ -50,10 +50,10 @@ Shell knurled_x(double from, double to, double radius, double depth, int teeth, 
 ToolPart insert_part(const OpenEndHead& head, double end, Detail detail) {
     const double edge = std::min(1.6, 0.2 * head.thickness), half = std::min(14.0, 0.8 * head.radius);
     const double from = std::min(head.slot_end() + 0.06 * head.size, 0.8 * head.radius);
-    std::vector<Station> shank;
+    std::vector<HandleSection> shank;
     const int steps = detail == Detail::drawn ? 12 : 4;
     for (int i = 0; i <= steps; ++i) {
-        Station at;
+        HandleSection at;
         at.x = from + (end + 6.0 - from) * i / steps;
         const double spread = std::max(0.0, 1.0 - (at.x - from) / (head.radius + 6.0 - from));
         at.half = half + (std::min(0.75 * head.radius, half + 8.0) - half) * square(spread);
@@ -129,7 +129,7 @@ Shell grip_shell(double from, double to, Detail detail) {
         const double near = std::abs(std::remainder(angle * 16.0 / (2.0 * pi), 1.0)) / 0.25;
         return r - (near < 1.0 ? 0.9 * (1.0 - near * near) : 0.0);
     };
-    const RingRadius shape = fine ? RingRadius(flutes) : RingRadius{};
+    const RadiusOfAngle shape = fine ? RadiusOfAngle(flutes) : RadiusOfAngle{};
     return lathe_x(std::vector<ProfilePoint>{{from, 14.5},
                                              {from + 0.5, 15.6},
                                              {from + 1.6, 16.0},

@@ -97,10 +97,10 @@ Shell open_end_shell(const OpenEndHead& h, double edge, Detail detail) {
     return moved(flat, [&](const Vec3& p) { return rotated(p, h.angle); });
 }
 
-Shell handle_shell(const std::vector<Station>& stations, Detail detail) {
+Shell handle_shell(const std::vector<HandleSection>& sections, Detail detail) {
     const int steps = detail == Detail::drawn ? 4 : 2;
-    std::vector<Ring> rings;
-    for (const Station& s : stations) {
+    std::vector<Loop> loops;
+    for (const HandleSection& s : sections) {
         // A quarter of the section: out to the side, up, and back from the outline along the handle.
         struct SectionPoint {
             double side, up, back;
@@ -119,31 +119,31 @@ Shell handle_shell(const std::vector<Station>& stations, Detail detail) {
         } bowl[] = {{0.0, 0.0}, {0.2, 0.12}, {0.5, 0.5}, {0.8, 0.88}, {1.0, 1.0}};
         for (const auto& [out, down] : bowl)
             quarter.push_back({rim - out * slope, s.high - down * s.deep, e * b});
-        Ring ring;
-        const double along_x = std::cos(s.pitch), along_z = std::sin(s.pitch);
+        Loop loop;
+        const double along_x = std::cos(s.slope), along_z = std::sin(s.slope);
         const auto add = [&](const SectionPoint& q, double side, double up) {
-            ring.emplace_back(s.x - along_x * q.back - along_z * up * q.up, side * q.side,
+            loop.emplace_back(s.x - along_x * q.back - along_z * up * q.up, side * q.side,
                               s.z - along_z * q.back + along_x * up * q.up);
         };
         for (const auto& q : quarter) add(q, 1.0, 1.0);
         for (auto q = quarter.rbegin(); q != quarter.rend(); ++q) add(*q, -1.0, 1.0);
         for (std::size_t i = 1; i < quarter.size(); ++i) add(quarter[i], -1.0, -1.0);
         for (std::size_t i = quarter.size() - 1; i > 0; --i) add(quarter[i], 1.0, -1.0);
-        rings.push_back(std::move(ring));
+        loops.push_back(std::move(loop));
     }
-    return loft(rings);
+    return loft(loops);
 }
 
-void add_round_end(std::vector<Station>& stations, const Station& last, int steps) {
+void add_round_end(std::vector<HandleSection>& sections, const HandleSection& last, int steps) {
     constexpr double final_angle = 1.48;  // the end is closed by a narrow cap
     for (int i = 1; i <= steps; ++i) {
-        Station s = last;
+        HandleSection s = last;
         s.end_angle = final_angle * i / steps;
         s.half = last.half * std::cos(s.end_angle);
-        s.x += std::cos(last.pitch) * last.half * std::sin(s.end_angle);
-        s.z += std::sin(last.pitch) * last.half * std::sin(s.end_angle);
+        s.x += std::cos(last.slope) * last.half * std::sin(s.end_angle);
+        s.z += std::sin(last.slope) * last.half * std::sin(s.end_angle);
         s.hollow = s.deep = 0.0;
-        stations.push_back(s);
+        sections.push_back(s);
     }
 }
 
@@ -178,8 +178,8 @@ namespace {
 
 // The sections of a forged handle from a head of the radius R about the origin to x = `end`: a neck that is
 // rounded into the head, then waisted sides with a hollow on both faces.
-std::vector<Station> forged_handle(const ToolParameters& p, double from, double R, double head_high,
-                                   double end, Detail detail) {
+std::vector<HandleSection> forged_handle(const ToolParameters& p, double from, double R, double head_high,
+                                         double end, Detail detail) {
     const double s = p.size / mm;
     const HandleSize size = handle_size(s);
     const bool fine = detail == Detail::drawn;
@@ -198,9 +198,9 @@ std::vector<Station> forged_handle(const ToolParameters& p, double from, double 
     for (int i = 1; i <= body; ++i) xs.push_back(body_from + (body_to - body_from) * i / body);
     for (int i = 1; i <= run_in; ++i) xs.push_back(hollow_to - ramp + ramp * i / run_in);
     if (fine) xs.push_back(end);
-    std::vector<Station> stations;
+    std::vector<HandleSection> sections;
     for (const double x : xs) {
-        Station at;
+        HandleSection at;
         at.x = x;
         at.half = waisted(size.half, x / end);
         if (x < neck_end) {
@@ -218,9 +218,9 @@ std::vector<Station> forged_handle(const ToolParameters& p, double from, double 
             at.hollow = (at.half - 0.34 * size.half) * std::max(0.25, std::sqrt(1.0 - square(1.0 - share)));
             at.deep = deep * smooth_step(2.5 * share);
         }
-        stations.push_back(at);
+        sections.push_back(at);
     }
-    return stations;
+    return sections;
 }
 
 // The size and the steel, raised in the hollows of a forged handle.
@@ -240,13 +240,13 @@ ToolParts open_end_parts(const ToolParameters& p, Detail detail) {
     const OpenEndHead head = open_end_head(p);
     const HandleSize size = handle_size(head.size);
     const double round_end = waisted(size.half, 1.0), end = p.length / mm - round_end;
-    std::vector<Station> stations =
+    std::vector<HandleSection> sections =
         forged_handle(p, std::min(head.slot_end() + 0.06 * head.size, 0.8 * head.radius), head.radius,
                       0.5 * head.thickness, end, detail);
-    const Station last = stations.back();
-    add_round_end(stations, last, detail == Detail::drawn ? 10 : 4);
+    const HandleSection last = sections.back();
+    add_round_end(sections, last, detail == Detail::drawn ? 10 : 4);
     ToolParts parts{{"head", Finish::chrome_vanadium, {open_end_shell(head, 0.42 * size.high, detail)}},
-                    {"handle", Finish::chrome_vanadium, {handle_shell(stations, detail)}}};
+                    {"handle", Finish::chrome_vanadium, {handle_shell(sections, detail)}}};
     add_forged_texts(parts, p, neck_texts_from(p, head.radius), end - size.half, detail);
     return parts;
 }
@@ -278,23 +278,23 @@ ToolParts ring_parts(const ToolParameters& p, Detail detail) {
     const int bends = fine ? 18 : 6, body = fine ? 14 : 4;
     for (int i = 1; i <= bends; ++i) xs.push_back(crank_from + crank * i / bends);
     for (int i = 1; i <= body; ++i) xs.push_back(crank_from + crank + (end - crank_from - crank) * i / body);
-    std::vector<Station> stations;
+    std::vector<HandleSection> sections;
     for (const double x : xs) {
         const double t = std::clamp((x - crank_from) / crank, 0.0, 1.0);
-        Station at;
+        HandleSection at;
         at.x = x;
         at.z = lift * smooth_step(t);
-        at.pitch = std::atan(lift / crank * 6.0 * t * (1.0 - t));
+        at.slope = std::atan(lift / crank * 6.0 * t * (1.0 - t));
         at.half = half * (1.0 + 0.12 * smooth_step((x - crank_from - crank) / (end - crank_from - crank)) +
                           0.15 * (1.0 - smooth_step((x - from) / (crank_from + crank - from))));
         at.high = 0.3 * ring.thickness + (1.35 * size.high - 0.3 * ring.thickness) * smooth_step(t);
         at.edge = 0.6 * std::min(at.high, at.half);
-        stations.push_back(at);
+        sections.push_back(at);
     }
-    const Station last = stations.back();
-    add_round_end(stations, last, fine ? 10 : 4);
+    const HandleSection last = sections.back();
+    add_round_end(sections, last, fine ? 10 : 4);
     ToolParts parts{{"ring", Finish::chrome_vanadium, {ring_shell(ring, detail)}},
-                    {"handle", Finish::chrome_vanadium, {handle_shell(stations, detail)}}};
+                    {"handle", Finish::chrome_vanadium, {handle_shell(sections, detail)}}};
     const double first = crank_from + crank, height = 0.75 * half;
     if (end - first > 8.0 * height) {
         const double top = lift + 1.35 * size.high;
@@ -313,13 +313,13 @@ ToolParts combination_parts(const ToolParameters& p, Detail detail) {
     const double c = std::cos(ring_tilt),
                  middle = p.length / mm - c * R - 0.5 * ring.thickness * std::sin(ring_tilt);
     const double end = middle - c * R + 0.3 * (R - bore);
-    std::vector<Station> stations =
+    std::vector<HandleSection> sections =
         forged_handle(p, std::min(head.slot_end() + 0.06 * head.size, 0.8 * head.radius), head.radius,
                       0.5 * head.thickness, end, detail);
     // The ring's near rim is at the height of the handle.
     const double z = R * std::sin(ring_tilt);
     ToolParts parts{{"head", Finish::chrome_vanadium, {open_end_shell(head, 0.42 * size.high, detail)}},
-                    {"handle", Finish::chrome_vanadium, {handle_shell(stations, detail)}},
+                    {"handle", Finish::chrome_vanadium, {handle_shell(sections, detail)}},
                     {"ring", Finish::chrome_vanadium, {placed_ring(ring, middle, z, -ring_tilt, detail)}}};
     add_forged_texts(parts, p, neck_texts_from(p, head.radius), end - size.half, detail);
     return parts;

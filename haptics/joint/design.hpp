@@ -32,8 +32,8 @@ struct Member {
 // How the bolt holds the members together.
 enum class JointForm : std::uint8_t {
     through_bolt,  // head and nut
-    tapped_hole,   // a screw in the thread of the last member's base
-    stud           // a stud in that thread, with a nut
+    tapped_hole,   // a screw in the thread of the part behind the members
+    stud           // a stud in such a thread, with a nut
 };
 
 enum class HeadShape : std::uint8_t { hexagon, socket };  // ISO 4014/4017; ISO 4762

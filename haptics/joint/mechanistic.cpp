@@ -235,8 +235,8 @@ void derive_insert(const JointDesign& design, MechanisticParameters& p) {
     const LockingNut* const nut = design.locking_insert ? locking_nut(design.thread.size.name) : nullptr;
     if (!nut) return;
     const double at_seat = design.bolt_length - design.grip_length();  // m of the bolt above the seat
-    const double turned = design.start_gap + 2.0 / 3.0 * nut->height - at_seat;
-    p.insert_angle = std::max(turned / p.levers.lead, 1e-9);
+    const double travel = design.start_gap + 2.0 / 3.0 * nut->height - at_seat;
+    p.insert_angle = std::max(travel / p.levers.lead, 1e-9);
     p.insert_ramp = 3.0 * p.thread.pitch / p.levers.lead;
     p.insert_wear = std::pow(nut->least_off_5th / nut->least_off, 0.25);
 }

@@ -26,9 +26,9 @@ struct JointCandidate {
     double engagement = 0.0;   // m of a screw in that part; 0: its whole end
     std::vector<int> head_washers, nut_washers;
     std::vector<ClampedMember> members;  // from head to nut or tapped part
+    int group = -1;                      // node joint_ID
 
     [[nodiscard]] bool is_screw() const { return tapped >= 0; }
-    int group = -1;  // node joint_ID
 };
 
 struct JointSearchResult {
