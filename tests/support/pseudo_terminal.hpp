@@ -38,13 +38,19 @@ class PseudoTerminal {
     void send(std::string_view text) const {
         [[maybe_unused]] const ssize_t n = write(master_, text.data(), text.size());
     }
-    // Bytes that the driver wrote since the last call; waits up to 100 ms for the first of them.
-    [[nodiscard]] std::string received() const {
+    // Reads until the driver has written `text`. The kernel passes bytes on later and in pieces. Returns
+    // false after 10 s without a byte, which only ends a test that hangs.
+    [[nodiscard]] bool receives(std::string_view text) const {
+        std::string received;
         pollfd wait{master_, POLLIN, 0};
-        poll(&wait, 1, 100);
-        std::array<char, 4096> bytes{};
-        const ssize_t n = read(master_, bytes.data(), bytes.size());
-        return {bytes.data(), n > 0 ? static_cast<std::size_t>(n) : 0};
+        while (received.find(text) == std::string::npos) {
+            std::array<char, 4096> bytes{};
+            if (poll(&wait, 1, 10'000) <= 0) return false;
+            const ssize_t n = read(master_, bytes.data(), bytes.size());
+            if (n <= 0) return false;
+            received.append(bytes.data(), static_cast<std::size_t>(n));
+        }
+        return true;
     }
     void unplug() {
         for (int* file : {&keep_, &master_}) {
