@@ -73,13 +73,24 @@ struct Pass {
     std::vector<std::size_t> order;  // indices into joints
 };
 
+enum class ToolKind : std::uint8_t { open_end_wrench, ring_wrench, hex_key, ratchet, click_torque_wrench };
+
+// The part of a ratchet or a torque wrench that grips; the other kinds have one of their own.
+enum class ToolHead : std::uint8_t { open_end, ring, socket, hex_key, hex_bit };
+
 struct WrenchDesign {
-    double jaw = 0.0;             // m, opening
+    ToolKind kind = ToolKind::open_end_wrench;
+    ToolHead head = ToolHead::open_end;
+    // m. `jaw`: opening of an open end. `size`: width across flats that any other tool is made for.
+    double jaw = 0.0, size = 0.0;
+    int teeth = 0;           // of a ratchet; 0: none
+    bool loosens = false;    // position of the ratchet's lever; not in the file: the lesson's task decides
+    double extension = 0.0;  // m, length of the bar between ratchet and socket or bit; 0: none
     double head_thickness = 0.0;  // m; 0, here and below: not given (defaults in haptics/collision/jaw.hpp)
     double jaw_depth = 0.0;       // m, from the middle of the jaw to its throat
     double jaw_tip = 0.0;         // m, from the middle of the jaw to its tips
     double head_angle = 0.0;      // rad, between jaw and handle
-    double handle_length = 0.0;   // m, from the middle of the jaw to the grip
+    double handle_length = 0.0;   // m, from the bolt's axis to the grip
     std::string model;            // path of its .glb; empty: none
     // Click-type torque wrenches only; 0 for other tools.
     double click_swing = 0.0;     // rad that the handle swings when it clicks

@@ -13,96 +13,7 @@ namespace bolt::content {
 
 namespace {
 
-constexpr double max_jaw_play = 0.6e-3;  // m, of a jaw on a nut
-constexpr double default_head_angle = to_radians(15.0);
-constexpr std::string_view click_tool_kind = "click_torque_wrench", default_tool_name = "wrench";
-constexpr double default_click_swing_deg = 4.0;
-constexpr double default_accuracy_percent = 4.0;  // ISO 6789-1: type II, class A, above 10 N·m
 constexpr double default_field_of_view = to_radians(40.0);
-
-std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode& node) {
-    for (const char* language : {"en", "de", "zh"})
-        reader.member(node, language);  // known names; other codes are accepted too
-    return reader.texts(node);
-}
-
-// Reads the members of a click-type torque wrench. On another tool they are an error.
-void read_click(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wrench) {
-    const bool clicks = tool.text("kind").value_or("") == click_tool_kind;
-    const auto swing = tool.number("click_swing_deg"), accuracy = tool.number("accuracy_percent");
-    for (const auto& value : {swing, accuracy})
-        if (value && !clicks && tool.all_valid({"kind"}))
-            reader.report(value.pointer, "only a torque wrench clicks",
-                          fmt::format("the kind {}, or no such value", in_quotes(click_tool_kind)));
-    if (!clicks) return;
-    wrench.click_swing = to_radians(swing.value_or(default_click_swing_deg));
-    wrench.click_accuracy = accuracy.value_or(default_accuracy_percent) / 100.0;
-}
-
-WrenchDesign read_tool(JsonReader& reader, const JsonNode& node, const std::vector<AssemblyJoint>& joints) {
-    const LayeredObject tool(reader, {node});
-    WrenchDesign wrench;
-    read_click(reader, tool, wrench);
-    wrench.head_angle = default_head_angle;
-    if (const auto angle = tool.number("head_angle_deg")) wrench.head_angle = to_radians(*angle);
-    wrench.handle_length = tool.number("handle_length_mm").value_or(0.0) * mm;
-    wrench.head_thickness = tool.number("head_thickness_mm").value_or(0.0) * mm;
-    const auto depth = tool.number("jaw_depth_mm"), tip = tool.number("jaw_tip_mm");
-    wrench.jaw_depth = depth.value_or(0.0) * mm;
-    wrench.jaw_tip = tip.value_or(0.0) * mm;
-    // The bottom of the jaw must leave room for a corner, and its tips must reach beyond the ends of the
-    // flats.
-    double widest = 0.0;
-    for (const AssemblyJoint& joint : joints)
-        if (const auto part = joint::turned_part_size(joint.design); part.depth <= 0.0)
-            widest = std::max(widest, part.across_flats);
-    const auto too_short = [&](const auto& value, double share, const char* what) {
-        if (!value || *value * mm >= share * widest - 1e-9) return;
-        reader.report(
-            value.pointer,
-            fmt::format("{} of {:g} mm is too short for {:g} mm across flats", what, *value, widest / mm),
-            fmt::format("at least {:.2f} mm", share * widest / mm));
-    };
-    too_short(depth, 1.0 / std::sqrt(3.0), "a jaw depth");
-    too_short(tip, 1.0 / std::sqrt(12.0), "a jaw tip");
-    const auto jaw = tool.number("jaw_mm");
-    wrench.jaw = jaw.value_or(0.0) * mm;
-    if (!jaw) return wrench;
-    for (const AssemblyJoint& joint : joints) {
-        const joint::FastenerSize& size = joint.design.thread.size;
-        const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
-        const double s = part.across_flats;
-        if (part.depth > 0.0) continue;  // a key turns it
-        if (s <= 0.0 || (wrench.jaw > s - 1e-9 && wrench.jaw < s + max_jaw_play + 1e-9)) continue;
-        reader.report(
-            jaw.pointer,
-            fmt::format("a jaw of {:g} mm does not fit {}, {:g} mm across flats", *jaw, size.name, s / mm),
-            fmt::format("{:g} to {:g} mm", s / mm, (s + max_jaw_play) / mm));
-        break;
-    }
-    return wrench;
-}
-
-// The default tool, then the alternatives.
-std::vector<Tool> read_tools(JsonReader& reader, const std::vector<AssemblyJoint>& joints,
-                             const ModelFolders& folders) {
-    std::vector<Tool> tools;
-    const auto read = [&](std::string name, const JsonNode& node) {
-        Tool tool{std::move(name), read_texts(reader, reader.member(node, "title")),
-                  read_tool(reader, node, joints)};
-        tool.wrench.model = read_tool_model(reader, node, folders);
-        tools.push_back(std::move(tool));
-    };
-    read(std::string(default_tool_name), reader.member(reader.root(), "tool"));
-    for (const JsonNode& node : reader.items(reader.member(reader.root(), "more_tools"))) {
-        const std::string name = last_token(node.pointer);
-        if (name == default_tool_name)
-            reader.report(node.pointer, fmt::format("{} is the name of \"tool\"", in_quotes(name)),
-                          "another name", JsonPart::key);
-        read(name, node);
-    }
-    return tools;
-}
 
 FlangeDesign read_flange(JsonReader& reader) {
     const LayeredObject file(reader, {reader.member(reader.root(), "flange")});
@@ -257,6 +168,12 @@ std::string read_file_name(JsonReader& reader, const JsonNode& node, const fs::p
 }
 
 }  // namespace
+
+std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode& node) {
+    for (const char* language : {"en", "de", "zh"})
+        reader.member(node, language);  // known names; other codes are accepted too
+    return reader.texts(node);
+}
 
 ModelFiles read_model_files(JsonReader& reader, const ModelFolders& folders) {
     const auto read = [&](std::string_view key) {

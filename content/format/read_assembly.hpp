@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "content/format/assembly.hpp"
 #include "content/format/reader.hpp"
@@ -24,6 +27,11 @@ std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& va
 double smallest_pass_fraction(JsonReader& reader);
 std::vector<Pass> read_passes(JsonReader& reader, const std::vector<AssemblyJoint>& joints);
 ModelFiles read_model_files(JsonReader& reader, const ModelFolders& folders);
+// Texts by language: the members of an object.
+std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode& object);
+// The default tool, then the alternatives.
+std::vector<Tool> read_tools(JsonReader& reader, const std::vector<AssemblyJoint>& joints,
+                             const ModelFolders& folders);
 std::string read_tool_model(JsonReader& reader, const JsonNode& tool, const ModelFolders& folders);
 
 }  // namespace bolt::content

@@ -51,8 +51,8 @@ Result<ReplayScene> make_replay_scene(gpu::Device& device, const scene::LessonMo
     replay.postures =
         scene::make_postures(start.state.tool_contact ? &start.state.tool_contact->wrench : nullptr,
                              start.setup.wrench.handle_length, hand, scene::widest_nut(start.setup));
-    replay.workplace.world.only<world::WorkingHand>().rest =
-        scene::wrench_rest_pose(replay.workplace.workpiece, start.setup.wrench.jaw.thickness, hand);
+    replay.workplace.world.only<world::WorkingHand>().rest = scene::wrench_rest_pose(
+        replay.workplace.workpiece, collision::thickness(start.setup.wrench.head), hand);
     replay.shoulder = scene::shoulder_position(replay.workplace.workpiece, {hand, std::nullopt});
     return replay;
 }

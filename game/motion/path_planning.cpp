@@ -30,20 +30,27 @@ constexpr double squeeze_cost = 2.0;  // rad, cost of an angle with an obstructe
 struct FreeSpace {
     const servo::Setup& setup;
     const servo::ToolContact& contact;
-    double length;                                  // m, of the wrench
-    double half_width = 0.0, half_thickness = 0.0;  // m, of the handle and of the head
+    double length;            // m, of the wrench
+    double half_width = 0.0;  // m, of the handle
+    // m along the tool's Z: the lower and the upper face of the head and of the handle. An open-end wrench,
+    // which can be turned over, has the same faces either way up.
+    std::array<double, 2> head{}, handle{};
     std::array<Vec3, 8> rim{};  // points of the head that reach furthest in each direction
 
     FreeSpace(const servo::Setup& s, const servo::ToolContact& t)
         : setup(s), contact(t), length(beyond_grip * s.wrench.handle_length) {
         std::array<double, 8> furthest{};
+        double half_thickness = 0.0;
+        handle = {1e9, -1e9};
         for (const auto& triangle : t.wrench.solid.corners)
             for (const Vec3 p : triangle) {
                 if (p.x > 0.3 * length) {
                     half_width = std::max(half_width, std::abs(p.y));
+                    handle = {std::min(handle[0], p.z), std::max(handle[1], p.z)};
                     continue;
                 }
                 half_thickness = std::max(half_thickness, std::abs(p.z));
+                head = {std::min(head[0], p.z), std::max(head[1], p.z)};
                 for (std::size_t k = 0; k < rim.size(); ++k) {
                     const double angle = static_cast<double>(k) * pi / 4.0;
                     const double far = p.x * std::cos(angle) + p.y * std::sin(angle);
@@ -52,16 +59,22 @@ struct FreeSpace {
                     rim[k] = {p.x, p.y, 0.0};
                 }
             }
+        if (reversible(s.wrench)) head = handle = {-half_thickness, half_thickness};
     }
+
+    // m, of the middle of the handle above the origin of the tool.
+    [[nodiscard]] double handle_height() const { return 0.5 * (handle[0] + handle[1]); }
 
     // True if no obstacle is between the poses: tests both faces of the wrench, enlarged by `distance` m.
     [[nodiscard]] bool step_is_free(const Pose& before, const Pose& pose, double distance) const {
         const auto blocked = [&](const Vec3& a, const Vec3& b) { return servo::occluded(contact, a, b, -1); };
-        for (const double face : {-1.0, 1.0}) {
-            const Vec3 off(0.0, 0.0, face * (half_thickness + distance));
+        for (const std::size_t face : {0U, 1U}) {
+            const double margin = face == 0 ? -distance : distance;
+            const Vec3 off(0.0, 0.0, handle[face] + margin);
             const Vec3 middle = pose * (Vec3(0.5 * length, 0.0, 0.0) + off);
             for (const Vec3& side : rim) {
-                const Vec3 point = side * (1.0 + distance / glm::length(side)) + off;
+                const Vec3 point =
+                    side * (1.0 + distance / glm::length(side)) + Vec3(0.0, 0.0, head[face] + margin);
                 if (blocked(before * point, pose * point) || blocked(middle, pose * point)) return false;
             }
             for (const double side : {-1.0, 1.0}) {
@@ -88,7 +101,7 @@ struct FreeSpace {
     // and its edges, at three heights.
     [[nodiscard]] bool handle_is_free(std::size_t joint, double nut_angle, double angle, double above) const {
         const servo::NutGeometry& nut = setup.nuts[joint];
-        const Vec3 centre = servo::nut_centre(nut, nut_angle) + above * nut.axis;
+        const Vec3 centre = servo::nut_centre(nut, nut_angle) + (above + handle_height()) * nut.axis;
         const Vec3 out = std::cos(-angle) * nut.e1 + std::sin(-angle) * nut.e2;
         const Vec3 across = glm::cross(nut.axis, out);
         for (const double side : {-half_width, 0.0, half_width})
@@ -182,11 +195,15 @@ GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* conta
     if (contact != nullptr) space.emplace(setup, *contact);
     GripAngle best;
     double lowest_cost = 1e9;
+    const double period = collision::fitting_angle(setup.wrench.head);
+    const double step = std::max(period, pi / 6.0);
+    const int half = static_cast<int>(std::lround(pi / step));
     for (const bool flip : {false, true}) {
+        if (flip && !reversible(setup.wrench)) break;
         const double head = flip ? setup.wrench.head_angle : -setup.wrench.head_angle;
-        const double nearest = preferred + wrap(nut_angle - head - preferred, pi / 3.0);
-        for (int sixth = -3; sixth < 3; ++sixth) {
-            const double candidate = nearest + (contact != nullptr ? sixth * pi / 3.0 : 0.0);
+        const double nearest = preferred + wrap(nut_angle - head - preferred, period);
+        for (int k = -half; k < half; ++k) {
+            const double candidate = nearest + (contact != nullptr ? k * step : 0.0);
             double swing = stroke, penalty = 0.0;
             if (space) {
                 swing = space->free_swing(joint, nut_angle, candidate, sign, stroke);

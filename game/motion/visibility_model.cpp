@@ -102,7 +102,7 @@ double target_visibility(VisibilityModel& model, const servo::Setup& setup, cons
     if (model.wrench_head.empty()) {
         model.wrench_head = collision::sample_outer_surface(contact.wrench.solid, wrench_samples);
         std::erase_if(model.wrench_head, [&](const collision::SurfacePoint& sample) {
-            return glm::length(sample.at) > head_size * setup.wrench.jaw.opening;
+            return glm::length(sample.at) > head_size * collision::width_across_flats(setup.wrench.head);
         });
     }
     return std::min(

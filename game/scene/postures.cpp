@@ -124,13 +124,29 @@ hand::Angles relaxed_angles(const hand::Angles& angles) {
 }
 
 // The pose of the wrist when the hand grips the handle from above, the thumb towards the jaw. The handle is
-// along the tool's x and broad in y.
-Pose wrist_on_handle(double grip_distance) {
+// along the tool's x and broad in y; its middle is at `grip`.
+Pose wrist_on_handle(const Vec3& grip) {
     const Pose across = inverse({Vec3(0.0, -28e-3, -98e-3), rotation({0.0, -17.5 * deg, 0.0})});
     const Pose upright{Vec3(0.0), glm::angleAxis(0.5 * pi, Vec3(1, 0, 0))};
     Pose wrist = upright * across;
-    wrist.position.x += grip_distance;
+    wrist.position += grip;
     return wrist;
+}
+
+// The middle of the handle where the hand grips it. The handles of sockets, keys and cranked rings are above
+// the head; a small height is only the shape of the handle.
+Vec3 middle_of_handle(const collision::ToolShape* wrench, double grip_distance) {
+    constexpr double half_width = 0.02, small = 5e-3;  // m
+    double low = 1e9, high = -1e9;
+    if (wrench != nullptr)
+        for (const auto& triangle : wrench->solid.corners)
+            for (const Vec3 p : triangle)
+                if (std::abs(p.x - grip_distance) < half_width) {
+                    low = std::min(low, p.z);
+                    high = std::max(high, p.z);
+                }
+    const double height = low <= high ? 0.5 * (low + high) : 0.0;
+    return {grip_distance, 0.0, std::abs(height) > small ? height : 0.0};
 }
 
 }  // namespace
@@ -140,7 +156,8 @@ Postures make_postures(const collision::ToolShape* wrench, double grip_distance,
     const hand::Hand hand = hand::make_hand(side);
     Postures postures;
     postures.grip_distance = grip_distance;
-    const Pose on_handle = on_side(wrist_on_handle(grip_distance), side);
+    const Vec3 grip = middle_of_handle(wrench, grip_distance);
+    const Pose on_handle = on_side(wrist_on_handle(grip), side);
     const auto closed_angles = [&](const Pose& wrist) {
         return wrench != nullptr ? hand::close_fingers(*wrench, hand, closed(1.0), wrist).angles
                                  : closed(0.75);
@@ -149,7 +166,7 @@ Postures make_postures(const collision::ToolShape* wrench, double grip_distance,
         // Rotations to the other face, and about the middle of the handle to the other direction.
         const Quat over = glm::angleAxis((i & 1U) != 0 ? pi : 0.0, Vec3(1, 0, 0));
         const Quat round = glm::angleAxis((i & 2U) != 0 ? pi : 0.0, Vec3(0, 0, 1));
-        const Pose middle{Vec3(grip_distance, 0.0, 0.0)};
+        const Pose middle{grip};
         const Pose wrist = middle * Pose{Vec3(0.0), over * round} * inverse(middle) * on_handle;
         const hand::Angles angles = closed_angles(wrist);
         postures.on_handle[i] = hand::joints(hand, angles, wrist);

@@ -17,6 +17,10 @@
 
 namespace bolt::session {
 
+namespace {
+constexpr double beyond_socket = 0.6;  // widths across flats, beyond the corners of a hexagonal socket
+}  // namespace
+
 HexagonPose find_hexagon(const servo::NutGeometry& nut, std::span<const glm::dvec3> points) {
     std::complex<double> sixfold = 0.0;
     double low = nut.is_head ? 0.0 : 1e9;  // a head is drawn on its seat
@@ -25,6 +29,7 @@ HexagonPose find_hexagon(const servo::NutGeometry& nut, std::span<const glm::dve
         const Vec3 q(glm::dot(d, nut.e1), glm::dot(d, nut.e2), glm::dot(d, nut.axis));
         if (!nut.is_head) low = std::min(low, q.z);
         const double out = std::hypot(q.x, q.y) / nut.across_flats;
+        if (nut.socket_depth > 0.0 && out > beyond_socket) continue;  // outside of the head
         sixfold += std::pow(out, 24.0) * std::polar(1.0, 6.0 * std::atan2(q.y, q.x));
     }
     return {glm::angleAxis(-std::arg(sixfold) / 6.0, Vec3(0, 0, 1)), low};
@@ -186,8 +191,9 @@ Result<WrenchModel> read_wrench(const content::WrenchDesign& design) {
         }
         const Result<collision::Solid> solid = collision::make_solid(meshes);
         if (!solid) return fail(content_error(file, solid.error().what));
-        if (side < 0.0 || mouth_clearance(*solid, design.head_angle, design.jaw) >=
-                              mouth_clearance(*solid, -design.head_angle, design.jaw))
+        if (side < 0.0 || design.head != content::ToolHead::open_end ||
+            mouth_clearance(*solid, design.head_angle, design.jaw) >=
+                mouth_clearance(*solid, -design.head_angle, design.jaw))
             return WrenchModel{std::move(meshes),
                                glm::quat_cast(glm::dmat3(to_tool_frame(low, high, side, Vec3(1, 0, 0)),
                                                          to_tool_frame(low, high, side, Vec3(0, 1, 0)),

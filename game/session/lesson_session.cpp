@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "game/session/session_file.hpp"
+#include "game/tool_models/tool_model.hpp"
 
 namespace bolt::session {
 
@@ -28,11 +29,10 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
     description.joints = designs;
     description.law = law;
     description.flange = f.joints_interact ? &plate : nullptr;
-    description.jaw_opening = assembly.wrench.jaw;
-    description.head_thickness = assembly.wrench.head_thickness;
-    description.jaw_depth = assembly.wrench.jaw_depth;
-    description.jaw_tip = assembly.wrench.jaw_tip;
-    description.head_angle = assembly.wrench.head_angle;
+    const tool_models::GrippingHead gripping = tool_models::gripping_head(assembly.wrench);
+    description.head = gripping.head;
+    description.head_angle = gripping.head_angle;
+    description.twist_stiffness = gripping.twist_stiffness;
     description.handle_length = assembly.wrench.handle_length;
     description.max_torque = highest_torque;
     description.click_swing = assembly.wrench.click_swing;
@@ -40,7 +40,9 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
     description.limits = limits;
     description.seed = seed;
     description.dt = dt;
-    return servo::make_setup(description);
+    servo::Setup setup = servo::make_setup(description);
+    setup.wrench.ratchet.loosens = assembly.wrench.loosens;
+    return setup;
 }
 
 Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, servo::State& state) {
@@ -144,16 +146,22 @@ LessonSession::~LessonSession() = default;
 
 namespace {
 
-// Fails if a tool of a lesson cannot turn a joint: hexagon keys are models only so far.
+// Fails if the chosen tool cannot turn a joint of the lesson.
 Status check_turned_parts(const content::Assembly& assembly) {
+    const auto head = assembly.wrench.head;
+    const bool turns_sockets = head == content::ToolHead::hex_key || head == content::ToolHead::hex_bit;
     for (const content::AssemblyJoint& joint : assembly.joints) {
-        if (joint::turned_part_size(joint.design).depth <= 0.0) continue;
+        const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
+        if ((part.depth > 0.0) == turns_sockets) continue;
         Error error;
         error.code = ErrorCode::bad_content;
         error.file = assembly.file;
-        error.what =
-            fmt::format("joint {} has a socket head, and a lesson has no hexagon key yet", joint.design.id);
-        error.expected = "\"head\": \"hexagon\"";
+        error.what = fmt::format("joint {} has a {}, which the tool \"{}\" cannot turn", joint.design.id,
+                                 part.depth > 0.0 ? "socket head" : "hexagon", assembly.tool);
+        error.expected =
+            part.depth > 0.0
+                ? fmt::format("a hex_key of {:g} mm, or a ratchet with a hex_bit", part.across_flats / mm)
+                : fmt::format("an open end, ring or socket of {:g} mm", part.across_flats / mm);
         return fail(std::move(error));
     }
     return {};
@@ -165,6 +173,7 @@ Result<SessionSetup> prepare_session(const content::Assembly& given, const Lesso
     BOLT_TRY(check_turned_parts(given));
     SessionSetup start;
     start.assembly = lesson::apply_law(given, options.law, options.law_adaptation);
+    start.assembly.wrench.loosens = options.task == lesson::Task::loosen;
     start.setup = make_setup(start.assembly, options.law, options.device_limits, options.seed, options.dt);
     start.state = servo::initial_state(start.setup);
     if (options.task == lesson::Task::loosen) {

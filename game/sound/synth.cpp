@@ -98,7 +98,7 @@ double bar_frequency(double length, double height) {
 ResonatorBank make_wrench(const servo::Wrench& wrench, double rate) {
     // The handle ends a little beyond the grip and has two thirds of the head's thickness.
     const double length = std::max(1.15 * wrench.handle_length, 0.05);
-    const double height = std::max(0.66 * wrench.jaw.thickness, 2e-3);
+    const double height = std::max(0.66 * collision::thickness(wrench.head), 2e-3);
     std::array<ResonatorMode, 5> modes;
     for (std::size_t i = 0; i < modes.size(); ++i)
         modes[i] = {bar_frequency(length, height) * bar_ratios[i], bar_decays[i], bar_levels[i]};

@@ -336,7 +336,8 @@ Pose initial_wrench_pose(const servo::Setup& setup, const servo::ToolContact* co
         motion::choose_grip(setup, contact, joint, nut_angle, nut_angle, 1.0, stroke);
     const servo::NutGeometry& nut = setup.nuts[joint];
     // Raises a head that is thicker than the nut, so that it does not penetrate the nut's seat.
-    const double above = std::max(0.0, 0.5 * (setup.wrench.jaw.thickness - nut.height) + clearance);
+    const double above =
+        std::max(0.0, 0.5 * (collision::thickness(setup.wrench.head) - nut.height) + clearance);
     return {servo::nut_centre(nut, nut_angle) + above * nut.axis,
             motion::tool_orientation(nut, grip.handle, grip.flipped)};
 }
@@ -348,6 +349,7 @@ Result<PlannedStation> plan_station(const content::Assembly& assembly, const Sta
 
     const auto initial = std::make_shared<InitialState>();
     initial->assembly = assembly;
+    initial->assembly.wrench.loosens = request.tightened;
     initial->seed = request.seed;
     const servo::Setup setup = initial->setup({}, 1.0 / planned.options.servo.rate);
     servo::State state = servo::initial_state(setup);

@@ -76,13 +76,16 @@ void add_text_around(ToolParts& parts, std::string_view text, double height, dou
     parts.push_back(std::move(part));
 }
 
+// mm, radius of a key's bend.
+double key_bend(double s) { return std::max(1.5 * s, 3.0); }
+
 }  // namespace
 
 ToolParts hex_key_parts(const ToolParameters& p, Detail detail) {
     const double s = p.size / mm, flat = 0.5 * p.opening / mm, corner = flat / std::cos(pi / 6.0);
     const KeyArms arms = key_arms(p.size);
     const double tip = -0.5 * key_engagement * s;
-    const double bend = std::max(1.5 * s, 3.0), top = tip + arms.arm / mm - flat;  // axis of the long arm
+    const double bend = key_bend(s), top = tip + arms.arm / mm - flat;  // axis of the long arm
     const bool fine = detail == Detail::drawn;
     const double lead = 0.12 * s;
     std::vector<Loop> loops;
@@ -134,41 +137,80 @@ ToolParts hex_bit_parts(const ToolParameters& p, Detail detail) {
 namespace {
 
 struct SocketSize {
-    double radius, low, high;  // outside; lower and upper end
+    double radius, low, high;      // outside; lower and upper end
+    double shoulder, bore, floor;  // end of the flats; radius and end of the bore for the end of the bolt
+    double lead;                   // leg of the chamfer at the mouth
 };
 
 // ⌀ 1.25 s + 3 mm on a drive of 12.5 mm (memory of catalogues); the step is larger on larger drives.
-SocketSize socket_size(double s, double drive) {
-    const double grip = nut_engagement * s;
-    return {0.5 * (1.25 * s + 0.24 * drive), -0.5 * grip - 1.0,
-            0.5 * grip + std::max(0.25 * s, 3.0) + 1.3 * drive};
+SocketSize socket_size(double s, double opening, double drive) {
+    const double grip = nut_engagement * s, shoulder = 0.5 * grip + 1.0, floor = shoulder + 0.35 * s;
+    const double neck = std::max(0.9 * drive, 0.5 * opening + 1.0);
+    return {std::max(0.5 * (1.25 * s + 0.24 * drive), neck),
+            -0.5 * grip - 1.0,
+            floor + std::max(0.05 * s, 2.0) + 1.1 * drive,
+            shoulder,
+            0.42 * s,
+            floor,
+            0.05 * s};
 }
 
-Shell socket_shell(double s, double opening, double drive, Detail detail) {
+Shell socket_shell(const SocketSize& size, double opening, double drive, Detail detail) {
     const bool fine = detail == Detail::drawn;
-    const SocketSize size = socket_size(s, drive);
-    const double half = 0.5 * opening, lead = 0.05 * s, floor = 0.5 * nut_engagement * s + 1.0;
-    const double neck = std::max(0.9 * drive, 0.5 * opening + 1.0);
-    const double outside = std::max(size.radius, neck);
+    const double half = 0.5 * opening, lead = size.lead, outside = size.radius;
     const auto mouth = [lead](double angle, double radius) {
         return std::max(twelve_point_radius(angle, radius), radius / std::cos(pi / 6.0) + 0.2 * lead);
     };
-    std::vector<ProfilePoint> profile{{floor, half, twelve_point_radius},
-                                      {size.low + lead, half, twelve_point_radius},
-                                      {size.low, half, mouth}};
+    // As in ring_shell(), the hole of the contact model is round.
+    std::vector<ProfilePoint> profile{{size.floor, size.bore}, {size.shoulder, size.bore}};
+    if (fine)
+        profile.insert(profile.end(), {{size.shoulder, half, twelve_point_radius},
+                                       {size.low + lead, half, twelve_point_radius},
+                                       {size.low, half, mouth}});
+    else
+        profile.insert(profile.end(),
+                       {{size.shoulder, half / std::cos(pi / 6.0)}, {size.low, half / std::cos(pi / 6.0)}});
     add_outside(profile, size.low, size.high, outside, std::min(0.9, 0.3 * (outside - half)), fine ? 4 : 2);
     add_square_hole(profile, size.high, drive);
-    return lathe_z(profile, fine ? 96 : 48);
+    return lathe_z(profile, fine ? 96 : 24);
 }
 
-// The ratchet: a round head on the drive, a lever for the direction, a neck and a grip.
-ToolParts ratchet_parts(double drive, int teeth, double low, double end, Detail detail) {
+// The head of a ratchet.
+struct RatchetHead {
+    double radius = 0.0, low = 0.0, high = 0.0;  // mm; `high`: its height
+
+    [[nodiscard]] double middle() const { return low + 0.5 * high; }
+};
+
+RatchetHead ratchet_head(double drive, double low) { return {1.35 * drive + 2.0, low, 1.5 * drive + 3.0}; }
+
+// A round head on the drive, with a lever for the direction.
+ToolParts ratchet_head_parts(const RatchetHead& r, double drive, Detail detail) {
     const bool fine = detail == Detail::drawn;
-    const double radius = 1.35 * drive + 2.0, high = 1.5 * drive + 3.0, z = low + 0.5 * high;
     std::vector<ProfilePoint> head;
-    add_outside(head, low, low + high, radius, 0.12 * high, fine ? 5 : 2);
-    ToolParts parts{{"drive", Finish::chrome_vanadium, {square_pin(low - 0.9 * drive, low + 1.0, drive)}},
-                    {"head", Finish::chrome_vanadium, {lathe_z(head, fine ? 64 : 32)}}};
+    add_outside(head, r.low, r.low + r.high, r.radius, 0.12 * r.high, fine ? 5 : 2);
+    ToolParts parts{{"drive", Finish::chrome_vanadium, {square_pin(r.low - 0.9 * drive, r.low + 1.0, drive)}},
+                    {"head", Finish::chrome_vanadium, {lathe_z(head, fine ? 64 : 24)}}};
+    if (!fine) return parts;
+    // The lever and the disc that carries it stand on top of the head.
+    const double top = r.low + r.high;
+    std::vector<ProfilePoint> disc;
+    add_outside(disc, top - 1.0, top + 1.4, 0.66 * r.radius, 0.5, 3);
+    parts.push_back({"cover", Finish::black_oxide, {lathe_z(disc, 48)}});
+    const Shell lever = block({-0.14 * r.radius, -0.2 * r.radius, top + 1.0},
+                              {0.95 * r.radius, 0.2 * r.radius, top + 4.2}, 0.18 * r.radius, 0.9, 4);
+    parts.push_back({"lever", Finish::black_oxide, {moved(lever, [](const Vec3& q) {
+                         const double c = std::cos(0.5), s = std::sin(0.5);
+                         return Vec3(c * q.x - s * q.y, s * q.x + c * q.y, q.z);
+                     })}});
+    return parts;
+}
+
+// The neck and the grip of a ratchet, to x = `end`.
+ToolParts ratchet_handle_parts(const RatchetHead& head, double drive, int teeth, double end, Detail detail) {
+    const bool fine = detail == Detail::drawn;
+    const double radius = head.radius, high = head.high, z = head.middle();
+    ToolParts parts;
     std::vector<HandleSection> neck;
     const double grip_from = 0.45 * end, grip_half = 0.85 * drive + 3.0;
     const int steps = fine ? 16 : 5;
@@ -195,40 +237,13 @@ ToolParts ratchet_parts(double drive, int teeth, double low, double end, Detail 
     }
     grip.push_back({end - 0.6, 0.86 * grip_half});
     grip.push_back({end, 0.6 * grip_half});
-    parts.push_back({"grip", Finish::rubber, {moved(lathe_x(grip, fine ? 48 : 24), [z](const Vec3& q) {
+    parts.push_back({"grip", Finish::rubber, {moved(lathe_x(grip, fine ? 48 : 16), [z](const Vec3& q) {
                          return q + Vec3(0.0, 0.0, z);
-                     })}});
-    // The lever and the disc that carries it stand on top of the head.
-    const double top = low + high;
-    std::vector<ProfilePoint> disc;
-    add_outside(disc, top - 1.0, top + 1.4, 0.66 * radius, 0.5, fine ? 3 : 1);
-    parts.push_back({"cover", Finish::black_oxide, {lathe_z(disc, fine ? 48 : 24)}});
-    const Shell lever = block({-0.14 * radius, -0.2 * radius, top + 1.0},
-                              {0.95 * radius, 0.2 * radius, top + 4.2}, 0.18 * radius, 0.9, fine ? 4 : 2);
-    parts.push_back({"lever", Finish::black_oxide, {moved(lever, [](const Vec3& q) {
-                         const double c = std::cos(0.5), s = std::sin(0.5);
-                         return Vec3(c * q.x - s * q.y, s * q.x + c * q.y, q.z);
                      })}});
     add_text(parts, fmt::format("{}", teeth), 0.7 * neck[neck.size() / 2].half, 0.3 * end,
              z + neck[neck.size() * 3 / 5].high - 0.05, detail);
     return parts;
 }
-
-}  // namespace
-
-ToolParts socket_parts(const ToolParameters& p, Detail detail) {
-    const double s = p.size / mm, drive = p.drive / mm;
-    const SocketSize size = socket_size(s, drive);
-    ToolParts parts = ratchet_parts(drive, p.teeth, size.high + 0.5, p.length / mm, detail);
-    parts.insert(parts.begin(),
-                 {"socket", Finish::chrome_vanadium, {socket_shell(s, p.opening / mm, drive, detail)}});
-    const double neck = std::max(0.9 * drive, 0.5 * p.opening / mm + 1.0);
-    add_text_around(parts, size_text(s), 0.42 * std::min(drive, 0.7 * s), std::max(size.radius, neck),
-                    size.high - 0.8 * drive, detail);
-    return parts;
-}
-
-namespace {
 
 // A shaft with a square drive below and a square hole above. The origin is in the middle of the lower drive.
 ToolParts shaft_parts(double lower, double upper, double top, Detail detail) {
@@ -250,7 +265,75 @@ ToolParts shaft_parts(double lower, double upper, double top, Detail detail) {
     return parts;
 }
 
+constexpr double bit_length = 55.0;  // mm, of a bit on a ratchet
+
+// A socket or a bit, with its extension bar. The drive's shoulder is at the height `top`.
+struct DriveEndParts {
+    ToolParts parts;
+    double top = 0.0;
+};
+
+DriveEndParts drive_end(const ToolParameters& p, Detail detail) {
+    const double s = p.size / mm, drive = p.drive / mm, opening = p.opening / mm;
+    DriveEndParts end;
+    if (measure_of(p) == SizeMeasure::socket_screw) {
+        ToolParameters bit = p;
+        bit.length = bit_length * mm;
+        end = {hex_bit_parts(bit, detail), bit_length};
+    } else {
+        const SocketSize size = socket_size(s, opening, drive);
+        end.parts.push_back(
+            {"socket", Finish::chrome_vanadium, {socket_shell(size, opening, drive, detail)}});
+        add_text_around(end.parts, size_text(s), 0.42 * std::min(drive, 0.7 * s), size.radius,
+                        size.high - 0.8 * drive, detail);
+        end.top = size.high;
+    }
+    if (p.extension <= 0.0) return end;
+    // A shaft's origin is in the middle of its lower drive.
+    const double shoulder = 0.45 * drive, from = end.top + 0.5 - shoulder;
+    for (ToolPart& part : shaft_parts(drive, drive, shoulder + p.extension / mm, detail)) {
+        for (Shell& shell : part.shells)
+            shell = moved(std::move(shell), [from](const Vec3& q) { return q + Vec3(0.0, 0.0, from); });
+        part.name = "bar_" + part.name;
+        end.parts.push_back(std::move(part));
+    }
+    end.top += 0.5 + p.extension / mm;
+    return end;
+}
+
+void append(ToolParts& parts, ToolParts more) {
+    for (ToolPart& part : more) parts.push_back(std::move(part));
+}
+
 }  // namespace
+
+SocketGrip socket_grip(const ToolParameters& p) {
+    const SocketSize size = socket_size(p.size / mm, p.opening / mm, p.drive / mm);
+    return {size.low, size.shoulder, size.lead, 2.0 * size.radius};
+}
+
+KeyGrip key_grip(const ToolParameters& p) {
+    const double s = p.size / mm, flat = 0.5 * p.opening / mm, tip = -0.5 * key_engagement * s;
+    if (p.kind != ToolKind::hex_key) return {tip, 0.06 * s, bit_length - 1.55 * p.drive / mm - tip};
+    return {tip, 0.072 * s, key_arms(p.size).arm / mm - flat - key_bend(s)};
+}
+
+RatchetOnEnd ratchet_on_end(const ToolParameters& p, Detail detail) {
+    const double drive = p.drive / mm;
+    DriveEndParts end = drive_end(p, detail);
+    const RatchetHead head = ratchet_head(drive, end.top + 0.5);
+    append(end.parts, ratchet_head_parts(head, drive, detail));
+    return {std::move(end.parts), head.radius, head.middle(), head.high};
+}
+
+ToolParts socket_parts(const ToolParameters& p, Detail detail) {
+    const double drive = p.drive / mm;
+    DriveEndParts end = drive_end(p, detail);
+    const RatchetHead head = ratchet_head(drive, end.top + 0.5);
+    append(end.parts, ratchet_head_parts(head, drive, detail));
+    append(end.parts, ratchet_handle_parts(head, drive, p.teeth, p.length / mm, detail));
+    return std::move(end.parts);
+}
 
 ToolParts extension_bar_parts(const ToolParameters& p, Detail detail) {
     const double drive = p.size / mm, top = p.length / mm;

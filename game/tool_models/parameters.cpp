@@ -81,9 +81,9 @@ tl::unexpected<Error> usage(std::string what, std::string expected) {
 }
 
 Status check_size(const ToolParameters& p) {
-    const auto sizes = standard_sizes(info_of(p.kind).measure);
+    const auto sizes = standard_sizes(measure_of(p));
     const double size = p.size / mm, low = sizes.front(), high = sizes.back();
-    const bool is_drive = info_of(p.kind).measure == SizeMeasure::drive;
+    const bool is_drive = measure_of(p) == SizeMeasure::drive;
     const auto near = std::min_element(sizes.begin(), sizes.end(), [&](double a, double b) {
         return std::abs(a - size) < std::abs(b - size);
     });
@@ -103,12 +103,17 @@ double standard_drive(const ToolParameters& p) {
             for (const double drive : drive_sizes)
                 if (drive > s + 1e-6) return drive * mm;
             return drive_sizes[3] * mm;
-        case ToolKind::socket:
-            return (s <= 13.0 ? 10.0 : s <= 32.0 ? 12.5 : 20.0) * mm;
-        case ToolKind::hex_bit:
-            return (s <= 5.0 ? 10.0 : s <= 17.0 ? 12.5 : 20.0) * mm;
-        default:
+        case ToolKind::extension_bar:
             return 0.0;
+        default:
+            return measure_of(p) == SizeMeasure::nut ? (s <= 13.0   ? 10.0
+                                                        : s <= 32.0 ? 12.5
+                                                                    : 20.0) *
+                                                           mm
+                                                     : (s <= 5.0    ? 10.0
+                                                        : s <= 17.0 ? 12.5
+                                                                    : 20.0) *
+                                                           mm;
     }
 }
 
@@ -136,6 +141,57 @@ double standard_length(const ToolParameters& p) {
     }
 }
 
+bool is_torque_wrench(ToolKind kind) {
+    return kind == ToolKind::torque_wrench || kind == ToolKind::electronic_torque_wrench;
+}
+
+bool has_open_end(const ToolParameters& p) {
+    return p.kind == ToolKind::open_end || p.kind == ToolKind::combination ||
+           (is_torque_wrench(p.kind) && !has_ratchet(p));
+}
+
+bool has_drive(const ToolParameters& p) {
+    return has_ratchet(p) || p.kind == ToolKind::adaptor || p.kind == ToolKind::hex_bit;
+}
+
+Status check_end(const ToolParameters& p) {
+    const std::string_view name = info_of(p.kind).name;
+    if (p.end != DriveEnd::usual && p.kind != ToolKind::socket && !is_torque_wrench(p.kind))
+        return usage(fmt::format("{} has one head of its own", name), "no choice of heads");
+    if (p.end == DriveEnd::open_end && p.kind == ToolKind::socket)
+        return usage("a ratchet does not turn an open end", "socket or hex_bit");
+    if (p.extension != 0.0 && !has_ratchet(p))
+        return usage(fmt::format("{} has no square drive for an extension bar", name),
+                     "a socket or a bit on a ratchet");
+    if (p.extension != 0.0 && !(p.extension > 39.9 * mm && p.extension < 600.1 * mm))
+        return usage(fmt::format("an extension bar of {} mm is impossible", in_mm(p.extension)),
+                     "40 to 600 mm");
+    return {};
+}
+
+Status check_options(const ToolParameters& p) {
+    const std::string_view name = info_of(p.kind).name;
+    BOLT_TRY(check_end(p));
+    if (p.teeth != 0 && !has_ratchet(p))
+        return usage(fmt::format("{} has no ratchet, so it has no teeth", name), "no number of teeth");
+    if (p.teeth != 0 && std::find(ratchet_teeth.begin(), ratchet_teeth.end(), p.teeth) == ratchet_teeth.end())
+        return usage(fmt::format("a ratchet of {} teeth is unknown", p.teeth),
+                     fmt::format("{}", fmt::join(ratchet_teeth, ", ")));
+    if (p.drive == 0.0) return {};
+    if (!has_drive(p)) return usage(fmt::format("{} has no square drive beside its size", name), "no drive");
+    for (const double drive : drive_sizes)
+        if (same(drive, p.drive / mm)) {
+            if (p.kind == ToolKind::adaptor && same(p.drive, p.size))
+                return usage(fmt::format("an adaptor from {} mm to the same drive", in_mm(p.drive)),
+                             "another drive");
+            return {};
+        }
+    return usage(fmt::format("there is no square drive of {} mm", in_mm(p.drive)),
+                 fmt::format("{} mm", fmt::join(drive_sizes, ", ")));
+}
+
+}  // namespace
+
 double shortest_length(const ToolParameters& p) {
     switch (p.kind) {
         case ToolKind::hex_key:
@@ -152,52 +208,24 @@ double shortest_length(const ToolParameters& p) {
             return 5.2 * p.size + 30.0 * mm;
         case ToolKind::torque_wrench:
         case ToolKind::electronic_torque_wrench:
-            return 3.0 * p.size + 130.0 * mm;
+            return has_ratchet(p) ? 8.0 * p.drive + 150.0 * mm : 3.0 * p.size + 130.0 * mm;
         default:
             return 3.8 * p.size + 30.0 * mm;
     }
 }
 
-bool is_torque_wrench(ToolKind kind) {
-    return kind == ToolKind::torque_wrench || kind == ToolKind::electronic_torque_wrench;
-}
-
-bool has_open_end(ToolKind kind) {
-    return kind == ToolKind::open_end || kind == ToolKind::combination || is_torque_wrench(kind);
-}
-
-bool has_ratchet(ToolKind kind) { return kind == ToolKind::socket; }
-
-bool has_drive(ToolKind kind) {
-    return kind == ToolKind::socket || kind == ToolKind::adaptor || kind == ToolKind::hex_bit;
-}
-
-Status check_options(const ToolParameters& p) {
-    const std::string_view name = info_of(p.kind).name;
-    if (p.teeth != 0 && !has_ratchet(p.kind))
-        return usage(fmt::format("{} has no ratchet, so it has no teeth", name), "no number of teeth");
-    if (p.teeth != 0 && std::find(ratchet_teeth.begin(), ratchet_teeth.end(), p.teeth) == ratchet_teeth.end())
-        return usage(fmt::format("a ratchet of {} teeth is unknown", p.teeth),
-                     fmt::format("{}", fmt::join(ratchet_teeth, ", ")));
-    if (p.drive == 0.0) return {};
-    if (!has_drive(p.kind))
-        return usage(fmt::format("{} has no square drive beside its size", name), "no drive");
-    for (const double drive : drive_sizes)
-        if (same(drive, p.drive / mm)) {
-            if (p.kind == ToolKind::adaptor && same(p.drive, p.size))
-                return usage(fmt::format("an adaptor from {} mm to the same drive", in_mm(p.drive)),
-                             "another drive");
-            return {};
-        }
-    return usage(fmt::format("there is no square drive of {} mm", in_mm(p.drive)),
-                 fmt::format("{} mm", fmt::join(drive_sizes, ", ")));
-}
-
-}  // namespace
-
 std::span<const KindInfo> tool_kinds() { return kinds; }
 
 const KindInfo& info_of(ToolKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
+
+bool has_ratchet(const ToolParameters& p) {
+    return p.kind == ToolKind::socket ||
+           (is_torque_wrench(p.kind) && (p.end == DriveEnd::socket || p.end == DriveEnd::hex_bit));
+}
+
+SizeMeasure measure_of(const ToolParameters& p) {
+    return has_ratchet(p) && p.end == DriveEnd::hex_bit ? SizeMeasure::socket_screw : info_of(p.kind).measure;
+}
 
 Result<ToolKind> kind_named(std::string_view name) {
     std::vector<std::string> names;
@@ -254,18 +282,17 @@ TestTorque test_torque(ToolKind kind, double size) {
 Result<ToolParameters> completed(ToolParameters p) {
     BOLT_TRY(check_size(p));
     BOLT_TRY(check_options(p));
-    const bool inside = info_of(p.kind).measure == SizeMeasure::nut;
-    if (p.opening == 0.0) p.opening = inside ? p.size + standard_play : p.size;
-    if (has_drive(p.kind) && p.drive == 0.0) p.drive = standard_drive(p);
-    if (has_ratchet(p.kind) && p.teeth == 0) p.teeth = ratchet_teeth[1];
-    if (has_open_end(p.kind) && !p.head_angle)
-        p.head_angle = is_torque_wrench(p.kind) ? 0.0 : to_radians(15.0);
+    const bool outside = measure_of(p) == SizeMeasure::nut;
+    if (p.opening == 0.0) p.opening = outside ? p.size + standard_play : p.size;
+    if (has_drive(p) && p.drive == 0.0) p.drive = standard_drive(p);
+    if (has_ratchet(p) && p.teeth == 0) p.teeth = ratchet_teeth[1];
+    if (has_open_end(p) && !p.head_angle) p.head_angle = is_torque_wrench(p.kind) ? 0.0 : to_radians(15.0);
     if (p.length == 0.0) p.length = standard_length(p);
-    const double shortest = shortest_length(p), longest = 2.5;
-    if (!(p.length >= shortest - 1e-9 && p.length <= longest))
+    const double shortest = shortest_length(p);
+    if (!(p.length >= shortest - 1e-9 && p.length <= longest_tool))
         return usage(fmt::format("{} of {} mm: a length of {} mm is impossible", info_of(p.kind).name,
                                  in_mm(p.size), in_mm(p.length)),
-                     fmt::format("{:.0f} to {:.0f} mm", std::ceil(shortest / mm), longest / mm));
+                     fmt::format("{:.0f} to {:.0f} mm", std::ceil(shortest / mm), longest_tool / mm));
     return p;
 }
 
@@ -281,6 +308,9 @@ std::string description(const ToolParameters& p) {
     add("jaw depth", p.jaw_depth);
     add("jaw tip", p.jaw_tip);
     if (p.teeth > 0) text += fmt::format(", {} teeth", p.teeth);
+    if (p.end == DriveEnd::socket) text += ", socket";
+    if (p.end == DriveEnd::hex_bit) text += ", hexagon bit";
+    add("extension bar", p.extension);
     return text;
 }
 

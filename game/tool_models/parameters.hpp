@@ -43,6 +43,9 @@ const KindInfo& info_of(ToolKind kind);
 // Fails if there is no such kind; the error suggests the nearest name.
 Result<ToolKind> kind_named(std::string_view name);
 
+// What a ratchet or a torque wrench turns with; the other kinds have one head of their own.
+enum class DriveEnd : std::uint8_t { usual, open_end, socket, hex_bit };
+
 // Metres and radians. 0: the standard value.
 struct ToolParameters {
     ToolKind kind = ToolKind::open_end;
@@ -51,13 +54,23 @@ struct ToolParameters {
     double length = 0.0;   // from the origin to the far end
     double drive = 0.0;    // width of the square drive
     int teeth = 0;         // of the ratchet
+    DriveEnd end = DriveEnd::usual;
+    double extension = 0.0;  // length of the bar between a ratchet and its socket or bit; 0: none
     // Open ends and the inserts of torque wrenches; jaw dimensions as in haptics/collision/jaw.hpp.
     std::optional<double> head_angle = {};
     double head_thickness = 0.0, jaw_depth = 0.0, jaw_tip = 0.0;
 };
 
+SizeMeasure measure_of(const ToolParameters& parameters);
+
+// A socket or a bit on the square drive of a ratchet.
+bool has_ratchet(const ToolParameters& completed);
+
 // The sizes of a kind in mm, ascending.
 std::span<const double> standard_sizes(SizeMeasure measure);
+
+// m, least value of ToolParameters::length.
+double shortest_length(const ToolParameters& parameters);
 
 // The lengths of a hex key's arms, m: from the tip to the outside of the bend, and from there to the end.
 struct KeyArms {
@@ -76,6 +89,7 @@ TestTorque test_torque(ToolKind kind, double size);
 
 // Play of the jaws of generated tools, m, as of the shipped wrenches.
 inline constexpr double standard_play = 0.2e-3;
+inline constexpr double longest_tool = 2.5;  // m
 inline constexpr std::array ratchet_teeth = {24, 72, 90};
 
 // Replaces zeros by standard values. Fails if a value is impossible; the error gives the nearest valid one.

@@ -64,6 +64,25 @@ ToolParts adaptor_parts(const ToolParameters& p, Detail detail);
 ToolParts hex_bit_parts(const ToolParameters& p, Detail detail);
 ToolParts torque_wrench_parts(const ToolParameters& p, Detail detail);
 
+// The gripping part of a socket, mm: lower end, end of the flats, chamfer and diameter.
+struct SocketGrip {
+    double low = 0.0, shoulder = 0.0, lead = 0.0, outside = 0.0;
+};
+SocketGrip socket_grip(const ToolParameters& p);
+
+// The gripping part of a key or a bit, mm: its end, the chamfer there, and the length of straight hexagon.
+struct KeyGrip {
+    double tip = 0.0, chamfer = 0.0, length = 0.0;
+};
+KeyGrip key_grip(const ToolParameters& p);
+
+// Socket or bit with a ratchet head, for a torque wrench. mm: radius, middle and height of the head.
+struct RatchetOnEnd {
+    ToolParts parts;
+    double radius = 0.0, middle = 0.0, high = 0.0;
+};
+RatchetOnEnd ratchet_on_end(const ToolParameters& p, Detail detail);
+
 ToolParts parts_of(const ToolParameters& completed, Detail detail);
 
 // A size as it stands on a tool: "24", "12.5".

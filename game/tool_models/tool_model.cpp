@@ -185,8 +185,11 @@ assets::Model contact_model(const ToolParameters& completed) {
     return model;
 }
 
-ToolParameters parameters_of(const content::WrenchDesign& design) {
-    constexpr double beyond_grip = 50.0 * mm;                                  // half the width of a hand
+namespace {
+
+constexpr double beyond_grip = 50.0 * mm;  // half the width of a hand
+
+ToolParameters open_end_parameters(const content::WrenchDesign& design) {
     constexpr double click_beyond_grip = 73.5 * mm, click_parts = 330.0 * mm;  // as in torque_wrenches.cpp
     ToolParameters p;
     p.kind = design.click_swing > 0.0 ? ToolKind::torque_wrench : ToolKind::open_end;
@@ -211,6 +214,88 @@ ToolParameters parameters_of(const content::WrenchDesign& design) {
         whole - insert >= click_parts ? whole : (design.handle_length - share * insert) / (1.0 - share);
     p.length = std::max(p.length, insert + 60.0 * mm);
     return p;
+}
+
+double adjusted_length(const ToolParameters& p, double handle_length) {
+    const bool clicks = p.kind == ToolKind::torque_wrench;
+    return std::clamp(handle_length + (clicks ? 73.5 * mm : beyond_grip), shortest_length(p), longest_tool);
+}
+
+}  // namespace
+
+ToolParameters parameters_of(const content::WrenchDesign& design) {
+    if (design.head == content::ToolHead::open_end) return open_end_parameters(design);
+    ToolParameters p;
+    p.size = design.size;
+    p.teeth = design.teeth;
+    p.extension = design.extension;
+    if (design.head == content::ToolHead::hex_bit) p.end = DriveEnd::hex_bit;
+    switch (design.kind) {
+        case content::ToolKind::ring_wrench:
+            p.kind = ToolKind::ring;
+            break;
+        case content::ToolKind::hex_key:
+            p.kind = ToolKind::hex_key;
+            break;
+        case content::ToolKind::ratchet:
+            p.kind = ToolKind::socket;
+            break;
+        default:
+            p.kind = ToolKind::torque_wrench;
+            if (p.end == DriveEnd::usual) p.end = DriveEnd::socket;
+            break;
+    }
+    const auto sizes = standard_sizes(measure_of(p));
+    p.size = std::clamp(p.size, sizes.front() * mm, sizes.back() * mm);
+    p.length = longest_tool;
+    p = completed(p).value_or(p);
+    p.length = adjusted_length(p, design.handle_length);
+    return p;
+}
+
+Result<GrippingHead> gripping_head(const ToolParameters& p) {
+    using namespace collision;
+    const double tooth = p.teeth > 0 ? 2.0 * pi / p.teeth : 0.0;
+    GrippingHead gripping;
+    if (p.extension > 0.0) {
+        // A round bar with 1.2 times the width of its drive: G π r⁴ / (2 L). G of steel 79.3 GPa.
+        const double r = 0.6 * p.drive;
+        gripping.twist_stiffness = 79.3e9 * 0.5 * pi * square(square(r)) / p.extension;
+    }
+    if (p.kind == ToolKind::ring) {
+        const RingHead ring = ring_head(p);
+        const double half = 0.5 * ring.thickness * mm, lead = 0.05 * p.opening;
+        gripping.head = Ring{p.opening, 12, -half, half, lead, ring.outside * mm, false, 0.0};
+        return gripping;
+    }
+    if (p.kind == ToolKind::hex_key || measure_of(p) == SizeMeasure::socket_screw) {
+        const KeyGrip key = key_grip(p);
+        gripping.head = Key{p.opening, key.tip * mm, key.chamfer * mm, key.length * mm, tooth};
+        gripping.head_angle = pi / 6.0;
+        return gripping;
+    }
+    if (has_ratchet(p)) {
+        const SocketGrip socket = socket_grip(p);
+        gripping.head = Ring{
+            p.opening, 12,   socket.low * mm, socket.shoulder * mm, socket.lead * mm, socket.outside * mm,
+            true,      tooth};
+        return gripping;
+    }
+    if (!p.head_angle)
+        return fail(ErrorCode::usage, fmt::format("{} turns nothing by itself", info_of(p.kind).name),
+                    "a wrench, a key, or a socket on a ratchet");
+    gripping.head_angle = *p.head_angle;
+    gripping.head = make_jaw(p.opening, *p.head_angle, p.head_thickness, p.jaw_depth, p.jaw_tip);
+    return gripping;
+}
+
+GrippingHead gripping_head(const content::WrenchDesign& design) {
+    if (design.head != content::ToolHead::open_end)
+        return gripping_head(parameters_of(design)).value_or(GrippingHead{});
+    // An author's model has its own dimensions, so those of the file count.
+    return {collision::make_jaw(design.jaw, design.head_angle, design.head_thickness, design.jaw_depth,
+                                design.jaw_tip),
+            design.head_angle, 0.0};
 }
 
 Result<std::string> identity_of(const ToolParameters& completed) {

@@ -8,6 +8,7 @@
 #include "engine/assets/model.hpp"
 #include "engine/base/result.hpp"
 #include "game/tool_models/parameters.hpp"
+#include "haptics/collision/tool_head.hpp"
 
 namespace bolt::tool_models {
 
@@ -21,6 +22,19 @@ assets::Model contact_model(const ToolParameters& completed);
 // The tool of an assembly: an open-end wrench or a click torque wrench with its dimensions. Every design
 // that the assembly's reader accepts has one.
 ToolParameters parameters_of(const content::WrenchDesign& design);
+
+// The part of the tool that grips, for contacts and torque, and the direction of its handle.
+struct GrippingHead {
+    collision::ToolHead head;
+    double head_angle = 0.0;       // rad, as servo::Wrench::head_angle
+    double twist_stiffness = 0.0;  // N·m/rad, of its extension bar; 0: none
+};
+
+// Fails for tools that turn nothing by themselves, such as extension bars.
+Result<GrippingHead> gripping_head(const ToolParameters& completed);
+
+// The same for the tool of an assembly, whose model may be an author's.
+GrippingHead gripping_head(const content::WrenchDesign& design);
 
 // Names a generated contact model in the session file: the description of the tool, and size and checksum
 // (FNV-1a, 64 bits) of the model's bytes.

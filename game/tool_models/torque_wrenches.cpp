@@ -19,8 +19,9 @@ struct TorqueWrenchEnds {
     double insert, holder, tube, ring, sleeve, grip, knob;
 };
 
-TorqueWrenchEnds ends_of(const OpenEndHead& head, double length) {
-    const double insert = std::max(62.0, head.middle + head.radius + 12.0);
+// `head_end`: the far end of its head.
+TorqueWrenchEnds ends_of(double head_end, double length) {
+    const double insert = std::max(62.0, head_end + 12.0);
     const double rest = length - insert, share = std::min(1.0, rest / 330.0);
     TorqueWrenchEnds x{};
     x.insert = insert;
@@ -223,11 +224,35 @@ ToolParts electronic_parts(const TorqueWrenchEnds& x, Detail detail) {
 
 }  // namespace
 
+namespace {
+
+ToolParts body_parts(const ToolParameters& p, const TorqueWrenchEnds& x, Detail detail) {
+    return p.kind == ToolKind::torque_wrench ? click_parts(x, detail) : electronic_parts(x, detail);
+}
+
+// A torque wrench with a ratchet head; its handle is at the height of this head.
+ToolParts ratchet_torque_wrench_parts(const ToolParameters& p, Detail detail) {
+    RatchetOnEnd head = ratchet_on_end(p, detail);
+    const TorqueWrenchEnds x = ends_of(head.radius, p.length / mm);
+    ToolParts body = body_parts(p, x, detail);
+    const double thickness = 0.8 * head.high;
+    body.push_back(holder_part(0.7 * head.radius, x.holder, thickness, detail));
+    for (ToolPart& part : body) {
+        for (Shell& shell : part.shells)
+            shell = moved(std::move(shell), [&](const Vec3& q) { return q + Vec3(0.0, 0.0, head.middle); });
+        if (part.name == "ring") part.name = "band";
+        head.parts.push_back(std::move(part));
+    }
+    return std::move(head.parts);
+}
+
+}  // namespace
+
 ToolParts torque_wrench_parts(const ToolParameters& p, Detail detail) {
+    if (has_ratchet(p)) return ratchet_torque_wrench_parts(p, detail);
     const OpenEndHead head = open_end_head(p);
-    const TorqueWrenchEnds x = ends_of(head, p.length / mm);
-    ToolParts parts =
-        p.kind == ToolKind::torque_wrench ? click_parts(x, detail) : electronic_parts(x, detail);
+    const TorqueWrenchEnds x = ends_of(head.middle + head.radius, p.length / mm);
+    ToolParts parts = body_parts(p, x, detail);
     parts.insert(parts.begin(), {insert_part(head, x.insert, detail),
                                  holder_part(x.insert, x.holder, head.thickness, detail)});
     const double holder = x.insert + 0.38 * (x.holder - x.insert),

@@ -158,20 +158,30 @@ Shell ring_shell(const RingHead& ring, Detail detail) {
     const double edge = 0.14 * ring.thickness, lead = 0.05 * ring.opening;
     const int steps = fine ? 5 : 2;
     std::vector<ProfilePoint> profile;
+    // The contact of the points with the nut is closed form (haptics/collision/tool_head.hpp), so in the
+    // contact model the hole is round and reaches to their corners.
+    const double corner = bore / std::cos(pi / 6.0);
+    if (!fine) profile.push_back({-h, corner});
     const auto chamfer = [lead](double angle, double radius) {
         return std::max(twelve_point_radius(angle, radius), radius / std::cos(pi / 6.0) + 0.3 * lead);
     };
-    profile.push_back({-h + lead, bore, twelve_point_radius});
-    profile.push_back({-h, bore, chamfer});
+    if (fine) {
+        profile.push_back({-h + lead, bore, twelve_point_radius});
+        profile.push_back({-h, bore, chamfer});
+    }
     for (const double up : {-1.0, 1.0})
         for (int k = 0; k <= steps; ++k) {
             const double angle = 0.5 * pi * (up < 0.0 ? k : steps - k) / steps;
             profile.push_back(
                 {up * (h - edge * (1.0 - std::cos(angle))), R - edge * (1.0 - std::sin(angle))});
         }
+    if (!fine) {
+        profile.push_back({h, corner});
+        return closed_lathe_z(profile, 24);
+    }
     profile.push_back({h, bore, chamfer});
     profile.push_back({h - lead, bore, twelve_point_radius});
-    return closed_lathe_z(profile, fine ? 96 : 48);
+    return closed_lathe_z(profile, 96);
 }
 
 namespace {

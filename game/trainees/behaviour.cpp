@@ -337,6 +337,15 @@ void unload(TraineeState& t) {
     t.handle_angle -= deflection * std::min(1.0, t.setup->dt / 0.04) * std::min(1.0, t.elapsed() / 0.03);
 }
 
+bool pulls_again(const TraineeState& t) {
+    return t.setup->wrench.ratchet.tooth_angle > 0.0 && !t.plan.finished && !t.step_is_past() &&
+           t.holds_intended_nut() && t.fruitless_strokes <= max_fruitless;
+}
+
+void swing_back(TraineeState& t) {
+    t.handle_angle = t.stroke_end + (t.stroke_start - t.stroke_end) * motion::minimum_jerk(t.progress());
+}
+
 void spin_back(TraineeState& t) {
     if (!t.plan.finished) t.handle_angle -= to_radians(spin_stroke) / t.phase_duration * t.setup->dt;
 }

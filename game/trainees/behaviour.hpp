@@ -50,6 +50,7 @@ enum class Phase {
     engage,       // waits until the jaw or the fingers hold the nut
     pull,         // turns the nut with the wrench
     unload,       // lets the wrench spring back
+    swing_back,   // swings a ratchet back for the next pull
     lift,         // lifts the tool off the nut
     spin,         // turns the nut with the fingers
     spin_back,    // opens the fingers and turns the hand back
@@ -71,6 +72,7 @@ struct TraineeState {
     bool flipped = false;
     double handle_angle = 0.0;         // rad about the bolt
     double stroke_start = 0.0;         // rad, handle angle at the start of the stroke
+    double stroke_end = 0.0;           // rad, from which a ratchet swings back
     double nut_angle_at_stroke = 0.0;  // rad, at the start of the stroke
     int fruitless_strokes = 0;         // consecutive strokes that neither turned nor tightened the nut
 
@@ -169,8 +171,11 @@ void pull(TraineeState& t, const Percept& felt);
 void spin(TraineeState& t, const Percept& felt);
 
 // These move the handle by one tick; the caller ends the phase. The wrench springs back before it is lifted;
-// the open fingers turn back for the next twist.
+// a ratchet swings back on the nut, and the open fingers turn back for the next twist.
 void unload(TraineeState& t);
+// Returns true if a ratchet can pull again without leaving the nut.
+bool pulls_again(const TraineeState& t);
+void swing_back(TraineeState& t);
 void spin_back(TraineeState& t);
 
 }  // namespace bolt::trainees

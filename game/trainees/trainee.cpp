@@ -17,6 +17,7 @@ using servo::Grip;
 constexpr double frame_time = 1.0 / 60.0;   // s
 constexpr double alignment_radius = 0.06;   // m from the nut, in which the wrench is being aligned
 constexpr double arm_lag = 0.2;             // s, of a force-feedback arm that turns with the hand
+constexpr double swing_back_time = 0.4;     // s, of a ratchet
 constexpr double visibility_change = 0.02;  // smallest change that is reported
 
 // Starts the stroke once the nut is held. If the tool missed the nut, it is placed again at another angle.
@@ -98,7 +99,22 @@ Pose step_phase(TraineeState& t, const Percept& felt, Grip& grip) {
             grip = own;
             unload(t);
             pose = t.tool_at_nut(0.0);
-            if (t.phase_over()) start_lift(t, pose, 0.25);
+            if (!t.phase_over()) break;
+            if (pulls_again(t)) {
+                t.stroke_end = t.handle_angle;
+                t.enter(Phase::swing_back, swing_back_time);
+            } else {
+                start_lift(t, pose, 0.25);
+            }
+            break;
+        case Phase::swing_back:
+            grip = own;
+            swing_back(t);
+            pose = t.tool_at_nut(0.0);
+            if (!t.holds_intended_nut())
+                start_lift(t, pose, 0.3);
+            else if (t.phase_over())
+                t.enter(Phase::engage, 0.12);
             break;
         case Phase::lift: {
             pose = motion::arc_pose(t.from, t.to, motion::minimum_jerk(t.progress()), Vec3(0.0));

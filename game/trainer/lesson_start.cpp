@@ -177,7 +177,8 @@ void place_trainee(ActiveLesson& active, const LessonContext& context, float asp
     const render::BoundingBox& workpiece = active.workplace.workpiece;
     const scene::Worker& worker = context.worker;
     active.helped_hand =
-        make_hand(scene::wrench_rest_pose(workpiece, setup.wrench.jaw.thickness, worker.side), worker.side);
+        make_hand(scene::wrench_rest_pose(workpiece, collision::thickness(setup.wrench.head), worker.side),
+                  worker.side);
     active.workplace.world.only<world::WorkingHand>() = hand_of(active.helped_hand);
     active.postures = scene::make_postures(state.tool_contact ? &state.tool_contact->wrench : nullptr,
                                            setup.wrench.handle_length, worker.side, scene::widest_nut(setup));

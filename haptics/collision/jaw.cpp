@@ -98,15 +98,6 @@ Result<JawParts> jaw_parts(const Jaw& jaw) {
     return JawParts{std::move(left), std::move(right), std::move(between)};
 }
 
-bool covered_by_jaw(const JawParts& parts, const Vec3& point) {
-    constexpr double facets = 20e-6;  // m by which a mesh may exceed the exact shape
-    return std::any_of(parts.begin(), parts.end(), [&](const Convex& part) {
-        return std::all_of(part.faces.begin(), part.faces.end(), [&](const ConvexFace& face) {
-            return glm::dot(face.plane.normal, point) <= face.plane.offset + facets;
-        });
-    });
-}
-
 Result<Convex> hexagon(const HexagonPrism& p) {
     std::vector<HalfSpace> planes{{{0, 0, 1}, p.height}, {{0, 0, -1}, 0.0}};
     for (int i = 0; i < 6; ++i) planes.push_back({direction((i + 0.5) * sixth), 0.5 * p.across_flats});
@@ -120,14 +111,14 @@ Result<Convex> hexagon(const HexagonPrism& p) {
     return make_convex(planes);
 }
 
-JawFit jaw_fit(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
+HeadFit jaw_fit(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
     const Vec3 to_throat = wrench.orientation * direction(jaw.head_angle);
     const Vec3 across = wrench.orientation * direction(jaw.head_angle + 0.5 * pi);
     const Vec3 normal = wrench.orientation * Vec3(0, 0, 1);
     const double azimuth = std::atan2(to_throat.y, to_throat.x), off = wrap(azimuth, sixth);
     const Vec3 along = direction(azimuth - off), out = direction(azimuth - off + 0.5 * pi);
 
-    JawFit fit;
+    HeadFit fit;
     fit.misalignment = -off;  // tightening turns about −Z
     fit.tilt = std::asin(std::clamp(across.z, -1.0, 1.0));
     const Vec3 middle(0.0, 0.0, wrench.position.z);
@@ -148,30 +139,33 @@ JawFit jaw_fit(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
     return fit;
 }
 
-std::size_t jaw_contacts(const JawParts& jaw, const Convex& hexagon, const Pose& wrench, const Pose& nut,
-                         double band, ObstacleId obstacle, std::span<Contact, max_jaw_contacts> out) {
-    const Pose to_nut = inverse(nut) * wrench;
+std::size_t solid_contacts(const GripSolids& solids, const Pose& tool, const Pose& turned_part, double band,
+                           ObstacleId obstacle, std::span<Contact, max_grip_contacts> out) {
+    const Pose to_part = inverse(turned_part) * tool;
+    const std::size_t room = max_grip_contacts / (solids.head.size() * solids.turned_part.size());
     std::size_t count = 0;
-    for (std::uint32_t part = 0; part < jaw.size(); ++part) {
-        const Separation s = separation(jaw[part], hexagon, to_nut, band);
-        if (s.distance > band) continue;
-        std::array<Contact, max_contact_points> found;
-        const std::size_t points = contact_points(jaw[part], hexagon, to_nut, s, found);
-        const std::size_t room = std::min(points, max_jaw_contacts / jaw.size());
-        std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(points),
-                  [](const Contact& a, const Contact& b) {
-                      return a.distance != b.distance ? a.distance < b.distance : a.feature < b.feature;
-                  });
-        for (std::size_t i = 0; i < room; ++i) {
-            Contact& c = out[count++];
-            c = found[i];
-            c.on_tool = nut * c.on_tool;
-            c.on_obstacle = nut * c.on_obstacle;
-            c.normal = nut.orientation * c.normal;
-            c.obstacle = obstacle;
-            c.feature += 64 * part;
+    std::uint32_t pair = 0;
+    for (const Convex& head : solids.head)
+        for (const Convex& part : solids.turned_part) {
+            const std::uint32_t features = 64 * pair++;
+            const Separation s = separation(head, part, to_part, band);
+            if (s.distance > band) continue;
+            std::array<Contact, max_contact_points> found;
+            const std::size_t points = contact_points(head, part, to_part, s, found);
+            std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(points),
+                      [](const Contact& a, const Contact& b) {
+                          return a.distance != b.distance ? a.distance < b.distance : a.feature < b.feature;
+                      });
+            for (std::size_t i = 0; i < std::min(points, room); ++i) {
+                Contact& c = out[count++];
+                c = found[i];
+                c.on_tool = turned_part * c.on_tool;
+                c.on_obstacle = turned_part * c.on_obstacle;
+                c.normal = turned_part.orientation * c.normal;
+                c.obstacle = obstacle;
+                c.feature += features;
+            }
         }
-    }
     return count;
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "haptics/collision/convex.hpp"
 
@@ -49,15 +50,11 @@ using JawParts = std::array<Convex, 3>;
 inline constexpr double jaw_cover = 0.3;
 Result<JawParts> jaw_parts(const Jaw& jaw);
 
-// Returns true if a point of the wrench's mesh, in the wrench's frame, belongs to the region that the parts
-// represent. A real head may be broader at its tips and has fillets in its throat.
-bool covered_by_jaw(const JawParts& parts, const Vec3& point);
-
 // A hexagon with its chamfers; each chamfer cone is represented by twelve tangent planes.
 Result<Convex> hexagon(const HexagonPrism& prism);
 
-// The position of a jaw on a hexagon.
-struct JawFit {
+// The position of the head of a tool on a hexagon (tool_head.hpp), described for a jaw.
+struct HeadFit {
     double misalignment = 0.0;  // rad, −30° … 30°, of the jaw to the hexagon, tightening positive
     double overlap = 0.0;       // m, height over which the flats bear at each loaded corner
     // m along the flats from the axis to the two ends of the contact.
@@ -73,15 +70,20 @@ struct JawFit {
 };
 
 // `wrench`: pose of the wrench in the nut's frame.
-JawFit jaw_fit(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench);
+HeadFit jaw_fit(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench);
 
-inline constexpr std::size_t max_jaw_contacts = 18;
+inline constexpr std::size_t max_grip_contacts = 18;
 
-// Writes the contacts of the jaw with one hexagon up to `band` (m) and returns their number. Poses are to the
-// assembly; `obstacle` is copied to the contacts. Distances are separations as in convex.hpp: exact if a face
-// or two edges are nearest.
-std::size_t jaw_contacts(const JawParts& jaw, const Convex& hexagon, const Pose& wrench, const Pose& nut,
-                         double band, ObstacleId obstacle, std::span<Contact, max_jaw_contacts> out);
+// The solids of a tool's head and of the part that it turns, each in its own frame.
+struct GripSolids {
+    std::span<const Convex> head, turned_part;
+};
+
+// Writes the contacts of the solids up to `band` (m) and returns their number. Poses are to the assembly;
+// `obstacle` is copied to the contacts. Distances are separations as in convex.hpp: exact if a face or two
+// edges are nearest.
+std::size_t solid_contacts(const GripSolids& solids, const Pose& tool, const Pose& turned_part, double band,
+                           ObstacleId obstacle, std::span<Contact, max_grip_contacts> out);
 
 // Shifts each contact, perpendicular to the axis, until its normal has no moment about the axis. The contacts
 // then constrain a body except for its rotation about the axis.

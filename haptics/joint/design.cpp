@@ -51,10 +51,11 @@ TurnedPartSize turned_part_size(const JointDesign& design) {
     const FastenerSize& size = design.thread.size;
     if (design.turned == TurnedPart::head) {
         const SocketHead* const socket = design.head == HeadShape::socket ? socket_head(size.name) : nullptr;
-        if (socket) return {socket->across_flats, socket->height, socket->bearing, socket->depth};
-        return {size.across_flats, size.head_height, size.head_bearing, 0.0};
+        if (socket)
+            return {socket->across_flats, socket->height, socket->bearing, socket->depth, socket->diameter};
+        return {size.across_flats, size.head_height, size.head_bearing, 0.0, 0.0};
     }
-    return {size.across_flats, nut_height(design), size.nut_bearing, 0.0};
+    return {size.across_flats, nut_height(design), size.nut_bearing, 0.0, 0.0};
 }
 
 double nut_height(const JointDesign& design) {

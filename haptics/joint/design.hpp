@@ -99,6 +99,7 @@ struct TurnedPartSize {
     double height = 0.0;
     double bearing = 0.0;  // d_w
     double depth = 0.0;
+    double outside = 0.0;  // diameter of a head with a socket
 };
 TurnedPartSize turned_part_size(const JointDesign& design);
 

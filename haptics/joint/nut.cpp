@@ -182,9 +182,31 @@ double corner_pressure(double hardness) {
     return 2.0 / std::sqrt(3.0) * flow * (1.0 + wedge_angle - 0.5 * pi);
 }
 
+double socket_pressure(double hardness) {
+    const double flow = hardness / 3.0;
+    return 2.0 / std::sqrt(3.0) * flow * (1.0 + 0.5 * pi);
+}
+
+namespace {
+
+// m of `height` over which a tilted head bears.
+double bearing_height(double height, double tilt, double clearance) {
+    const double slope = std::tan(std::abs(tilt));
+    return slope * height > clearance ? clearance / slope : height;
+}
+
+}  // namespace
+
+double ring_torque(double pressure, const RingGrip& g) {
+    const double height = bearing_height(g.height, g.tilt, g.clearance);
+    const double half = 0.5 * g.across_flats;
+    const double x = std::max(0.0, half / std::sqrt(3.0) - g.rounded);
+    const double x0 = g.points == 12 ? std::min(x, half * std::tan(pi / 12.0)) : 0.0;
+    return 3.0 * pressure * std::max(0.0, height) * (x * x - x0 * x0);
+}
+
 double corner_torque(double pressure, const CornerGrip& g) {
-    const double slope = std::tan(std::abs(g.tilt));
-    const double height = slope * g.height > g.clearance ? g.clearance / slope : g.height;
+    const double height = bearing_height(g.height, g.tilt, g.clearance);
     const double spread = 0.5 * (g.toward_throat + g.toward_mouth) - g.rounded;
     return pressure * std::max(0.0, height) * square(std::max(0.0, spread));
 }

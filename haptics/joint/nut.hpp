@@ -113,6 +113,10 @@ double turned_part_hardness(const JointDesign& design);
 // Pa, the pressure p above. `hardness` in Pa.
 double corner_pressure(double hardness);
 
+// Pa, the pressure at which the walls of a head's hexagonal socket yield under the corners of a harder key:
+// Prandtl's punch, 2k (1 + π/2), because a wall reaches beyond the strip on both sides. `hardness` in Pa.
+double socket_pressure(double hardness);
+
 struct CornerGrip {
     double height = 0.0;                             // e, m, height of the contact between flats
     double toward_throat = 0.0, toward_mouth = 0.0;  // x1, x2: m from the axis to the ends of the strips
@@ -123,6 +127,25 @@ struct CornerGrip {
 
 // N·m at which the jaw slips.
 double corner_torque(double pressure, const CornerGrip& grip);
+
+// A ring, a socket or a key bears at all six corners. Of each flat it bears on the strip from the corner, at
+// x from the middle of the flat, inward to x0, with the lever (x + x0)/2:
+//
+//   T = 6 p e (x − x0) (x + x0)/2 = 3 p e (x² − x0²)
+//
+// x0 = 0 for one hexagon, which reaches to the middle of the flat. The teeth of a hole with 12 points end at
+// x0 = s/2 tan 15°.
+struct RingGrip {
+    double height = 0.0;        // e, m
+    double across_flats = 0.0;  // s, m
+    int points = 6;             // 6 or 12
+    double tilt = 0.0;          // rad, and
+    double clearance = 0.0;     // m, half of the difference of the widths: as in CornerGrip
+    double rounded = 0.0;       // m that each corner has lost along each flat
+};
+
+// N·m at which the ring, socket or key slips.
+double ring_torque(double pressure, const RingGrip& grip);
 
 // Play to either side, rad, of a jaw on a nut whose corners are rounded (CornerGrip::rounded); 30° if the jaw
 // turns freely.

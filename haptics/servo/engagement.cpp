@@ -43,10 +43,55 @@ bool fits(const Setup& setup, const NutGeometry& nut, const NutOffset& o, const 
     if (grip == Grip::fingers) return std::hypot(o.axial, o.radial) < finger_reach;
     return std::abs(o.axial) < 0.35 * nut.height && o.radial < max_radial_offset &&
            std::abs(glm::dot(tool.normal, nut.axis)) > min_engage_cosine &&
-           std::abs(misalignment) <= setup.wrench.half_play;
+           std::abs(misalignment) <= setup.wrench.half_play &&
+           collision::grips(setup.wrench.head, shape_of(nut));
+}
+
+// `azimuth`: rad, of the tool to the nut's hexagon. A ratchet lets its head turn until it fits.
+double misalignment_of(const Wrench& wrench, double azimuth) {
+    return wrench.ratchet.tooth_angle > 0.0 ? 0.0 : wrap(azimuth, collision::fitting_angle(wrench.head));
 }
 
 }  // namespace
+
+void turn_tool(const Wrench& wrench, double turned, Engagement& e) {
+    if (wrench.ratchet.tooth_angle > 0.0) {
+        const double sense = wrench.ratchet.loosens ? -1.0 : 1.0;
+        const double taken_up = std::clamp(sense * turned, 0.0, e.ratchet_slack);
+        e.ratchet_slack -= taken_up;
+        turned -= sense * taken_up;
+    }
+    e.hand_angle += turned;
+}
+
+double pawl_drag(const Ratchet& ratchet, double slack) {
+    const double climbed = slack / ratchet.tooth_angle;
+    return ratchet.drag * (ratchet.least_drag_share + (1.0 - ratchet.least_drag_share) * climbed);
+}
+
+void limit_to_pawl(const Wrench& wrench, double nut_angle, const Engagement& e, joint::NutDrive& drive) {
+    if (wrench.ratchet.tooth_angle <= 0.0) return;
+    const double ahead = (wrench.ratchet.loosens ? -1.0 : 1.0) * (e.hand_angle - nut_angle);
+    if (ahead < -drive.half_play) drive.torque_limit = pawl_drag(wrench.ratchet, e.ratchet_slack);
+}
+
+void settle_ratchet(const Wrench& wrench, double nut_angle, double play, Engagement& e) {
+    const Ratchet& ratchet = wrench.ratchet;
+    if (ratchet.tooth_angle <= 0.0) return;
+    // Positive in the direction in which the head turns with the handle.
+    const double sense = ratchet.loosens ? -1.0 : 1.0;
+    const auto slip = [&] {
+        const double rearmost =
+            sense * nut_angle - play - pawl_drag(ratchet, e.ratchet_slack) / wrench.stiffness;
+        const double slipped = std::max(0.0, rearmost - sense * e.hand_angle);
+        e.ratchet_slack += slipped;
+        e.hand_angle += sense * slipped;
+    };
+    slip();
+    if (e.ratchet_slack < ratchet.tooth_angle) return;
+    e.ratchet_slack = std::fmod(e.ratchet_slack, ratchet.tooth_angle);
+    slip();  // the pawl has dropped into a tooth, and the head springs forward
+}
 
 ToolPose tool_pose(const CommandedTool& commanded) {
     ToolPose tool;
@@ -70,7 +115,7 @@ ToolPose tool_pose(const Pose& pose) {
 
 Vec3 nut_centre(const NutGeometry& nut, double nut_angle) {
     const double gap = std::max(0.0, nut.start_gap - nut.lead * nut_angle);
-    return nut.seat + nut.axis * (gap + 0.5 * nut.height);
+    return nut.seat + nut.axis * (gap + nut.grip_height);
 }
 
 double tool_azimuth(const Setup& setup, const NutGeometry& nut, const ToolPose& tool, Grip grip) {
@@ -95,7 +140,10 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
         const double turned = wrap(azimuth - e.azimuth, 2.0 * pi);
         if (grip == e.grip && !pulled_away(nut, o, grip) && !tilted_away(nut, tool, grip) &&
             std::abs(turned) < max_turn_per_tick) {
-            e.hand_angle += turned;
+            if (grip == Grip::wrench)
+                turn_tool(setup.wrench, turned, e);
+            else
+                e.hand_angle += turned;
             e.azimuth = azimuth;
             e.offset_at_engagement *= 1.0 - setup.dt / offset_decay_time;
             return;
@@ -110,7 +158,7 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
         const Vec3 from_centre = tool.position - nut_centre(nut, nut_angle);
         if (std::abs(from_centre.x) + std::abs(from_centre.y) + std::abs(from_centre.z) > 0.1) continue;
         const double azimuth = tool_azimuth(setup, nut, tool, grip);
-        const double misalignment = wrap(azimuth - nut_angle, pi / 3.0);  // the hexagon's symmetry
+        const double misalignment = misalignment_of(setup.wrench, azimuth - nut_angle);
         if (!fits(setup, nut, offset_of(from_centre, nut), tool, grip, misalignment)) continue;
         e.joint = static_cast<int>(i);
         e.grip = grip;
@@ -125,7 +173,8 @@ namespace {
 
 // rad; angle that corresponds to a few micrometres (the god-object's tolerance) at half a flat's length.
 constexpr double angle_tolerance = 1e-3;
-constexpr double max_engage_distance = 0.1;  // m from jaw to nut beyond which a nut is skipped
+constexpr double max_engage_distance = 0.1;  // m from head to nut beyond which a nut is skipped
+constexpr double min_overlap = 0.5e-3;       // m of rings, sockets and keys on the flats, to engage
 constexpr double min_torque_limit = 1e-9;    // N·m; NutDrive::torque_limit 0 means unlimited
 
 // Modelling assumptions: a jaw slips off a corner once it has turned by its whole backlash beyond the
@@ -135,19 +184,28 @@ constexpr double min_slip_time = 0.02;       // s
 constexpr double min_height = 0.2e-3;        // m, lower bound of the rounded height
 
 double corner_torque(const Setup& setup, const NutGeometry& nut, double rounded, const Engagement& e) {
-    const double clearance = 0.5 * (setup.wrench.jaw.opening - nut.across_flats);
-    const collision::JawFit& fit = e.fit;
+    const collision::ToolHead& head = setup.wrench.head;
+    const collision::HeadFit& fit = e.fit;
+    const double width = collision::width_across_flats(head);
+    if (std::holds_alternative<collision::Key>(head)) {
+        const double clearance = 0.5 * (collision::width_across_flats(shape_of(nut)) - width);
+        return joint::ring_torque(nut.corner_pressure, {fit.overlap, width, 6, fit.tilt, clearance, rounded});
+    }
+    const double clearance = 0.5 * (width - nut.across_flats);
+    if (const auto* ring = std::get_if<collision::Ring>(&head))
+        return joint::ring_torque(
+            nut.corner_pressure, {fit.overlap, nut.across_flats, ring->points, fit.tilt, clearance, rounded});
     return joint::corner_torque(nut.corner_pressure, {fit.overlap, fit.toward_throat, fit.toward_mouth,
                                                       fit.tilt, clearance, rounded});
 }
 
 double play_of(const Setup& setup, const NutGeometry& nut, double rounded) {
-    return joint::rounded_half_play(setup.wrench.jaw.opening, nut.across_flats, rounded);
+    return half_play(setup.wrench, nut.across_flats, rounded);
 }
 
-// Direction of the throat about the bolt, rad, tightening positive.
+// Direction of the throat, or of a corner of a key or a ring, about the bolt, rad, tightening positive.
 double azimuth_of(const Setup& setup, const NutGeometry& nut, const ToolPose& tool) {
-    const double head = setup.wrench.jaw.head_angle;
+    const double head = setup.wrench.head_angle;
     const Vec3 to_throat = tool.orientation * Vec3(std::cos(head), std::sin(head), 0.0);
     return -std::atan2(glm::dot(to_throat, nut.e2), glm::dot(to_throat, nut.e1));
 }
@@ -158,16 +216,14 @@ Pose pose_in_nut_frame(const NutGeometry& nut, double nut_angle, const ToolPose&
     return inverse(nut_pose(nut, nut_angle)) * Pose{tool.position, tool.orientation};
 }
 
-collision::HexagonPrism prism_of(const NutGeometry& nut) {
-    return {nut.across_flats, nut.height, nut.bearing_diameter};
-}
-
-void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState> joints,
-                           std::span<const double> rounded, const ToolPose& tool, Engagement& e) {
-    const collision::Jaw& jaw = setup.wrench.jaw;
+void update_contact_engagement(const Setup& setup, std::span<const joint::JointState> joints,
+                               std::span<const double> rounded, const ToolPose& tool, Engagement& e) {
+    const collision::ToolHead& head = setup.wrench.head;
+    const double width = collision::width_across_flats(head);
+    const auto* jaw = std::get_if<collision::Jaw>(&head);
     const auto fit_on = [&](std::size_t i) {
         const NutGeometry& nut = setup.nuts[i];
-        return collision::jaw_fit(jaw, prism_of(nut), pose_in_nut_frame(nut, joints[i].nut.angle, tool));
+        return collision::head_fit(head, shape_of(nut), pose_in_nut_frame(nut, joints[i].nut.angle, tool));
     };
     if (!tool.valid) {
         e = {};
@@ -178,8 +234,8 @@ void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState
         const double azimuth = azimuth_of(setup, setup.nuts[i], tool);
         const double turned = wrap(azimuth - e.azimuth, 2.0 * pi);
         e.fit = fit_on(i);
-        if (e.grip == Grip::wrench && e.fit.surrounds(jaw.opening) && std::abs(turned) < max_turn_per_tick) {
-            e.hand_angle += turned;
+        if (e.grip == Grip::wrench && e.fit.surrounds(width) && std::abs(turned) < max_turn_per_tick) {
+            turn_tool(setup.wrench, turned, e);
             e.azimuth = azimuth;
             return;
         }
@@ -190,9 +246,10 @@ void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState
         const NutGeometry& nut = setup.nuts[i];
         const double nut_angle = joints[i].nut.angle;
         if (glm::length(tool.position - nut_centre(nut, nut_angle)) > max_engage_distance) continue;
-        const collision::JawFit fit = fit_on(i);
+        if (!collision::grips(head, shape_of(nut))) continue;
+        const collision::HeadFit fit = fit_on(i);
         // The bevel is the hysteresis: a hand that trembles at the edge does not engage and release in turn.
-        if (!fit.surrounds(jaw.opening) || fit.overlap < jaw.bevel) continue;
+        if (!fit.surrounds(width) || fit.overlap < (jaw != nullptr ? jaw->bevel : min_overlap)) continue;
         if (std::abs(fit.misalignment) > play_of(setup, nut, rounded[i]) + angle_tolerance) continue;
         e.joint = static_cast<int>(i);
         e.grip = Grip::wrench;
@@ -203,7 +260,8 @@ void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState
     }
 }
 
-joint::NutDrive jaw_drive(const Setup& setup, const NutGeometry& nut, double rounded, const Engagement& e) {
+joint::NutDrive contact_drive(const Setup& setup, const NutGeometry& nut, double rounded,
+                              const Engagement& e) {
     joint::NutDrive drive;
     drive.engaged = true;
     drive.angle = e.hand_angle;
@@ -228,7 +286,7 @@ bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::Join
     // 120°.
     const double area = std::sqrt(3.0) / 4.0, height = std::max(e.fit.overlap, min_height);
     rounded = std::sqrt(square(rounded) + limit * turned / (2.0 * area * height * nut.corner_pressure));
-    rounded = std::min(rounded, prism_of(nut).half_side());
+    rounded = std::min(rounded, 0.5 * nut.across_flats / std::sqrt(3.0));
     const double remaining =
         1.0 - e.turned_beyond_corner_torque / (slip_off_half_plays * std::max(play, angle_tolerance));
     e.corner_torque_share =

@@ -1,6 +1,6 @@
 // Determines which nut the hand holds. Fingers, and a wrench without contact simulation, engage if their pose
 // fits: level with the nut, centred, square to the axis and aligned within the play (update_pose_engagement).
-// With contact simulation the geometry of the jaw decides (update_jaw_engagement).
+// With contact simulation the geometry of the tool's head decides (update_contact_engagement).
 #pragma once
 
 #include <span>
@@ -29,8 +29,10 @@ struct Engagement {
     // it.
     double azimuth = 0.0;
     // rad, the nut's angle at which the tool would apply no torque: the nut's angle at engagement, plus the
-    // misalignment of the jaw, plus the tool's rotation about the bolt since then (not wrapped).
+    // misalignment of the jaw, plus the tool's rotation about the bolt since then (not wrapped). With a
+    // ratchet: of its head.
     double hand_angle = 0.0;
+    double ratchet_slack = 0.0;  // rad, 0 … one tooth: how far the handle is behind the ratchet's head
     // m, tool minus nut centre at engagement; decays with a time constant of 0.05 s.
     Vec3 offset_at_engagement{0.0};
 
@@ -39,8 +41,8 @@ struct Engagement {
     double swung = 0.0;       // rad that the handle has swung since the click
 
     // Wrench with contact simulation.
-    collision::JawFit fit;
-    double corner_torque_share = 1.0;  // remaining share of the corner torque while the jaw slips, 0 … 1
+    collision::HeadFit fit;
+    double corner_torque_share = 1.0;  // remaining share of the corner torque while the head slips, 0 … 1
     double turned_beyond_corner_torque = 0.0;  // rad
 };
 
@@ -56,11 +58,31 @@ double tool_azimuth(const Setup& setup, const NutGeometry& nut, const ToolPose& 
 void update_pose_engagement(const Setup& setup, std::span<const joint::JointState> joints,
                             const ToolPose& tool, Grip grip, Engagement& engagement);
 
-// Grip of a wrench on a nut with contact simulation. Geometry alone determines whether the jaw holds the nut
-// (haptics/collision/jaw.hpp); the corners limit the torque that it can transmit (haptics/joint/nut.hpp).
+// A tool with a ratchet (Ratchet in setup.hpp) takes three steps in a tick: turn_tool() with the hand, the
+// joint's step with a drive that limit_to_pawl() limits, and settle_ratchet(). Without a ratchet the last two
+// do nothing.
+
+// Turns the engaged tool by `turned` rad since the last tick, tightening positive. A ratchet's handle first
+// takes up the slack to its tooth.
+void turn_tool(const Wrench& wrench, double turned, Engagement& engagement);
+
+// N·m, drag of the pawl when the handle is `slack` rad behind its tooth.
+double pawl_drag(const Ratchet& ratchet, double slack);
+
+// A head that turns back with the handle drives the nut with the drag of the pawl at most.
+void limit_to_pawl(const Wrench& wrench, double nut_angle, const Engagement& engagement,
+                   joint::NutDrive& drive);
+
+// Call after the joint's step. The head stands where its torque on the nut equals the drag of the pawl, and
+// the handle moves on over the teeth. `nut_angle`, `play` in rad.
+void settle_ratchet(const Wrench& wrench, double nut_angle, double play, Engagement& engagement);
+
+// Grip of a tool on a nut with contact simulation. Geometry alone determines whether the head holds the nut
+// (haptics/collision/tool_head.hpp); the corners limit the torque that it can transmit
+// (haptics/joint/nut.hpp).
 //
 // The joint law alone, with its implicit step, acts about the bolt's axis; contacts act in the other five
-// directions. To separate them, contact queries get a hexagon that turns with the jaw once the play is used
+// directions. To separate them, contact queries get a hexagon that turns with the head once the play is used
 // up, and the moment of the contacts about the bolt is not rendered. If contacts drove the nut instead, its
 // torque would depend on the position error of the god-object: 0.01 mm at a corner changes a torque of 100
 // N·m by 3 N·m. The force is continuous at engagement: inside the play both the law's torque and the removed
@@ -69,19 +91,17 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
 // Pose of the wrench in the nut's frame.
 Pose pose_in_nut_frame(const NutGeometry& nut, double nut_angle, const ToolPose& tool);
 
-collision::HexagonPrism prism_of(const NutGeometry& nut);
-
-// One tick. Engages a nut if the jaw surrounds its hexagon by more than the jaw's bevel and is aligned within
-// the play; releases it if the jaw no longer surrounds it. `rounded`, by joint: m
+// One tick. Engages a nut that the head can turn if it surrounds the hexagon by more than its bevel and is
+// aligned within the play; releases it if it no longer surrounds it. `rounded`, by joint: m
 // (joint::CornerGrip::rounded).
-void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState> joints,
-                           std::span<const double> rounded, const ToolPose& tool, Engagement& engagement);
+void update_contact_engagement(const Setup& setup, std::span<const joint::JointState> joints,
+                               std::span<const double> rounded, const ToolPose& tool, Engagement& engagement);
 
 // The engaged wrench as the joint law's drive. `rounded` in m.
-joint::NutDrive jaw_drive(const Setup& setup, const NutGeometry& nut, double rounded,
-                          const Engagement& engagement);
+joint::NutDrive contact_drive(const Setup& setup, const NutGeometry& nut, double rounded,
+                              const Engagement& engagement);
 
-// Call after the joint's step. A jaw that turns beyond the corners' torque removes material in proportion to
+// Call after the joint's step. A head that turns beyond the corners' torque removes material in proportion to
 // the work, and transmits less torque the further it turns. Returns true in the tick in which it slips off
 // the nut.
 bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::JointState& joint,

@@ -9,6 +9,10 @@ namespace bolt::servo {
 
 namespace {
 
+// Of the pawl of a ratchet, N·m: makers give about 0.1 to 0.5 (memory of catalogues).
+constexpr double usual_drag = 0.25;
+// m between a socket screw and its key: the middle of the tolerances of ISO 4762 and ISO 2936 at 6 mm.
+constexpr double key_clearance = 0.1e-3;
 constexpr std::uint64_t tool_stream = 6789;  // random stream of the wrench; the joints use the streams from 0
 
 NutGeometry nut_geometry(const joint::JointDesign& design) {
@@ -23,7 +27,11 @@ NutGeometry nut_geometry(const joint::JointDesign& design) {
     nut.height = part.height;
     nut.across_flats = part.across_flats;
     nut.bearing_diameter = part.bearing;
-    nut.corner_pressure = joint::corner_pressure(joint::turned_part_hardness(design));
+    nut.socket_depth = part.depth;
+    nut.head_diameter = part.outside;
+    const double hardness = joint::turned_part_hardness(design);
+    nut.corner_pressure =
+        part.depth > 0.0 ? joint::socket_pressure(hardness) : joint::corner_pressure(hardness);
     nut.start_gap = design.start_gap;
     nut.lead = design.thread.thread.pitch / (2.0 * pi);
     return nut;
@@ -38,6 +46,21 @@ Pose nut_pose(const NutGeometry& nut, double nut_angle) {
     return {nut.seat + gap * nut.axis, seat * glm::angleAxis(-nut_angle, Vec3(0, 0, 1))};
 }
 
+collision::TurnedShape shape_of(const NutGeometry& nut) {
+    if (nut.socket_depth > 0.0)
+        return collision::HexagonSocket{nut.across_flats + key_clearance, nut.socket_depth, nut.height,
+                                        nut.head_diameter};
+    return collision::HexagonPrism{nut.across_flats, nut.height, nut.bearing_diameter};
+}
+
+double half_play(const Wrench& wrench, double across_flats, double rounded) {
+    if (const auto* key = std::get_if<collision::Key>(&wrench.head))
+        return joint::rounded_half_play(across_flats + key_clearance, key->width, rounded);
+    return joint::rounded_half_play(collision::width_across_flats(wrench.head), across_flats, rounded);
+}
+
+bool reversible(const Wrench& wrench) { return std::holds_alternative<collision::Jaw>(wrench.head); }
+
 Setup make_setup(const SetupDescription& d) {
     Setup setup;
     setup.dt = d.dt;
@@ -45,8 +68,10 @@ Setup make_setup(const SetupDescription& d) {
                                                    : joint::make_published_group(d.published);
     double across_flats = 0.0;
     for (const joint::JointDesign& design : d.joints) {
-        setup.nuts.push_back(nut_geometry(design));
-        across_flats = std::max(across_flats, joint::turned_part_size(design).across_flats);
+        NutGeometry nut = nut_geometry(design);
+        nut.grip_height = collision::grip_height(d.head, shape_of(nut));
+        across_flats = std::max(across_flats, nut.across_flats);
+        setup.nuts.push_back(nut);
     }
     if (d.law == joint::Law::published)
         for (std::size_t i = 0; i < setup.nuts.size(); ++i)
@@ -55,12 +80,15 @@ Setup make_setup(const SetupDescription& d) {
 
     setup.wrench.head_angle = d.head_angle;
     setup.wrench.handle_length = d.handle_length;
-    setup.wrench.jaw =
-        collision::make_jaw(d.jaw_opening, d.head_angle, d.head_thickness, d.jaw_depth, d.jaw_tip);
-    setup.wrench.half_play = joint::rounded_half_play(d.jaw_opening, across_flats, 0.0);
+    setup.wrench.head = d.head;
+    setup.wrench.ratchet.tooth_angle = collision::tooth_angle(d.head);
+    setup.wrench.ratchet.drag = usual_drag;
+    setup.wrench.half_play = half_play(setup.wrench, across_flats, 0.0);
     const double max_torque = std::max(d.max_torque, 1.0);
     // Modelling assumption: wrench and wrists yield 2.5° at the largest torque.
     setup.wrench.stiffness = max_torque / to_radians(2.5);
+    if (d.twist_stiffness > 0.0)  // in series
+        setup.wrench.stiffness = 1.0 / (1.0 / setup.wrench.stiffness + 1.0 / d.twist_stiffness);
 
     setup.wrench.click.swing = d.click_swing;
     Random random(d.seed, tool_stream);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/base/math.hpp"
-#include "haptics/collision/jaw.hpp"
+#include "haptics/collision/tool_head.hpp"
 #include "haptics/force/device_mapping.hpp"
 #include "haptics/force/guide.hpp"
 #include "haptics/force/output_limits.hpp"
@@ -23,26 +23,53 @@ struct NutGeometry {
     Vec3 e1{1.0, 0.0, 0.0};
     Vec3 e2{0.0, 0.0, -1.0};
     double height = 0.0;            // m
-    double across_flats = 0.0;      // s in ISO 4032, m
+    double across_flats = 0.0;      // m, that the tool must have: s in ISO 4032, or that of a head's socket
     double bearing_diameter = 0.0;  // m, of the bearing face inside the chamfer
-    double corner_pressure = 0.0;   // Pa at which the corners yield (haptics/joint/nut.hpp)
-    double start_gap = 0.0;         // m from bearing face to seat at nut angle 0
-    double lead = 0.0;              // m of advance per rad
+    double socket_depth = 0.0;      // m, of the head's hexagonal socket; 0: the tool grips it from outside
+    double head_diameter = 0.0;     // m, of a head with a socket
+    // m above the bearing face at which the tool's origin belongs, and the fingertips.
+    double grip_height = 0.0;
+    double corner_pressure = 0.0;  // Pa at which the corners yield (haptics/joint/nut.hpp)
+    double start_gap = 0.0;        // m from bearing face to seat at nut angle 0
+    double lead = 0.0;             // m of advance per rad
+};
+
+// The ratchet between the handle and the head of a tool. In one direction the head turns with the handle. In
+// the other a spring-loaded pawl climbs over the teeth: its drag rises over each tooth and then drops. A nut
+// that turns more easily than that turns back with the handle.
+struct Ratchet {
+    double tooth_angle = 0.0;       // rad; 0: no ratchet
+    double drag = 0.0;              // N·m, at the top of a tooth
+    double least_drag_share = 0.4;  // of `drag`, at the foot of a tooth: the pawl's spring is preloaded
+    bool loosens = false;  // the lever's position: the direction in which the head turns with the handle
 };
 
 // Pose of the nut's frame in the assembly: origin on the bearing face, +Z along the bolt away from the
 // members, +X through a corner of the hexagon. `nut_angle` in rad, tightening positive.
 Pose nut_pose(const NutGeometry& nut, double nut_angle);
 
+// The shape of a nut or head for contacts with the head of a tool.
+collision::TurnedShape shape_of(const NutGeometry& nut);
+
 struct Wrench {
-    collision::Jaw jaw;
-    double head_angle = 0.0;     // rad between jaw and handle; flipping the wrench mirrors it
+    collision::ToolHead head;
+    // rad between the handle and the direction of the head that aligns with a corner of the hexagon: the
+    // throat of a jaw. Turning an open-end wrench over mirrors it.
+    double head_angle = 0.0;
     double handle_length = 0.0;  // m
-    double half_play = 0.0;      // rad of free rotation of the jaw on the hexagon, to either side
-    double stiffness = 0.0;      // N·m/rad, wrench and hand in series
-    joint::Click click;          // without its set torque, which is an input
-    double deviation = 0.0;      // relative deviation of the click torque from the set torque
+    double half_play = 0.0;      // rad of free rotation of the head on the hexagon, to either side
+    Ratchet ratchet;
+    double stiffness = 0.0;  // N·m/rad, wrench and hand in series
+    joint::Click click;      // without its set torque, which is an input
+    double deviation = 0.0;  // relative deviation of the click torque from the set torque
 };
+
+// rad of free rotation of the head on a hexagon or in a socket of this size (m) to either side, if its
+// corners have lost `rounded` m along each flat (joint::CornerGrip::rounded); 30° if it turns freely.
+double half_play(const Wrench& wrench, double across_flats, double rounded);
+
+// Returns true if the tool can be turned over on the hexagon: only an open end.
+bool reversible(const Wrench& wrench);
 
 struct Setup {
     double dt = 0.001;
@@ -68,13 +95,11 @@ struct SetupDescription {
     joint::Law law = joint::Law::mechanistic;
     std::vector<joint::PublishedParameters> published;  // law `published`: one set for each joint
     const joint::FlangePlate* flange = nullptr;
-    double jaw_opening = 0.0;     // m, across the flats
-    double head_thickness = 0.0;  // m; 0: the default proportion (haptics/collision/jaw.hpp)
-    double jaw_depth = 0.0;       // m, from the middle of the jaw to its throat; 0: the default
-    double jaw_tip = 0.0;         // m, from the middle of the jaw to its tips; 0: the default
-    double head_angle = 0.0;      // rad
-    double handle_length = 0.0;   // m
-    double max_torque = 0.0;      // N·m, the largest torque of the lesson; maps to the device's range
+    collision::ToolHead head;
+    double head_angle = 0.0;       // rad, see Wrench
+    double twist_stiffness = 0.0;  // N·m/rad, of an extension bar; 0: none
+    double handle_length = 0.0;    // m
+    double max_torque = 0.0;       // N·m, the largest torque of the lesson; maps to the device's range
     force::OutputLimits limits;
     double click_swing = 0.0;  // rad that a click-type torque wrench swings at its click; 0: a plain wrench
     double click_accuracy = 0.0;  // relative bound of Wrench::deviation, which is drawn from the seed

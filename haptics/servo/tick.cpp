@@ -26,7 +26,7 @@ joint::NutDrive drive_without_click(const Setup& setup, const State& state) {
     const Engagement& e = state.engagement;
     if (e.joint >= 0 && held_by_contact(state)) {
         const auto i = static_cast<std::size_t>(e.joint);
-        return jaw_drive(setup, setup.nuts[i], state.rounded[i], e);
+        return contact_drive(setup, setup.nuts[i], state.rounded[i], e);
     }
     joint::NutDrive drive;
     drive.engaged = e.joint >= 0;
@@ -190,17 +190,22 @@ ConstrainedTool constrain_tool(const Setup& setup, State& state, const ToolPose&
 // Part 2.
 void update_engagement(const Setup& setup, State& state, const ToolPose& tool, Grip grip) {
     if (state.tool_contact && grip == Grip::wrench)
-        update_jaw_engagement(setup, state.joints, state.rounded, tool, state.engagement);
+        update_contact_engagement(setup, state.joints, state.rounded, tool, state.engagement);
     else
         update_pose_engagement(setup, state.joints, tool, grip, state.engagement);
 }
 
 // Part 3. Returns true if the torque wrench clicks.
 bool step_joints(const Setup& setup, State& state, float set_torque) {
-    update_set_torque(setup, state.engagement, set_torque);
-    const joint::ClickStep click =
-        step_group(setup.group, state.joints, state.engagement.joint, drive_of(setup, state), setup.dt);
-    state.engagement.swung = click.swung;
+    Engagement& e = state.engagement;
+    update_set_torque(setup, e, set_torque);
+    joint::NutDrive drive = drive_of(setup, state);
+    const bool turns = e.joint >= 0 && e.grip == Grip::wrench;
+    const auto nut_angle = [&] { return state.joints[static_cast<std::size_t>(e.joint)].nut.angle; };
+    if (turns) limit_to_pawl(setup.wrench, nut_angle(), e, drive);
+    const joint::ClickStep click = step_group(setup.group, state.joints, e.joint, drive, setup.dt);
+    e.swung = click.swung;
+    if (turns) settle_ratchet(setup.wrench, nut_angle(), drive.half_play, e);
     return click.clicked;
 }
 

@@ -17,28 +17,37 @@ static_assert(proxy::GodObjectParameters{}.stride <= collision::merge_stride);
 
 constexpr double contact_distance = 1.5;  // skins; nearer contacts count as touching
 
-// m between jaw and hexagon. The clearance of a jaw is a tenth of a millimetre to each side; the usual skin
+// m between head and hexagon. The clearance of a jaw is a tenth of a millimetre to each side; the usual skin
 // would fill it.
-constexpr double jaw_skin = 2e-6;
-constexpr double both_skins = 2.5;  // of jaw_skin: one on each flank, and a margin
+constexpr double grip_skin = 2e-6;
+constexpr double both_skins = 2.5;  // of grip_skin: one on each flank, and a margin
 
-// Shares of the jaw opening. A nut whose centre is within these limits can touch only the jaw of the wrench.
+// Shares of the width across the head's flats. A nut whose centre is within these limits can touch only the
+// head of the tool.
 constexpr double max_offset_across = 0.15, max_offset_to_throat = 0.25;
 constexpr double nearly_level = 0.99;  // cos 8°
 
-// Transforms a point of the assembly into the jaw: x along the slot towards its throat, y across, z normal.
-Vec3 to_jaw_frame(const collision::Jaw& jaw, const Pose& wrench, const Vec3& point) {
-    return glm::angleAxis(-jaw.head_angle, Vec3(0, 0, 1)) * (inverse(wrench) * point);
+// Returns true if only the tool's head can touch the nut in this tick and the next ones.
+bool only_head_in_reach(const Setup& setup, const NutGeometry& nut, const Pose& nut_frame,
+                        const Pose& wrench) {
+    const double opening = collision::width_across_flats(setup.wrench.head);
+    // In the jaw: x along the slot towards its throat, y across, z normal.
+    const Vec3 p = glm::angleAxis(-setup.wrench.head_angle, Vec3(0, 0, 1)) *
+                   (inverse(wrench) * (nut_frame.position + 0.5 * nut.height * nut.axis));
+    const double level = glm::dot(wrench.orientation * Vec3(0, 0, 1), nut.axis);
+    if (!std::holds_alternative<collision::Jaw>(setup.wrench.head))
+        return std::hypot(p.x, p.y) < max_offset_across * opening && level > nearly_level;
+    return std::abs(p.y) < max_offset_across * opening && p.x < max_offset_to_throat * opening &&
+           std::abs(level) > nearly_level;
 }
 
-// Returns true if only the jaw can touch the nut in this tick and the next ones.
-bool only_jaw_in_reach(const Setup& setup, const NutGeometry& nut, const Pose& nut_frame,
-                       const Pose& wrench) {
-    const collision::Jaw& jaw = setup.wrench.jaw;
-    const Vec3 p = to_jaw_frame(jaw, wrench, nut_frame.position + 0.5 * nut.height * nut.axis);
-    const Vec3 normal = wrench.orientation * Vec3(0, 0, 1);
-    return std::abs(p.y) < max_offset_across * jaw.opening && p.x < max_offset_to_throat * jaw.opening &&
-           std::abs(glm::dot(normal, nut.axis)) > nearly_level;
+collision::GripQuery query_of(const Setup& setup, const ToolContact& contact, std::size_t joint,
+                              double band) {
+    return {setup.wrench.head,
+            contact.shapes[joint],
+            {contact.head, contact.shape_solids[joint]},
+            band,
+            collision::ObstacleId::nut(joint)};
 }
 
 bool equal(const Pose& a, const Pose& b) {
@@ -56,43 +65,44 @@ void update_nut_poses(const Setup& setup, ToolContact& contact, std::span<const 
         collision::Body& body = contact.world.bodies[*contact.nut_bodies[i]];
         body.pose = nut_frame;
         const bool enabled =
-            !held || !only_jaw_in_reach(setup, setup.nuts[i], nut_frame, contact.god_object.constrained_tool);
+            !held || contact.shape_solids[i].empty() ||
+            !only_head_in_reach(setup, setup.nuts[i], nut_frame, contact.god_object.constrained_tool);
         contact.cache.meshes_unchanged =
             contact.cache.meshes_unchanged && enabled == body.enabled && (unchanged || !enabled);
         body.enabled = enabled;
     }
 }
 
-// Returns the pose that contact queries use for the nut in the jaw. Once the jaw has turned by more than the
-// play, less the room for a skin on each flank, the nut turns with it. Two flanks pressed at once would be
-// contradictory constraints with unlimited friction.
-Pose hexagon_pose_in_jaw(const Setup& setup, const NutGeometry& nut, const Pose& nut_frame,
-                         const Pose& wrench) {
+// Returns the pose that contact queries use for the nut in the tool's head. Once the head has turned by more
+// than the play, less the room for a skin on each flank, the nut turns with it. Two flanks pressed at once
+// would be contradictory constraints with unlimited friction.
+Pose pose_in_tool(const Setup& setup, const NutGeometry& nut, const Pose& nut_frame, const Pose& wrench) {
     const double off =
-        collision::jaw_fit(setup.wrench.jaw, prism_of(nut), inverse(nut_frame) * wrench).misalignment;
-    const double play = joint::rounded_half_play(setup.wrench.jaw.opening, nut.across_flats, 0.0);
+        collision::head_fit(setup.wrench.head, shape_of(nut), inverse(nut_frame) * wrench).misalignment;
+    const double play = half_play(setup.wrench, nut.across_flats, 0.0);
     const double lever = 0.5 * nut.across_flats * (std::cos(play) / std::sqrt(3.0) - std::sin(play));
-    const double room = std::max(0.0, play - both_skins * jaw_skin / lever);
+    const double room = std::max(0.0, play - both_skins * grip_skin / lever);
     const double beyond = off - std::clamp(off, -room, room);
     return {nut_frame.position, nut_frame.orientation * glm::angleAxis(-beyond, Vec3(0, 0, 1))};
 }
 
-// Contacts of the jaw with all nuts, up to the size of `out`. If more exist, the result is marked as
-// truncated.
-collision::ContactQueryResult find_jaw_contacts(const Setup& setup, const ToolContact& contact,
-                                                const Pose& pose, double band,
-                                                std::span<collision::Contact> out) {
-    const double skin_reduction = contact.parameters.skin - jaw_skin;
+// Contacts of the tool's head with all nuts that it can turn, up to the size of `out`. If more exist, the
+// result is marked as truncated.
+collision::ContactQueryResult find_grip_contacts(const Setup& setup, const ToolContact& contact,
+                                                 const Pose& pose, double band,
+                                                 std::span<collision::Contact> out) {
+    const double skin_reduction = contact.parameters.skin - grip_skin;
     collision::ContactQueryResult found{0, band, false};
-    std::array<collision::Contact, collision::max_jaw_contacts> contacts;
-    for (std::size_t i = 0; i < contact.hexagons.size(); ++i) {
+    std::array<collision::Contact, collision::max_grip_contacts> contacts;
+    for (std::size_t i = 0; i < contact.shapes.size(); ++i) {
+        if (contact.shape_solids[i].empty()) continue;
         const NutGeometry& nut = setup.nuts[i];
-        const bool in_jaw = static_cast<int>(i) == contact.joint_in_jaw;
+        const bool in_tool = static_cast<int>(i) == contact.joint_in_tool;
         const Pose nut_frame =
-            in_jaw ? hexagon_pose_in_jaw(setup, nut, contact.nut_poses[i], pose) : contact.nut_poses[i];
-        const std::size_t count = collision::jaw_contacts(contact.jaw, contact.hexagons[i], pose, nut_frame,
-                                                          band, collision::ObstacleId::nut(i), contacts);
-        if (in_jaw)
+            in_tool ? pose_in_tool(setup, nut, contact.nut_poses[i], pose) : contact.nut_poses[i];
+        const std::size_t count =
+            collision::grip_contacts(query_of(setup, contact, i, band), pose, nut_frame, contacts);
+        if (in_tool)
             collision::remove_axial_moment(nut_frame.position, nut.axis, std::span(contacts).first(count));
         for (std::size_t k = 0; k < count; ++k) {
             collision::Contact& c = contacts[k];
@@ -108,14 +118,15 @@ collision::ContactQueryResult find_jaw_contacts(const Setup& setup, const ToolCo
     return found;
 }
 
-// Contacts between meshes, without those of nuts that the closed form of the jaw covers.
+// Contacts between meshes, without those of nuts that the closed form covers.
 collision::ContactQueryResult find_mesh_contacts(ToolContact& contact, const Pose& pose, double band,
                                                  std::span<collision::Contact> out) {
     collision::ContactQueryResult found =
         collision::find_contacts(contact.world, contact.wrench, pose, band, contact.narrow_phase, out);
     collision::smooth_normals(contact.world, contact.wrench, pose, out.first(found.count));
     const auto is_covered = [&](const collision::Contact& c) {
-        return c.obstacle.is_nut() && collision::covered_by_jaw(contact.jaw, inverse(pose) * c.on_tool);
+        return c.obstacle.is_nut() && !contact.shape_solids[c.obstacle.index()].empty() &&
+               collision::covered(contact.head, inverse(pose) * c.on_tool);
     };
     const auto end = out.begin() + static_cast<std::ptrdiff_t>(found.count);
     found.count = static_cast<std::size_t>(std::remove_if(out.begin(), end, is_covered) - out.begin());
@@ -123,24 +134,24 @@ collision::ContactQueryResult find_mesh_contacts(ToolContact& contact, const Pos
 }
 
 // A tick often starts at the pose where the last one ended. The cache then returns the contacts of all bodies
-// that did not move; if only the held nut moved, only the contacts of the jaw are computed again.
+// that did not move; if only the held nut moved, only the contacts of the head are computed again.
 collision::ContactQueryResult find_contacts_cached(const Setup& setup, ToolContact& contact, const Pose& pose,
                                                    double band, std::span<collision::Contact> out) {
     ContactCache& last = contact.cache;
     const bool same_query = last.band == band && equal(last.pose, pose);
     const auto kept = std::span(last.contacts).first(last.count);
     const bool nuts_unchanged = same_query && last.nuts_unchanged;
-    // The jaw contacts come first, so their number limits the space that is left for those of meshes.
-    const std::size_t jaw_contacts_before = last.nuts.count;
+    // The head's contacts come first, so their number limits the space that is left for those of meshes.
+    const std::size_t grip_contacts_before = last.nuts.count;
     if (nuts_unchanged)
         std::copy_n(kept.begin(), last.nuts.count, out.begin());
     else
-        last.nuts = find_jaw_contacts(setup, contact, pose, band, out);
+        last.nuts = find_grip_contacts(setup, contact, pose, band, out);
     const auto rest = out.subspan(last.nuts.count);
     collision::ContactQueryResult found = last.meshes;
     found.query_cost = 0;
-    if (same_query && last.meshes_unchanged && last.nuts.count == jaw_contacts_before)
-        std::copy_n(kept.begin() + static_cast<std::ptrdiff_t>(jaw_contacts_before), found.count,
+    if (same_query && last.meshes_unchanged && last.nuts.count == grip_contacts_before)
+        std::copy_n(kept.begin() + static_cast<std::ptrdiff_t>(grip_contacts_before), found.count,
                     rest.begin());
     else
         found = last.meshes = find_mesh_contacts(contact, pose, band, rest);
@@ -156,11 +167,11 @@ collision::ContactQueryResult find_contacts_cached(const Setup& setup, ToolConta
     return found;
 }
 
-// A jaw that no longer holds a nut is clear when it has no contact with the hexagon at its actual pose.
-bool jaw_is_clear(const ToolContact& contact, std::size_t i) {
-    std::array<collision::Contact, collision::max_jaw_contacts> contacts;
-    return collision::jaw_contacts(contact.jaw, contact.hexagons[i], contact.god_object.constrained_tool,
-                                   contact.nut_poses[i], 0.0, {}, contacts) == 0;
+// A head that no longer holds a nut is clear when it has no contact with the hexagon at its actual pose.
+bool head_is_clear(const Setup& setup, const ToolContact& contact, std::size_t i) {
+    std::array<collision::Contact, collision::max_grip_contacts> contacts;
+    return collision::grip_contacts(query_of(setup, contact, i, 0.0), contact.god_object.constrained_tool,
+                                    contact.nut_poses[i], contacts) == 0;
 }
 
 // Returns the obstacle of the nearest contact if it touches, none otherwise.
@@ -205,12 +216,16 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
     contact.wrench = std::move(*wrench);
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         contact.nut_bodies.push_back(collision::find_body(contact.world, collision::ObstacleId::nut(i)));
-        BOLT_TRY_ASSIGN(auto hexagon, collision::hexagon(prism_of(setup.nuts[i])));
-        contact.hexagons.push_back(std::move(hexagon));
+        contact.shapes.push_back(shape_of(setup.nuts[i]));
+        contact.shape_solids.emplace_back();
+        if (collision::grips(setup.wrench.head, contact.shapes.back())) {
+            BOLT_TRY_ASSIGN(auto solids, collision::shape_solids(contact.shapes.back()));
+            contact.shape_solids.back() = std::move(solids);
+        }
         contact.nut_poses.push_back(nut_pose(setup.nuts[i], 0.0));
     }
-    BOLT_TRY_ASSIGN(auto jaw, collision::jaw_parts(setup.wrench.jaw));
-    contact.jaw = std::move(jaw);
+    BOLT_TRY_ASSIGN(auto head, collision::head_solids(setup.wrench.head));
+    contact.head = std::move(head);
     contact.narrow_phase = collision::make_narrow_phase(contact.world, contact.wrench);
 
     set_coupling(setup, contact);
@@ -224,13 +239,13 @@ force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& commanded_tool,
                                       bool held, int engaged_joint) {
     update_nut_poses(setup, contact, joints, held);
-    const int in_jaw_before = contact.joint_in_jaw;
+    const int in_jaw_before = contact.joint_in_tool;
     if (engaged_joint >= 0)
-        contact.joint_in_jaw = engaged_joint;
-    else if (contact.joint_in_jaw >= 0 &&
-             (!held || jaw_is_clear(contact, static_cast<std::size_t>(contact.joint_in_jaw))))
-        contact.joint_in_jaw = -1;
-    contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && contact.joint_in_jaw == in_jaw_before;
+        contact.joint_in_tool = engaged_joint;
+    else if (contact.joint_in_tool >= 0 &&
+             (!held || head_is_clear(setup, contact, static_cast<std::size_t>(contact.joint_in_tool))))
+        contact.joint_in_tool = -1;
+    contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && contact.joint_in_tool == in_jaw_before;
     if (!held || !contact.in_hand) {
         contact.god_object = proxy::start_god_object(commanded_tool);
         contact.last_step = {};

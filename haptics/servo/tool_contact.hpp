@@ -2,9 +2,9 @@
 // joints. The god-object (haptics/proxy/god_object.hpp) limits the wrench to poses without penetration; the
 // hand feels the coupling between the commanded and the constrained pose.
 //
-// Contact between jaw and nut is closed form (haptics/collision/jaw.hpp), from the first contact until the
-// jaw is clear of the nut. The other parts of the wrench are tested against the nut's mesh, and the whole
-// wrench against all other obstacles.
+// Contact between the tool's head and a nut that it can turn is closed form
+// (haptics/collision/tool_head.hpp), from the first contact until the head is clear of the nut. The other
+// parts of the tool are tested against the nut's mesh, and the whole tool against all other obstacles.
 #pragma once
 
 #include <array>
@@ -21,15 +21,15 @@ namespace bolt::servo {
 // Fixed obstacles are in the assembly's frame, nuts in their own (nut_pose in setup.hpp).
 struct ToolContactDescription {
     std::span<const collision::ContactMesh> fixed;
-    // By joint. An empty mesh: this nut is tested against the jaw only.
+    // By joint. An empty mesh: this nut is tested against the tool's head only.
     std::span<const collision::ContactMesh> nuts;
     std::span<const collision::ContactMesh> wrench;  // in the tool's frame
     double friction_coefficient = 0.15;              // steel on painted iron with a film of oil
 };
 
-// The contacts of the last query with its pose and band: the jaw's with nuts first, then those of meshes.
+// The contacts of the last query with its pose and band: the head's with nuts first, then those of meshes.
 struct ContactCache {
-    // No nut has moved since the query, so the jaw contacts are still valid.
+    // No nut has moved since the query, so the head's contacts are still valid.
     bool nuts_unchanged = false;
     // No body has moved, been enabled or been disabled since the query, so the mesh contacts are still valid.
     bool meshes_unchanged = false;
@@ -47,10 +47,11 @@ struct ToolContact {
     proxy::GodObjectParameters parameters;
     proxy::GodObjectState god_object;
     std::vector<std::optional<std::size_t>> nut_bodies;  // by joint: index into world.bodies; none: no mesh
-    std::vector<collision::Convex> hexagons;             // by joint
-    std::vector<Pose> nut_poses;                         // by joint, in the assembly's frame
-    collision::JawParts jaw;
-    int joint_in_jaw = -1;           // joint whose nut is inside the jaw, held or slipping; −1: none
+    std::vector<collision::TurnedShape> shapes;          // by joint
+    std::vector<std::vector<collision::Convex>> shape_solids;  // by joint; empty: the head cannot turn it
+    std::vector<Pose> nut_poses;                               // by joint, in the assembly's frame
+    std::vector<collision::Convex> head;
+    int joint_in_tool = -1;          // joint that the tool's head holds, or over which it slips; −1: none
     proxy::GodObjectStep last_step;  // result of the last tick
     ContactCache cache;
     bool in_hand = false;           // the wrench was held in the last tick
@@ -64,8 +65,8 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
 void set_coupling(const Setup& setup, ToolContact& contact);
 
 // One tick: places the nuts by their joints' angles and moves the wrench towards `commanded_tool` as far as
-// contacts allow. `engaged_joint` is the joint whose nut the jaw holds, −1 for none: its hexagon turns with
-// the jaw, so that contacts leave that rotation to the joint law (engagement.hpp). If `held` is false, the
+// contacts allow. `engaged_joint` is the joint whose nut the head holds, −1 for none: its hexagon turns with
+// the head, so that contacts leave that rotation to the joint law (engagement.hpp). If `held` is false, the
 // constrained tool is set to the commanded pose without contact, and the returned request is zero.
 force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& commanded_tool,

@@ -34,6 +34,7 @@ struct Pair {
                           glm::angleAxis(pitch, Vec3(0, 1, 0));
         return {at + Vec3(0, 0, 0.5 * prism.height), turn * square_on};
     }
+    [[nodiscard]] GripSolids solids() const { return {parts, {&nut, 1}}; }
     [[nodiscard]] double apart(const Pose& wrench) const {
         double least = 1.0;
         for (const Convex& part : parts) least = std::min(least, separation(part, nut, wrench, 0.1).distance);
@@ -170,8 +171,8 @@ TEST_CASE("Jaw: the penetration depth is minimal among directions near its norma
 TEST_CASE("Jaw: two flats meet in four contacts, and remove_axial_moment frees the rotation about the axis") {
     const Pair p;
     const Pose pose = p.wrench({0, 0.1e-3, 0});
-    std::array<Contact, max_jaw_contacts> found;
-    const std::size_t count = jaw_contacts(p.parts, p.nut, pose, {}, 0.15e-3, ObstacleId::nut(7), found);
+    std::array<Contact, max_grip_contacts> found;
+    const std::size_t count = solid_contacts(p.solids(), pose, {}, 0.15e-3, ObstacleId::nut(7), found);
     REQUIRE(count == 4);  // one flat only: the other is 0.2 mm away
     for (std::size_t i = 0; i < count; ++i) {
         const Contact& c = found[i];
@@ -197,8 +198,8 @@ TEST_CASE("Jaw: the nearest contact is at the separation, and normals are unit v
         const Pose pose =
             p.wrench(Vec3(random.normal() * 0.3e-3, random.normal() * 0.1e-3, random.normal() * 5e-3),
                      random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02));
-        std::array<Contact, max_jaw_contacts> found;
-        const std::size_t count = jaw_contacts(p.parts, p.nut, nut * pose, nut, 2e-3, {}, found);
+        std::array<Contact, max_grip_contacts> found;
+        const std::size_t count = solid_contacts(p.solids(), nut * pose, nut, 2e-3, {}, found);
         const double apart = p.apart(pose);
         double nearest = 1.0;
         for (std::size_t k = 0; k < count; ++k) {
@@ -213,7 +214,7 @@ TEST_CASE("Jaw: the nearest contact is at the separation, and normals are unit v
 TEST_CASE("Jaw: the fit of a turned, raised, pulled-back, tilted or flipped jaw") {
     const Pair p;
     const double side = flats / std::sqrt(12.0), flat = 2.0 * p.jaw.half_flat();
-    JawFit fit = jaw_fit(p.jaw, p.prism, p.wrench());
+    HeadFit fit = jaw_fit(p.jaw, p.prism, p.wrench());
     CHECK(fit.overlap == doctest::Approx(flat).epsilon(1e-12));
     CHECK(fit.toward_mouth == doctest::Approx(side).epsilon(1e-12));
     CHECK(fit.toward_throat == doctest::Approx(side).epsilon(1e-12));
@@ -247,12 +248,12 @@ TEST_CASE("Jaw: the fit of a turned, raised, pulled-back, tilted or flipped jaw"
 
 TEST_CASE("Jaw: the contact query makes no forbidden call and repeats to the same bits") {
     const Pair p;
-    std::array<Contact, max_jaw_contacts> first, second;
+    std::array<Contact, max_grip_contacts> first, second;
     std::size_t count = 0, again = 0;
     const Pose pose = p.wrench({0, 0.05e-3, 6e-3}, 0.005, 0.003);
     const test::Forbidden in_search = test::forbidden_in([&] {
-        count = jaw_contacts(p.parts, p.nut, pose, {}, 1e-3, {}, first);
-        again = jaw_contacts(p.parts, p.nut, pose, {}, 1e-3, {}, second);
+        count = solid_contacts(p.solids(), pose, {}, 1e-3, {}, first);
+        again = solid_contacts(p.solids(), pose, {}, 1e-3, {}, second);
     });
     CHECK(in_search.all() == 0);
     REQUIRE(count == again);

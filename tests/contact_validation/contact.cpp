@@ -107,7 +107,8 @@ TEST_CASE(
         CHECK(run->depth < deepest_allowed);
     };
     check(run_flicks(tool, parameters, 3, 10 / (test::sanitized ? 5 : 1)));
-    check(run_in_slot(tool, parameters, bench.setup.wrench.jaw.thickness, 3, 2000 / sanitizer_divisor));
+    check(run_in_slot(tool, parameters, collision::thickness(bench.setup.wrench.head), 3,
+                      2000 / sanitizer_divisor));
     check(run_onto_nuts(bench.setup, bench.state, scene, 3, test::sanitized ? 1 : 2));
     check(run_through_obstacles(bench.setup, bench.state, scene, 3, test::sanitized ? 1 : 2));
 }
@@ -123,13 +124,13 @@ TEST_CASE(
         std::optional<ServoBench> own;
         if (std::string_view(name) != "zq350") own.emplace(name);
         const ServoBench& bench = own ? *own : zq350();
-        const collision::Jaw& jaw = bench.setup.wrench.jaw;
+        const auto& jaw = std::get<collision::Jaw>(bench.setup.wrench.head);
         const servo::ToolContact& contact = *bench.state.tool_contact;
         const ClosedSurface wrench = surface_of(contact.wrench.solid.mesh);
         const auto check_on_jaw = [&](double along, double across) {
             const Vec3 p = glm::angleAxis(jaw.head_angle, Vec3(0, 0, 1)) * Vec3(along, across, 0.0);
             CHECK(contact_oracle::nearest(wrench.tree, p, 1.0).distance < 20 * um);
-            CHECK(collision::covered_by_jaw(contact.jaw, p));
+            CHECK(collision::covered(contact.head, p));
         };
         check_on_jaw(jaw.depth, 0.0);
         for (const double side : {1.0, -1.0}) {
@@ -140,6 +141,6 @@ TEST_CASE(
         const double in = 0.5 * jaw.opening * 0.98;
         const Vec3 corner = glm::angleAxis(jaw.head_angle, Vec3(0, 0, 1)) * Vec3(0.98 * jaw.depth, in, 0.0);
         CHECK(contact_oracle::winding(wrench, corner) == 1);
-        CHECK_FALSE(collision::covered_by_jaw(contact.jaw, corner));
+        CHECK_FALSE(collision::covered(contact.head, corner));
     }
 }

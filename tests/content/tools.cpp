@@ -68,6 +68,49 @@ TEST_CASE("Tools: mistakes of a tool are reported at their position") {
           "/more_tools/wrench: \"wrench\" is the name of \"tool\"; expected another name");
 }
 
+TEST_CASE("Tools: rings, ratchets and torque wrenches with sockets have a size instead of a jaw") {
+    content::LoadedAssembly loaded = content::parse_assembly(
+        with(R"("ring": { "kind": "ring_wrench", "size_mm": 13, "handle_length_mm": 150 },
+                "ratchet": { "kind": "ratchet", "size_mm": 13, "handle_length_mm": 200, "teeth": 24,
+                             "extension_mm": 75 },
+                "bit": { "kind": "ratchet", "head": "hex_bit", "size_mm": 6, "handle_length_mm": 200 },
+                "key": { "kind": "hex_key", "size_mm": 6, "handle_length_mm": 90 },
+                "set": { "kind": "click_torque_wrench", "head": "socket", "size_mm": 13, "handle_length_mm": 300 })"),
+        "f");
+    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+    content::Assembly& a = loaded.assembly;
+    REQUIRE(content::choose_tool(a, "ring"));
+    CHECK(a.wrench.head == content::ToolHead::ring);
+    CHECK(a.wrench.size == doctest::Approx(0.013));
+    CHECK(a.wrench.teeth == 0);
+    REQUIRE(content::choose_tool(a, "ratchet"));
+    CHECK(a.wrench.head == content::ToolHead::socket);
+    CHECK(a.wrench.teeth == 24);
+    CHECK(a.wrench.extension == doctest::Approx(0.075));
+    REQUIRE(content::choose_tool(a, "bit"));
+    CHECK(a.wrench.head == content::ToolHead::hex_bit);
+    CHECK(a.wrench.teeth == 72);
+    REQUIRE(content::choose_tool(a, "key"));
+    CHECK(a.wrench.head == content::ToolHead::hex_key);
+    REQUIRE(content::choose_tool(a, "set"));
+    CHECK(a.wrench.head == content::ToolHead::socket);
+    CHECK(a.wrench.click_swing > 0.0);
+}
+
+TEST_CASE("Tools: a socket of another size and an open end on a ratchet are refused") {
+    const auto refused = [](const std::string& tool, const std::string& message) {
+        const std::vector<std::string> all = messages(with(tool));
+        REQUIRE(all.size() == 1);
+        CHECK(all[0].substr(all[0].find("/more_tools")) == message);
+    };
+    refused(R"("r": { "kind": "ratchet", "size_mm": 14, "handle_length_mm": 200 })",
+            "/more_tools/r/size_mm: a socket of 14 mm does not fit M8, 13 mm across flats; expected 13 mm");
+    refused(R"("r": { "kind": "ratchet", "head": "open_end", "jaw_mm": 13.2, "handle_length_mm": 200 })",
+            "/more_tools/r/head: a ratchet does not turn an open end; expected \"socket\" or \"hex_bit\"");
+    refused(R"("r": { "kind": "ratchet", "size_mm": 13, "handle_length_mm": 200, "teeth": 60 })",
+            "/more_tools/r/teeth: a ratchet of 60 teeth is unknown; expected 24, 72 or 90");
+}
+
 TEST_CASE("Tools: every shipped assembly has a torque wrench, and a name for each tool in each language") {
     for (const char* name : {"zq350", "dn200-pn16", "cover-m8"}) {
         CAPTURE(name);

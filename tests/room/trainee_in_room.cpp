@@ -164,13 +164,14 @@ bool TraineeInRoom::lower(std::size_t joint, const Pose& seated) {
         const Pose at = tool();
         const Vec3 error = seated.position - at.position;
         const Vec3 level = error - glm::dot(error, up) * up;
-        const collision::JawFit fit = collision::jaw_fit(
-            setup().wrench.jaw, servo::prism_of(geometry),
+        const collision::HeadFit fit = collision::head_fit(
+            setup().wrench.head, servo::shape_of(geometry),
             servo::pose_in_nut_frame(geometry, state().joints[joint].nut.angle, servo::tool_pose(at)));
         const Vec3 handle = at.orientation * Vec3(setup().wrench.handle_length, 0.0, 0.0);
         const Vec3 swing = fit.misalignment * glm::cross(up, handle);
         const bool fits = std::abs(fit.misalignment) < aligned && glm::length(level) < level_error;
-        const double height = fits ? 0.0 : 0.8 * geometry.height + 0.5 * setup().wrench.jaw.thickness;
+        const double height =
+            fits ? 0.0 : 0.8 * geometry.height + 0.5 * collision::thickness(setup().wrench.head);
         const Vec3 normal = at.orientation * Vec3(0.0, 0.0, 1.0);
         frame(moved_palm(level + swing + (glm::dot(error, up) + height) * up, glm::cross(normal, up)), 1.0);
     }

@@ -142,7 +142,7 @@ TEST_CASE("Click: each wrench has a constant deviation within its accuracy") {
     const joint::JointDesign design = test::m16_flange_joint();
     SetupDescription description;
     description.joints = {&design, 1};
-    description.jaw_opening = 24.2e-3;
+    description.head = collision::make_jaw(24.2e-3, 0.0);
     description.handle_length = 0.23;
     description.click_swing = to_radians(4.0);
     description.click_accuracy = 0.04;

@@ -14,7 +14,7 @@ inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis
     for (joint::JointDesign& d : designs) d.axis = axis;
     servo::SetupDescription description;
     description.joints = designs;
-    description.jaw_opening = 24.2e-3;
+    description.head = collision::make_jaw(24.2e-3, to_radians(15.0));
     description.head_angle = to_radians(15.0);
     description.handle_length = 0.23;
     description.max_torque = 210.0;

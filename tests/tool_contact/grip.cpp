@@ -48,18 +48,19 @@ struct Watch {
         was_on = was_on || engaged;
         if (o.slipped >= 0) ++slips;
         const ToolContact& t = *bench.state.tool_contact;
-        for (std::size_t i = 0; i < t.hexagons.size() && t.in_hand; ++i) {
+        for (std::size_t i = 0; i < t.shapes.size() && t.in_hand; ++i) {
             Pose to_nut = inverse(t.nut_poses[i]) * t.god_object.constrained_tool;
-            if (static_cast<int>(i) == t.joint_in_jaw) {  // beyond the play the hexagon turns with the jaw
-                const collision::Jaw& jaw = bench.setup.wrench.jaw;
+            if (static_cast<int>(i) == t.joint_in_tool) {  // beyond the play the hexagon turns with the jaw
                 const NutGeometry& nut = bench.setup.nuts[i];
-                const double play = joint::rounded_half_play(jaw.opening, nut.across_flats, 0.0);
-                const double off = collision::jaw_fit(jaw, prism_of(nut), to_nut).misalignment;
+                const double play = half_play(bench.setup.wrench, nut.across_flats, 0.0);
+                const double off =
+                    collision::head_fit(bench.setup.wrench.head, shape_of(nut), to_nut).misalignment;
                 const Quat back = glm::angleAxis(off - std::clamp(off, -play, play), Vec3(0, 0, 1));
                 to_nut = Pose{Vec3(0.0), back} * to_nut;
             }
-            for (const collision::Convex& part : t.jaw)
-                deepest = std::min(deepest, collision::separation(part, t.hexagons[i], to_nut, 0.1).distance);
+            for (const collision::Convex& part : t.head)
+                deepest = std::min(
+                    deepest, collision::separation(part, t.shape_solids[i].front(), to_nut, 0.1).distance);
         }
         last = o;
     }
@@ -125,8 +126,7 @@ TEST_CASE("Jaw grip: on reversal the nut follows after the whole backlash") {
         for (int i = 0; i < 200; ++i)
             watch(bench, bench.step(turned(on, axis, -forth)));  // until the nut rests
         const double back = follows_at(forth, -1.0);
-        const double play =
-            joint::rounded_half_play(bench.setup.wrench.jaw.opening, bench.setup.nuts[0].across_flats, 0.0);
+        const double play = half_play(bench.setup.wrench, bench.setup.nuts[0].across_flats, 0.0);
         // The tolerance covers the wrench's deflection under the drag of the free nut, and the steps of this
         // test.
         CHECK(forth - back == doctest::Approx(2.0 * play).epsilon(0.05));
@@ -215,12 +215,14 @@ TEST_CASE(
     const NutGeometry& nut = bench.setup.nuts[0];
     Watch watch;
     // Less than half a millimetre of overlap with the flats.
-    const double top = 0.5 * nut.height - prism_of(nut).corner_drop() + bench.setup.wrench.jaw.half_flat();
+    const auto prism = std::get<collision::HexagonPrism>(shape_of(nut));
+    const auto& jaw = std::get<collision::Jaw>(bench.setup.wrench.head);
+    const double top = 0.5 * nut.height - prism.corner_drop() + jaw.half_flat();
     const Pose on = lower_onto_nut(bench, watch, top - 0.4e-3);
     REQUIRE(watch.engaged);
     const double overlap = bench.state.engagement.fit.overlap;
     CHECK(overlap == doctest::Approx(0.4e-3).epsilon(0.1));
-    const double side = prism_of(nut).half_side();
+    const double side = prism.half_side();
     const double corner_torque =
         joint::corner_torque(nut.corner_pressure, {overlap, side, side, 0.0, 1e-4, 0.0});
     CHECK(corner_torque > 3.0);

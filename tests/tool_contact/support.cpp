@@ -2,10 +2,21 @@
 
 namespace bolt::test {
 
-Workbench::Workbench(const char* name, const force::OutputLimits& limits) {
+namespace {
+
+content::Assembly shipped(const char* name) {
     content::LoadedAssembly loaded = content::load_assembly(name);
     REQUIRE(loaded.ok());
-    assembly = std::move(loaded.assembly);
+    return std::move(loaded.assembly);
+}
+
+}  // namespace
+
+Workbench::Workbench(const char* name, const force::OutputLimits& limits)
+    : Workbench(shipped(name), limits) {}
+
+Workbench::Workbench(content::Assembly lesson, const force::OutputLimits& limits)
+    : assembly(std::move(lesson)) {
     setup = session::make_setup(assembly, joint::Law::mechanistic, limits, 1, 0.001);
     state = servo::initial_state(setup);
     Result<std::optional<servo::ToolContact>> loaded_contact = session::load_tool_contact(assembly, setup);

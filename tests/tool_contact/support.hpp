@@ -16,6 +16,7 @@ struct Workbench {
     servo::State state;
 
     explicit Workbench(const char* name, const force::OutputLimits& limits = {});
+    explicit Workbench(content::Assembly lesson, const force::OutputLimits& limits = {});
 
     // Pose of a wrench whose jaw is `above` (m) the middle of a nut and `beside` its axis (m along e1 and
     // e2), aligned with its flats except for `misfit` rad. Of the six possible angles, the one whose handle

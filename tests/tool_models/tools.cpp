@@ -8,8 +8,8 @@
 #include "content/format/folders.hpp"
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
-#include "haptics/collision/jaw.hpp"
 #include "haptics/collision/mesh.hpp"
+#include "haptics/collision/tool_head.hpp"
 #include "support.hpp"
 
 namespace tool_models_tools_test {
@@ -130,6 +130,58 @@ TEST_CASE("Tools: the jaw is exactly as wide as the size and the play, at the he
     }
 }
 
+TEST_CASE("Tools: the closed forms of rings, sockets and keys agree with the generated heads") {
+    const auto points_of = [](const ToolParts& parts, std::string_view name) {
+        return shell_of(parts, std::string(name)).points;
+    };
+    for (const double size : {8.0, 13.0, 24.0, 46.0}) {
+        CAPTURE(size);
+        const ToolParameters ring = standard(ToolKind::ring, size), socket = standard(ToolKind::socket, size);
+        for (const ToolParameters& p : {ring, socket}) {
+            CAPTURE(info_of(p.kind).name);
+            const auto gripping = gripping_head(p);
+            REQUIRE(gripping);
+            const auto& head = std::get<collision::Ring>(gripping->head);
+            const auto solids = collision::head_solids(gripping->head);
+            REQUIRE(solids);
+            const double corner = 0.5 * head.opening / std::cos(pi / 6.0);
+            std::size_t inside = 0, wall = 0;
+            const ToolParts drawn = parts_of(p, Detail::drawn);
+            for (const Vec3& point : points_of(drawn, p.kind == ToolKind::ring ? "ring" : "socket")) {
+                const Vec3 at = point * mm;
+                const double out = std::hypot(at.x, at.y);
+                if (at.z < head.low + 1e-6 || at.z > head.high - 1e-6) continue;
+                inside += out < 0.5 * head.opening - 1e-6 ? 1U : 0U;
+                if (out < corner + 1e-6 && at.z > head.low + head.lead_in - 1e-6) {
+                    ++wall;
+                    CHECK(collision::covered(*solids, at));
+                }
+            }
+            CHECK(inside == 0);
+            CHECK(wall > 90);
+            for (const Vec3& point :
+                 points_of(parts_of(p, Detail::contact), p.kind == ToolKind::ring ? "ring" : "socket"))
+                CHECK(point.z * mm > head.low - 1e-6);
+        }
+    }
+    for (const double size : {3.0, 6.0, 14.0, 22.0}) {
+        CAPTURE(size);
+        const ToolParameters p = standard(ToolKind::hex_key, size);
+        const auto gripping = gripping_head(p);
+        REQUIRE(gripping);
+        const auto& key = std::get<collision::Key>(gripping->head);
+        double lowest = 1.0, widest = 0.0;
+        for (const Vec3& point : points_of(parts_of(p, Detail::drawn), "key")) {
+            lowest = std::min(lowest, point.z * mm);
+            if (point.z * mm < key.tip + key.length && std::hypot(point.x, point.y) < size)
+                widest = std::max(widest, std::abs(point.x) * mm);
+        }
+        CHECK(lowest == doctest::Approx(key.tip).epsilon(1e-6));
+        CHECK(widest == doctest::Approx(0.5 * key.width).epsilon(1e-6));  // a flat faces the handle
+    }
+    CHECK_FALSE(gripping_head(standard(ToolKind::extension_bar, 12.5)));
+}
+
 TEST_CASE("Tools: the closed form of the jaw covers the generated jaw") {
     for (int size = 8; size <= 46; ++size) {
         CAPTURE(size);
@@ -146,7 +198,7 @@ TEST_CASE("Tools: the closed form of the jaw covers the generated jaw") {
                          half = 0.5 * (size + 0.2);
             if (std::abs(y) > 1.05 * half || x > 0.3 * half || x < -0.69 * 2.0 * half) continue;
             ++flats;
-            CHECK(collision::covered_by_jaw(*parts, point * mm));
+            CHECK(collision::covered(*parts, point * mm));
         }
         CHECK(flats > 20);
     }

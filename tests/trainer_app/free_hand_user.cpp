@@ -304,15 +304,16 @@ bool FreeHandUser::lower(const Pose& seated) {
         const Pose tool = hand();
         const Vec3 error = seated.position - tool.position;
         const Vec3 level = error - glm::dot(error, up) * up;
-        const collision::JawFit seat = collision::jaw_fit(
-            setup().wrench.jaw, servo::prism_of(geometry),
+        const collision::HeadFit seat = collision::head_fit(
+            setup().wrench.head, servo::shape_of(geometry),
             servo::pose_in_nut_frame(geometry, state().joints[joint].nut.angle, servo::tool_pose(tool)));
         const Vec3 handle = handle_end(tool) - tool.position;
         // Turning about −axis tightens; the misalignment is positive if the jaw is ahead.
         const Vec3 swing = seat.misalignment * glm::cross(up, handle);
         const bool fits = std::abs(seat.misalignment) < aligned && glm::length(level) < level_error;
         // A jaw that does not fit would rest on the nut: align it above.
-        const double height = fits ? 0.0 : 0.8 * geometry.height + 0.5 * setup().wrench.jaw.thickness;
+        const double height =
+            fits ? 0.0 : 0.8 * geometry.height + 0.5 * collision::thickness(setup().wrench.head);
         drag_by(level + swing + (glm::dot(error, up) + height) * up);
     }
     return false;

@@ -118,7 +118,7 @@ void servo_tick_12_joints(benchmark::State& state) {
     servo::SetupDescription description;
     description.joints = designs;
     description.flange = &plate;
-    description.jaw_opening = 0.0242;
+    description.head = collision::make_jaw(0.0242, 0.26);
     description.head_angle = 0.26;
     description.handle_length = 0.23;
     description.max_torque = 200.0;

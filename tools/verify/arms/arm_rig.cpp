@@ -19,7 +19,7 @@ void reset_contact(servo::ToolContact& contact, const servo::Setup& setup) {
     contact.god_object = {};
     contact.last_step = {};
     contact.cache = {};
-    contact.joint_in_jaw = -1;
+    contact.joint_in_tool = -1;
     contact.in_hand = false;
     contact.touched = {};
     servo::set_coupling(setup, contact);

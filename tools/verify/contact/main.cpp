@@ -55,8 +55,8 @@ Status check_motions(const ContactValidationOptions& options, const servo::Setup
     if (Status reported = report(contact_validation::run_flicks(tool, parameters, seed, 4 * options.motions));
         !reported)
         return reported;
-    if (Status reported = report(contact_validation::run_in_slot(tool, parameters, setup.wrench.jaw.thickness,
-                                                                 seed, 1000 * options.motions));
+    if (Status reported = report(contact_validation::run_in_slot(
+            tool, parameters, collision::thickness(setup.wrench.head), seed, 1000 * options.motions));
         !reported)
         return reported;
     if (Status reported =

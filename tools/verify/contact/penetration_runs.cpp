@@ -89,14 +89,14 @@ class SimulatedHand {
     [[nodiscard]] Pose world_pose_of(const ObstaclePart& part, const Pose& tool) const {
         const servo::ToolContact& contact = *state_.tool_contact;
         const Pose pose_of_body = contact.world.bodies[part.body].pose;
-        if (contact.joint_in_jaw < 0 ||
-            part.id != collision::ObstacleId::nut(static_cast<std::size_t>(contact.joint_in_jaw)))
+        if (contact.joint_in_tool < 0 ||
+            part.id != collision::ObstacleId::nut(static_cast<std::size_t>(contact.joint_in_tool)))
             return pose_of_body;
-        const collision::Jaw& jaw = setup_.wrench.jaw;
-        const servo::NutGeometry& nut = setup_.nuts[static_cast<std::size_t>(contact.joint_in_jaw)];
-        const double play = joint::rounded_half_play(jaw.opening, nut.across_flats, 0.0);
+        const servo::NutGeometry& nut = setup_.nuts[static_cast<std::size_t>(contact.joint_in_tool)];
+        const double play = servo::half_play(setup_.wrench, nut.across_flats, 0.0);
         const double off =
-            collision::jaw_fit(jaw, servo::prism_of(nut), inverse(pose_of_body) * tool).misalignment;
+            collision::head_fit(setup_.wrench.head, servo::shape_of(nut), inverse(pose_of_body) * tool)
+                .misalignment;
         return {pose_of_body.position,
                 pose_of_body.orientation * glm::angleAxis(std::clamp(off, -play, play) - off, Vec3(0, 0, 1))};
     }

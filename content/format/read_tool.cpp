@@ -1,0 +1,209 @@
+// Reads the tools of an assembly: kind, sizes, and whether they fit the parts that they are to turn.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <utility>
+
+#include "content/format/json_document.hpp"
+#include "content/format/read_assembly.hpp"
+
+namespace bolt::content {
+
+namespace {
+
+constexpr double max_jaw_play = 0.6e-3;  // m, of a jaw on a nut
+constexpr double default_head_angle = to_radians(15.0);
+constexpr std::string_view default_tool_name = "wrench";
+constexpr double default_click_swing_deg = 4.0;
+constexpr double default_accuracy_percent = 4.0;  // ISO 6789-1: type II, class A, above 10 N·m
+constexpr double default_teeth = 72.0;
+constexpr std::array ratchets{24.0, 72.0, 90.0};
+
+struct KindRow {
+    std::string_view name;
+    ToolKind kind;
+    ToolHead head;  // its own, or the default one of a tool with a choice
+};
+constexpr std::array kinds{
+    KindRow{"open_end_wrench", ToolKind::open_end_wrench, ToolHead::open_end},
+    KindRow{"ring_wrench", ToolKind::ring_wrench, ToolHead::ring},
+    KindRow{"hex_key", ToolKind::hex_key, ToolHead::hex_key},
+    KindRow{"ratchet", ToolKind::ratchet, ToolHead::socket},
+    KindRow{"click_torque_wrench", ToolKind::click_torque_wrench, ToolHead::open_end},
+};
+
+struct HeadRow {
+    std::string_view name;  // in the file; empty: not a choice
+    ToolHead head;
+    std::string_view title;  // in messages
+};
+constexpr std::array heads{
+    HeadRow{"open_end", ToolHead::open_end, "an open end"}, HeadRow{"", ToolHead::ring, "a ring"},
+    HeadRow{"socket", ToolHead::socket, "a socket"}, HeadRow{"", ToolHead::hex_key, "a hexagon key"},
+    HeadRow{"hex_bit", ToolHead::hex_bit, "a hexagon bit"}};
+
+std::string_view title_of(ToolHead head) {
+    return std::find_if(heads.begin(), heads.end(), [&](const HeadRow& row) { return row.head == head; })
+        ->title;
+}
+
+bool has_drive(const WrenchDesign& wrench) {
+    return wrench.head == ToolHead::socket || wrench.head == ToolHead::hex_bit;
+}
+
+// Reports each of these members that the tool has.
+void refuse(JsonReader& reader, const LayeredObject& tool, std::initializer_list<std::string_view> keys,
+            const std::string& what, const std::string& expected) {
+    if (!tool.all_valid({"kind", "head"})) return;
+    for (const std::string_view key : keys)
+        if (const JsonNode node = tool.find(key); node.value != nullptr)
+            reader.report(node.pointer, what, expected);
+}
+
+void read_kind(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wrench) {
+    const auto kind = tool.text("kind"), head = tool.text("head");
+    for (const KindRow& row : kinds)
+        if (kind && *kind == row.name) {
+            wrench.kind = row.kind;
+            wrench.head = row.head;
+        }
+    if (!head || !kind) return;
+    const bool clicks = wrench.kind == ToolKind::click_torque_wrench;
+    if (!clicks && wrench.kind != ToolKind::ratchet) {
+        reader.report(head.pointer, fmt::format("{} has no choice of heads", in_quotes(*kind)),
+                      "no \"head\"");
+        return;
+    }
+    for (const HeadRow& row : heads)
+        if (*head == row.name) wrench.head = row.head;
+    if (!clicks && wrench.head == ToolHead::open_end)
+        reader.report(head.pointer, "a ratchet does not turn an open end", "\"socket\" or \"hex_bit\"");
+}
+
+// Reads the members of a click-type torque wrench. On another tool they are an error.
+void read_click(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wrench) {
+    if (wrench.kind != ToolKind::click_torque_wrench) {
+        refuse(reader, tool, {"click_swing_deg", "accuracy_percent"}, "only a torque wrench clicks",
+               "the kind \"click_torque_wrench\", or no such value");
+        return;
+    }
+    wrench.click_swing = to_radians(tool.number("click_swing_deg").value_or(default_click_swing_deg));
+    wrench.click_accuracy = tool.number("accuracy_percent").value_or(default_accuracy_percent) / 100.0;
+}
+
+// Reads ratchet and extension bar, which only tools with a square drive have.
+void read_drive(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wrench) {
+    const auto teeth = tool.number("teeth"), extension = tool.number("extension_mm");
+    if (!has_drive(wrench)) {
+        refuse(reader, tool, {"teeth", "extension_mm"},
+               fmt::format("{} has no square drive", title_of(wrench.head)),
+               "a ratchet, or a torque wrench with a socket or a bit");
+        return;
+    }
+    wrench.teeth = static_cast<int>(teeth.value_or(default_teeth));
+    if (teeth && std::find(ratchets.begin(), ratchets.end(), *teeth) == ratchets.end())
+        reader.report(teeth.pointer, fmt::format("a ratchet of {:g} teeth is unknown", *teeth),
+                      "24, 72 or 90");
+    wrench.extension = extension.value_or(0.0) * mm;
+}
+
+// Reports a tool whose size fits no part, or not the part that its joint has. `width`: m, of the tool.
+void check_fit(JsonReader& reader, const Located<double>& given, const WrenchDesign& wrench,
+               const std::vector<AssemblyJoint>& joints) {
+    const bool inside = wrench.head == ToolHead::hex_key || wrench.head == ToolHead::hex_bit;
+    const double width = *given * mm;
+    const double play = wrench.head == ToolHead::open_end ? max_jaw_play : 0.0;
+    const std::string name =
+        wrench.head == ToolHead::open_end ? std::string("a jaw") : std::string(title_of(wrench.head));
+    for (const AssemblyJoint& joint : joints) {
+        const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
+        const double s = part.across_flats;
+        if ((part.depth > 0.0) != inside || s <= 0.0) continue;
+        if (width > s - 1e-9 && width < s + play + 1e-9) continue;
+        reader.report(given.pointer,
+                      fmt::format("{} of {:g} mm does not fit {}, {:g} mm across flats", name, *given,
+                                  joint.design.thread.size.name, s / mm),
+                      play > 0.0 ? fmt::format("{:g} to {:g} mm", s / mm, (s + play) / mm)
+                                 : fmt::format("{:g} mm", s / mm));
+        break;
+    }
+}
+
+// The bottom of the jaw must leave room for a corner, and its tips must reach beyond the ends of the flats.
+void check_jaw_room(JsonReader& reader, const LayeredObject& tool, const std::vector<AssemblyJoint>& joints) {
+    double widest = 0.0;
+    for (const AssemblyJoint& joint : joints)
+        if (const auto part = joint::turned_part_size(joint.design); part.depth <= 0.0)
+            widest = std::max(widest, part.across_flats);
+    const auto too_short = [&](const auto& value, double share, const char* what) {
+        if (!value || *value * mm >= share * widest - 1e-9) return;
+        reader.report(
+            value.pointer,
+            fmt::format("{} of {:g} mm is too short for {:g} mm across flats", what, *value, widest / mm),
+            fmt::format("at least {:.2f} mm", share * widest / mm));
+    };
+    too_short(tool.number("jaw_depth_mm"), 1.0 / std::sqrt(3.0), "a jaw depth");
+    too_short(tool.number("jaw_tip_mm"), 1.0 / std::sqrt(12.0), "a jaw tip");
+}
+
+void read_open_end(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wrench) {
+    const auto value = [&](const char* key) { return tool.number(key).value_or(0.0) * mm; };
+    wrench.head_angle = default_head_angle;
+    if (const auto angle = tool.number("head_angle_deg")) wrench.head_angle = to_radians(*angle);
+    wrench.head_thickness = value("head_thickness_mm");
+    wrench.jaw_depth = value("jaw_depth_mm");
+    wrench.jaw_tip = value("jaw_tip_mm");
+    refuse(reader, tool, {"size_mm"}, "an open end is given by its opening", "\"jaw_mm\"");
+}
+
+WrenchDesign read_tool(JsonReader& reader, const JsonNode& node, const std::vector<AssemblyJoint>& joints) {
+    const LayeredObject tool(reader, {node});
+    WrenchDesign wrench;
+    read_kind(reader, tool, wrench);
+    read_click(reader, tool, wrench);
+    read_drive(reader, tool, wrench);
+    wrench.handle_length = tool.number("handle_length_mm").value_or(0.0) * mm;
+    const bool open_end = wrench.head == ToolHead::open_end;
+    if (open_end) {
+        read_open_end(reader, tool, wrench);
+        check_jaw_room(reader, tool, joints);
+    } else {
+        refuse(reader, tool, {"jaw_mm", "head_thickness_mm", "jaw_depth_mm", "jaw_tip_mm", "head_angle_deg"},
+               fmt::format("{} has no jaw", title_of(wrench.head)), "\"size_mm\" alone");
+    }
+    const auto given = tool.number(open_end ? "jaw_mm" : "size_mm");
+    (open_end ? wrench.jaw : wrench.size) = given.value_or(0.0) * mm;
+    if (given)
+        check_fit(reader, given, wrench, joints);
+    else if (tool.all_valid({"kind", "head", "jaw_mm", "size_mm"}) && node.value != nullptr)
+        reader.report(node.pointer, fmt::format("the size of {} is missing", title_of(wrench.head)),
+                      open_end ? "\"jaw_mm\", its opening" : "\"size_mm\", its width across flats");
+    return wrench;
+}
+
+}  // namespace
+
+std::vector<Tool> read_tools(JsonReader& reader, const std::vector<AssemblyJoint>& joints,
+                             const ModelFolders& folders) {
+    std::vector<Tool> tools;
+    const auto read = [&](std::string name, const JsonNode& node) {
+        Tool tool{std::move(name), read_texts(reader, reader.member(node, "title")),
+                  read_tool(reader, node, joints)};
+        tool.wrench.model = read_tool_model(reader, node, folders);
+        tools.push_back(std::move(tool));
+    };
+    read(std::string(default_tool_name), reader.member(reader.root(), "tool"));
+    for (const JsonNode& node : reader.items(reader.member(reader.root(), "more_tools"))) {
+        const std::string name = last_token(node.pointer);
+        if (name == default_tool_name)
+            reader.report(node.pointer, fmt::format("{} is the name of \"tool\"", in_quotes(name)),
+                          "another name", JsonPart::key);
+        read(name, node);
+    }
+    return tools;
+}
+
+}  // namespace bolt::content

@@ -1,0 +1,106 @@
+// The heads of tools that grip a hexagon from its end: the ring, the socket and the hexagon key. Together
+// with the open jaw (jaw.hpp) they are the heads that a tool can have: their fit on the part that they turn,
+// and their contacts with it, in closed form.
+//
+// Frame of the tool: origin on the bolt's axis in the middle of the part that grips, +X along the handle, +Z
+// along the bolt away from the members; only an open jaw may be turned over. Frame of the turned part, nut or
+// screw head: as in jaw.hpp. A corner of the hexagon, or of the hexagonal socket, lies along its +X.
+#pragma once
+
+#include <array>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "haptics/collision/jaw.hpp"
+
+namespace bolt::collision {
+
+// The head of a ring wrench, or a socket. Its hole is one hexagon, or the union of two that are 30° apart.
+// One of its points, which receive the corners, is along the tool's +X.
+struct Ring {
+    double opening = 0.0;  // m, across the flats of the hole
+    int points = 12;       // 6 or 12
+    double low = 0.0;      // m, lower and upper end of the flats along Z, with their chamfers
+    double high = 0.0;
+    double lead_in = 0.0;       // m, legs of the 45° chamfers at the open ends
+    double outside = 0.0;       // m, diameter
+    bool closed_above = false;  // a socket: a shoulder at `high` stops the nut
+    // rad between two teeth of its ratchet; 0: the hole turns with the handle.
+    double tooth_angle = 0.0;
+};
+
+// The tip of a hexagon key or bit.
+struct Key {
+    double width = 0.0;        // m, across its flats; a corner is at 30° from the tool's +X
+    double tip = 0.0;          // m along Z, negative: the end of the key
+    double chamfer = 0.0;      // m, legs of the 45° chamfer at its end
+    double length = 0.0;       // m of straight hexagon from its end
+    double tooth_angle = 0.0;  // as Ring::tooth_angle
+};
+
+using ToolHead = std::variant<Jaw, Ring, Key>;
+
+// The hexagonal socket of a screw head.
+struct HexagonSocket {
+    double across_flats = 0.0;   // m, of the socket itself, which is wider than its key
+    double depth = 0.0;          // m
+    double mouth = 0.0;          // m, height of the head above its bearing face
+    double head_diameter = 0.0;  // m
+};
+
+using TurnedShape = std::variant<HexagonPrism, HexagonSocket>;
+
+// Returns true if the head can turn the shape: jaw and ring a hexagon, a key a socket.
+bool grips(const ToolHead& head, const TurnedShape& shape);
+
+// m across the flats of the head, and of the shape.
+double width_across_flats(const ToolHead& head);
+double width_across_flats(const TurnedShape& shape);
+
+// rad between two angles of the handle at which the head fits the same hexagon: 60°, of a ring with 12 points
+// 30°, with a ratchet the angle between two teeth.
+double fitting_angle(const ToolHead& head);
+
+// rad; 0 without a ratchet.
+double tooth_angle(const ToolHead& head);
+
+// m, along the bolt, of the region that grips: the thickness of a jaw or a ring.
+double thickness(const ToolHead& head);
+
+// m above the bearing face at which the head's origin belongs when it is on the shape: the flats overlap as
+// far as possible, and a socket neither stands on the seat nor hangs above the nut.
+double grip_height(const ToolHead& head, const TurnedShape& shape);
+
+// The position of a head on a shape that it can turn. As HeadFit; of rings and keys `toward_throat` and
+// `toward_mouth` are half a side of the hexagon, and `lateral_offset` is the distance of the axes.
+// `tool`: pose of the tool in the frame of the shape.
+HeadFit head_fit(const ToolHead& head, const TurnedShape& shape, const Pose& tool);
+
+// A head or a shape as convex solids in its own frame.
+Result<std::vector<Convex>> head_solids(const ToolHead& head);
+Result<std::vector<Convex>> shape_solids(const TurnedShape& shape);
+
+// Returns true if a point of the tool's mesh, in the tool's frame, belongs to the region that the solids
+// represent. A real head may be broader and has fillets.
+bool covered(std::span<const Convex> head, const Vec3& point);
+
+// One query of the contacts between a head and a shape that it can turn.
+struct GripQuery {
+    const ToolHead& head;
+    const TurnedShape& shape;
+    GripSolids solids;
+    double band = 0.0;    // m, up to which contacts are found
+    ObstacleId obstacle;  // is copied to the contacts
+};
+
+// Writes the contacts and returns their number. `tool` and `shape`: poses in the assembly. Distances are
+// exact if a face or two edges are nearest (convex.hpp).
+//
+// While the hexagon is in the hole its hole is convex there: it is free if no corner is beyond a wall. So
+// each end of the six edges within the hole is tested against its two walls, and the nearer contact of each
+// wall and end is kept. Before that the solids themselves are tested.
+std::size_t grip_contacts(const GripQuery& query, const Pose& tool, const Pose& shape,
+                          std::span<Contact, max_grip_contacts> out);
+
+}  // namespace bolt::collision
