@@ -19,6 +19,55 @@
 
 namespace bolt::content {
 
+namespace {
+
+std::size_t tool_index(const Assembly& assembly, std::string_view name) {
+    const auto found = std::find_if(assembly.tools.begin(), assembly.tools.end(),
+                                    [&](const Tool& tool) { return tool.name == name; });
+    return found == assembly.tools.end() ? 0 : static_cast<std::size_t>(found - assembly.tools.begin());
+}
+
+std::size_t tool_index_of(const Assembly& assembly, const AssemblyJoint& joint) {
+    return tool_index(assembly, joint.tool.empty() ? assembly.tool : joint.tool);
+}
+
+}  // namespace
+
+LessonTools lesson_tools(const Assembly& assembly) {
+    LessonTools lesson;
+    lesson.of_joint.assign(assembly.joints.size(), 0);
+    const auto add = [&](std::size_t joint) {
+        const std::size_t tool = tool_index_of(assembly, assembly.joints[joint]);
+        const auto known = std::find(lesson.tools.begin(), lesson.tools.end(), tool);
+        lesson.of_joint[joint] = static_cast<std::size_t>(known - lesson.tools.begin());
+        if (known == lesson.tools.end()) lesson.tools.push_back(tool);
+    };
+    if (!assembly.passes.empty())
+        for (const std::size_t joint : assembly.passes.front().order) add(joint);
+    for (std::size_t joint = 0; joint < assembly.joints.size(); ++joint) add(joint);
+    return lesson;
+}
+
+namespace {
+
+// The design of the chosen tool may have been changed since it was chosen.
+const WrenchDesign& design_of(const Assembly& assembly, std::size_t tool) {
+    const bool chosen = tool >= assembly.tools.size() || assembly.tools[tool].name == assembly.tool;
+    return chosen ? assembly.wrench : assembly.tools[tool].wrench;
+}
+
+}  // namespace
+
+std::vector<const WrenchDesign*> designs_of(const Assembly& assembly, const LessonTools& lesson) {
+    std::vector<const WrenchDesign*> designs;
+    for (const std::size_t tool : lesson.tools) designs.push_back(&design_of(assembly, tool));
+    return designs;
+}
+
+const WrenchDesign& tool_of(const Assembly& assembly, const AssemblyJoint& joint) {
+    return design_of(assembly, tool_index_of(assembly, joint));
+}
+
 std::string turned_node(const AssemblyJoint& joint) {
     return joint.design.id + (joint.design.turned == joint::TurnedPart::head ? "_bolt" : "_nut");
 }

@@ -58,6 +58,7 @@ struct AssemblyJoint {
     Specification spec;
     PublishedJoint published;
     std::string node;  // unique node name in the .glb; may be empty if there is none
+    std::string tool;  // name of the only tool that may turn it; empty: the chosen one
 };
 
 // Name of the node that a lesson turns: ID_nut, or ID_bolt of a head that is turned.
@@ -83,9 +84,8 @@ struct WrenchDesign {
     ToolHead head = ToolHead::open_end;
     // m. `jaw`: opening of an open end. `size`: width across flats that any other tool is made for.
     double jaw = 0.0, size = 0.0;
-    int teeth = 0;           // of a ratchet; 0: none
-    bool loosens = false;    // position of the ratchet's lever; not in the file: the lesson's task decides
-    double extension = 0.0;  // m, length of the bar between ratchet and socket or bit; 0: none
+    int teeth = 0;                // of a ratchet; 0: none
+    double extension = 0.0;       // m, length of the bar between ratchet and socket or bit; 0: none
     double head_thickness = 0.0;  // m; 0, here and below: not given (defaults in haptics/collision/jaw.hpp)
     double jaw_depth = 0.0;       // m, from the middle of the jaw to its throat
     double jaw_tip = 0.0;         // m, from the middle of the jaw to its tips
@@ -174,6 +174,21 @@ LoadedAssembly load_assembly(const std::filesystem::path& where, std::string_vie
 
 // Selects one of the assembly's tools; empty: the default one. Fails if there is no tool of this name.
 Status choose_tool(Assembly& assembly, std::string_view name);
+
+// The tools that a lesson needs. A lesson begins with the first one.
+struct LessonTools {
+    std::vector<std::size_t> tools;     // indices in Assembly::tools, without repetition
+    std::vector<std::size_t> of_joint;  // by joint: index in `tools`
+};
+
+// In the order in which the joints of the first pass need them.
+LessonTools lesson_tools(const Assembly& assembly);
+
+// Their designs, in this order.
+std::vector<const WrenchDesign*> designs_of(const Assembly& assembly, const LessonTools& lesson);
+
+// The tool that turns a joint: its own one, or the chosen one.
+const WrenchDesign& tool_of(const Assembly& assembly, const AssemblyJoint& joint);
 
 // Creates a new assembly from the template: makes `folder` (fails if it exists and is not empty) and writes a
 // valid assembly.json with the title `name` and the models that it refers to. Outside content/assemblies the

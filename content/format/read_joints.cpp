@@ -235,7 +235,8 @@ JointType read_joint_type(const LayeredObject& layers, const YoungsModuli& modul
     for (const JsonNode& layer : layers.objects()) laws.push_back(reader.member(layer, "published"));
     laws.push_back(reader.member(reader.root(), "published"));
     const JointType type{read_design(layers, moduli), read_spec(layers.member_layers("spec")),
-                         read_published(LayeredObject(reader, std::move(laws)))};
+                         read_published(LayeredObject(reader, std::move(laws))),
+                         layers.text("tool").value_or("")};
     check_joint_type(layers, type, smallest_pass_fraction);
     return type;
 }
@@ -300,6 +301,7 @@ AssemblyJoint read_joint(JointTypes& types, const JsonNode& node) {
         joint.design = std::move(type.design);
         joint.spec = type.spec;
         joint.published = type.published;
+        joint.tool = type.tool;
     }
     joint.design.id = reader.text(reader.member(node, "id")).value_or("");
     joint.design.axis = read_axis(reader, node);

@@ -29,6 +29,7 @@ struct JointType {
     joint::JointDesign design;
     Specification spec;
     PublishedJoint published;
+    std::string tool;  // AssemblyJoint::tool
 };
 
 // Reads a joint type with its patches applied, and reports its errors, including inconsistent values. After

@@ -1,5 +1,6 @@
 // Reads the tools of an assembly: kind, sizes, and whether they fit the parts that they are to turn.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -186,12 +187,49 @@ WrenchDesign read_tool(JsonReader& reader, const JsonNode& node, const std::vect
 
 }  // namespace
 
+namespace {
+
+// The joints that a tool is to turn: those that name it; if none does, those that name no tool.
+std::vector<AssemblyJoint> joints_of(std::string_view tool, const std::vector<AssemblyJoint>& joints) {
+    std::vector<AssemblyJoint> own, free;
+    for (const AssemblyJoint& joint : joints) {
+        if (joint.tool == tool) own.push_back(joint);
+        if (joint.tool.empty()) free.push_back(joint);
+    }
+    return own.empty() ? free : own;
+}
+
+// Reports each place that names a tool which the file lacks.
+void check_names(JsonReader& reader, const std::vector<Tool>& tools) {
+    std::vector<std::string> names;
+    for (const Tool& tool : tools) names.push_back(tool.name);
+    const auto check = [&](const JsonNode& type) {
+        const JsonNode node = reader.member(type, "tool");
+        const auto name = reader.text(node);
+        if (!name || std::find(names.begin(), names.end(), *name) != names.end()) return;
+        const std::string near = nearest_name(*name, names);
+        reader.report(node.pointer, fmt::format("there is no tool {}", in_quotes(*name)),
+                      near.empty() ? fmt::format("{}", fmt::join(names, ", "))
+                                   : fmt::format("did you mean {}?", in_quotes(near)));
+    };
+    for (const JsonNode& type : reader.items(reader.member(reader.root(), "joint_types"))) check(type);
+    for (const JsonNode& joint : reader.items(reader.member(reader.root(), "joints")))
+        check(reader.member(joint, "override"));
+    for (const JsonNode& variant : reader.items(reader.member(reader.root(), "variants"))) {
+        check(reader.member(variant, "every_joint_type"));
+        for (const JsonNode& patch : reader.items(reader.member(variant, "joint_types"))) check(patch);
+    }
+}
+
+}  // namespace
+
 std::vector<Tool> read_tools(JsonReader& reader, const std::vector<AssemblyJoint>& joints,
                              const ModelFolders& folders) {
     std::vector<Tool> tools;
     const auto read = [&](std::string name, const JsonNode& node) {
+        const std::vector<AssemblyJoint> turned = joints_of(name, joints);
         Tool tool{std::move(name), read_texts(reader, reader.member(node, "title")),
-                  read_tool(reader, node, joints)};
+                  read_tool(reader, node, turned)};
         tool.wrench.model = read_tool_model(reader, node, folders);
         tools.push_back(std::move(tool));
     };
@@ -203,6 +241,7 @@ std::vector<Tool> read_tools(JsonReader& reader, const std::vector<AssemblyJoint
                           "another name", JsonPart::key);
         read(name, node);
     }
+    check_names(reader, tools);
     return tools;
 }
 

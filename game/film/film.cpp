@@ -48,9 +48,7 @@ Result<ReplayScene> make_replay_scene(gpu::Device& device, const scene::LessonMo
                                                           start.assembly, start.setup));
     replay.workplace = std::move(workplace);
     replay.scene = scene::make_lit_scene(replay.workplace, replay.models->light);
-    replay.postures =
-        scene::make_postures(start.state.tool_contact ? &start.state.tool_contact->wrench : nullptr,
-                             start.setup.wrench.handle_length, hand, scene::widest_nut(start.setup));
+    replay.postures = scene::postures_of_tools(start.setup, start.state, hand);
     replay.workplace.world.only<world::WorkingHand>().rest = scene::wrench_rest_pose(
         replay.workplace.workpiece, collision::thickness(start.setup.wrench.head), hand);
     replay.shoulder = scene::shoulder_position(replay.workplace.workpiece, {hand, std::nullopt});
@@ -59,10 +57,11 @@ Result<ReplayScene> make_replay_scene(gpu::Device& device, const scene::LessonMo
 
 void update_poses(ReplayScene& replay, const ReplayMoment& moment) {
     scene::SceneWorld& world = replay.workplace.world;
+    const scene::Postures& postures = replay.postures[moment.setup.tool];
     const std::size_t posture = scene::natural_handle_posture(
-        replay.postures, world.only<world::ConstrainedTool>().pose, Vec3(0, 1, 0), replay.shoulder);
+        postures, world.only<world::ConstrainedTool>().pose, Vec3(0, 1, 0), replay.shoulder);
     scene::placement_system(world,
-                            {moment.setup, replay.postures, replay.shoulder, posture,
+                            {moment.setup, postures, replay.shoulder, posture,
                              std::abs(scene::relative_torque(moment.setup, world)), 0.0, moment.seconds,
                              moment.contact != nullptr ? &moment.contact->world : nullptr});
     replay.scene.cut_away.strength = 0.0F;

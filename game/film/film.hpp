@@ -14,8 +14,8 @@ namespace bolt::film {
 struct ReplayScene {
     std::unique_ptr<scene::GpuLessonModels> models;
     scene::Workplace workplace;
-    scene::Postures postures;
-    Vec3 shoulder{0.0};  // m
+    std::vector<scene::Postures> postures;  // by tool of the setup
+    Vec3 shoulder{0.0};                     // m
     render::Scene scene;
 };
 

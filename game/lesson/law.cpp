@@ -95,7 +95,7 @@ content::Assembly apply_law(content::Assembly assembly, joint::Law law, LawAdapt
     if (law == joint::Law::mechanistic) return assembly;
     for (content::AssemblyJoint& joint : assembly.joints)
         if (adaptation == LawAdaptation::yield_end)
-            adapt(assembly.wrench, joint);
+            adapt(content::tool_of(assembly, joint), joint);
         else
             adapt_before_format_6(joint);
     return assembly;

@@ -299,15 +299,18 @@ bool requires_yield(const Lesson& lesson, const LessonStep& step) {
 
 bool requires_click(const Lesson& lesson, const LessonStep& step) {
     const content::Assembly& assembly = *lesson.assembly;
-    if (assembly.law != joint::Law::published || assembly.wrench.click_swing <= 0.0) return false;
-    const double greatest_click = step.torque * (1.0 + assembly.wrench.click_accuracy);
+    const content::WrenchDesign& wrench = content::tool_of(assembly, assembly.joints[step.joint]);
+    if (assembly.law != joint::Law::published || wrench.click_swing <= 0.0) return false;
+    const double greatest_click = step.torque * (1.0 + wrench.click_accuracy);
     return step.kind == StepKind::tighten &&
            greatest_click < assembly.joints[step.joint].published.law.T_max_Nm;
 }
 
 double wrench_set_torque(const Lesson& lesson) {
     const LessonStep* step = lesson.due();
-    if (step == nullptr || lesson.assembly->wrench.click_swing <= 0.0) return 0.0;
+    if (step == nullptr) return 0.0;
+    const content::Assembly& assembly = *lesson.assembly;
+    if (content::tool_of(assembly, assembly.joints[step->joint]).click_swing <= 0.0) return 0.0;
     return step->kind == StepKind::tighten || step->kind == StepKind::recheck ? step->torque : 0.0;
 }
 

@@ -27,7 +27,8 @@ bool out_of_room(const ObservedLesson& s) {
 
 Situation without_nut(const ObservedLesson& s, const LessonStep& due, bool fingers) {
     const bool wrench = wrench_in_hand(s);
-    if (fingers && wrench) return Situation::put_wrench_away;
+    const bool other_tool = s.setup.tool != s.setup.nuts[due.joint].tool;
+    if (wrench && (fingers || other_tool)) return Situation::put_wrench_away;
     if (!fingers && !wrench) return Situation::take_wrench;
     if (distance_to_due(s) > near) return fingers ? Situation::find_by_fingers : Situation::find_by_wrench;
     if (fingers) return Situation::grip_nut;

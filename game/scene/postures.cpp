@@ -194,6 +194,20 @@ Postures make_postures(const collision::ToolShape* wrench, double grip_distance,
     return postures;
 }
 
+std::vector<Postures> postures_of_tools(const servo::Setup& setup, const servo::State& state,
+                                        hand::Side side) {
+    double widest = 0.0;
+    for (const servo::NutGeometry& nut : setup.nuts) widest = std::max(widest, nut.across_flats);
+    std::vector<Postures> postures;
+    for (std::size_t i = 0; i < setup.tools.size(); ++i) {
+        const collision::ToolShape* shape = nullptr;
+        if (state.tool_contact)
+            shape = i == setup.tool ? &state.tool_contact->wrench : &state.tool_contact->tools[i].shape;
+        postures.push_back(make_postures(shape, setup.tools[i].wrench.handle_length, side, widest));
+    }
+    return postures;
+}
+
 hand::Skeleton handle_posture(const Postures& postures, std::size_t grip, double effort) {
     const double share = 2.0 * std::clamp(effort, 0.0, 1.0);
     return share < 1.0 ? interpolate(postures.relaxed.at(grip), postures.on_handle.at(grip), share)

@@ -57,6 +57,10 @@ Pose frame_towards(const Pose& tool, const Vec3& shoulder, double twisted);
 Postures make_postures(const collision::ToolShape* wrench, double grip_distance,
                        hand::Side side = hand::Side::right, double nut_width = 0.024);
 
+// The postures at each tool of the setup.
+std::vector<Postures> postures_of_tools(const servo::Setup& setup, const servo::State& state,
+                                        hand::Side side = hand::Side::right);
+
 // Interpolates positions linearly and rotations spherically; share 0 … 1 from a to b.
 hand::Skeleton interpolate(const hand::Skeleton& a, const hand::Skeleton& b, double share);
 

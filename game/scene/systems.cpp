@@ -80,11 +80,15 @@ void place_nuts(SceneWorld& world, const servo::Setup& setup) {
     });
 }
 
-void place_tool(SceneWorld& world, const ToolAndHand& state) {
-    const glm::dmat4 tool = matrix(state.wrench ? state.tool : state.rest);
-    world.view<const ToolPart, Transform>().each([&](const ToolPart& part, Transform& transform) {
-        transform.world = glm::mat4(tool * part.tool_from_mesh);
-    });
+void place_tool(SceneWorld& world, std::size_t tool, const ToolAndHand& state) {
+    const glm::dmat4 pose = matrix(state.wrench ? state.tool : state.rest);
+    world.view<const ToolPart, Transform>().each(
+        [&](ecs::Entity entity, const ToolPart& part, Transform& transform) {
+            transform.world = glm::mat4(pose * part.tool_from_mesh);
+            Appearance* appearance = world.find<Appearance>(entity);
+            if (appearance == nullptr && part.tool != tool) appearance = &world.add<Appearance>(entity);
+            if (appearance != nullptr) appearance->hidden = part.tool != tool;
+        });
 }
 
 void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& state) {
@@ -135,14 +139,14 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     held.gloved = glove != nullptr ? &glove->fingers : nullptr;
     held.solids = context.solids;
     place_nuts(world, context.setup);
-    place_tool(world, held);
+    place_tool(world, context.setup.tool, held);
     place_hand(world, context.postures, held);
 }
 
-void show_wrench_ghost(SceneWorld& world, const Pose& tool) {
-    const glm::dmat4 at = matrix(tool);
+void show_wrench_ghost(SceneWorld& world, std::size_t tool, const Pose& pose) {
+    const glm::dmat4 at = matrix(pose);
     world.view<GhostPart, Transform>().each([&](ecs::Entity entity, GhostPart& ghost, Transform& transform) {
-        if (world.find<SkinnedHand>(entity) != nullptr) return;
+        if (world.find<SkinnedHand>(entity) != nullptr || ghost.tool != tool) return;
         ghost.shown = true;
         transform.world = glm::mat4(at * ghost.tool_from_mesh);
     });

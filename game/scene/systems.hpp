@@ -27,7 +27,8 @@ struct ToolAndHand {
 
 // The parts of placement_system().
 void place_nuts(SceneWorld& world, const servo::Setup& setup);
-void place_tool(SceneWorld& world, const ToolAndHand& state);
+// `tool`: index in servo::Setup::tools of the one to show.
+void place_tool(SceneWorld& world, std::size_t tool, const ToolAndHand& state);
 void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& state);
 
 // The input of placement_system() besides the world.
@@ -48,7 +49,7 @@ void placement_system(SceneWorld& world, const PlacementContext& context);
 double widest_nut(const servo::Setup& setup);
 
 // Displays a transparent wrench at `tool`, or a transparent hand with the skeleton `posture` in that frame.
-void show_wrench_ghost(SceneWorld& world, const Pose& tool);
+void show_wrench_ghost(SceneWorld& world, std::size_t tool, const Pose& pose);
 void show_hand_ghost(SceneWorld& world, const Pose& tool, const hand::Skeleton& posture);
 void hide_ghosts(SceneWorld& world);
 

@@ -35,12 +35,16 @@ Result<LessonModels> load_lesson_models(const content::Assembly& assembly, hand:
     models.hand =
         read_optional(content / (side == hand::Side::left ? "hands/hand_left.glb" : "hands/hand_right.glb"),
                       models.missing);
-    if (assembly.wrench.model.empty()) {
-        models.wrench = tool_models::drawn_model(tool_models::parameters_of(assembly.wrench));
-    } else {
-        models.wrench = read_optional(assembly.wrench.model, models.missing);
-        BOLT_TRY_ASSIGN(const auto turn, session::wrench_rotation(assembly.wrench));
-        models.wrench_turn = turn;
+    for (const content::WrenchDesign* design :
+         content::designs_of(assembly, content::lesson_tools(assembly))) {
+        ToolModel& tool = models.tools.emplace_back();
+        if (design->model.empty()) {
+            tool.model = tool_models::drawn_model(tool_models::parameters_of(*design));
+        } else {
+            tool.model = read_optional(design->model, models.missing);
+            BOLT_TRY_ASSIGN(const auto turn, session::wrench_rotation(*design));
+            tool.turn = turn;
+        }
     }
     Result<shading::RadianceImage> light = assets::read_hdr(content / "environments/workshop.hdr");
     if (light)
@@ -60,9 +64,11 @@ Result<std::unique_ptr<GpuLessonModels>> upload(gpu::Device& device, const Lesso
     };
     for (const auto& [model, to] : {std::pair{&models.workpiece.model, &uploaded->workpiece},
                                     {&models.workshop, &uploaded->workshop},
-                                    {&models.wrench, &uploaded->wrench},
                                     {&models.hand, &uploaded->hand}})
         BOLT_TRY(upload_to(*model, *to));
+    uploaded->tools.resize(models.tools.size());
+    for (std::size_t i = 0; i < models.tools.size(); ++i)
+        BOLT_TRY(upload_to(models.tools[i].model, uploaded->tools[i]));
     BOLT_TRY(upload_to(arrow_model(), uploaded->arrows));
     BOLT_TRY_ASSIGN(auto light, render::upload_environment(
                                     device, models.light ? *models.light : shading::studio_environment()));
@@ -154,18 +160,19 @@ void add_workshop(Workplace& workplace, const LessonModels& models, const GpuLes
     for (const render::Object& object : scene.objects) (void)view::add_drawable(workplace.world, object);
 }
 
-void add_wrench(Workplace& workplace, const LessonModels& models, const GpuLessonModels& on_gpu) {
-    if (models.wrench.meshes.empty()) return;
+void add_tool(Workplace& workplace, std::size_t index, const ToolModel& tool,
+              const render::GpuModel& on_gpu) {
+    if (tool.model.meshes.empty()) return;
     render::Scene scene;
-    render::add_model(scene, models.wrench, on_gpu.wrench);
+    render::add_model(scene, tool.model, on_gpu);
     for (const render::Object& object : scene.objects) {
         const ecs::Entity entity = view::add_drawable(workplace.world, object);
         workplace.world.get<Drawable>(entity).moves = true;
-        const glm::dmat4 tool_from_mesh = matrix(models.wrench_turn) * glm::dmat4(object.world);
-        workplace.world.add<ToolPart>(entity, tool_from_mesh);
+        const glm::dmat4 tool_from_mesh = matrix(tool.turn) * glm::dmat4(object.world);
+        workplace.world.add<ToolPart>(entity, tool_from_mesh, index);
         const ecs::Entity ghost = view::add_drawable(workplace.world, object);
         workplace.world.get<Drawable>(ghost).moves = true;
-        workplace.world.add<GhostPart>(ghost, tool_from_mesh, false);
+        workplace.world.add<GhostPart>(ghost, tool_from_mesh, false, index);
     }
 }
 
@@ -210,7 +217,8 @@ Result<Workplace> make_workplace(SceneWorld world, const LessonModels& models, c
     workplace.world = std::move(world);
     BOLT_TRY(add_workpiece(workplace, models, on_gpu, assembly, setup));
     add_workshop(workplace, models, on_gpu);
-    add_wrench(workplace, models, on_gpu);
+    for (std::size_t i = 0; i < models.tools.size(); ++i)
+        add_tool(workplace, i, models.tools[i], on_gpu.tools[i]);
     add_hand(workplace, models, on_gpu);
     add_arrows(workplace, on_gpu);
     return workplace;

@@ -36,9 +36,10 @@ struct JointPart {
     std::size_t joint = 0;
 };
 
-// A part of the wrench, which moves with the tool.
+// A part of a tool, which moves with it. Only the parts of the tool in use are drawn.
 struct ToolPart {
     glm::dmat4 tool_from_mesh{1.0};
+    std::size_t tool = 0;  // index in servo::Setup::tools
 };
 
 // The displayed hand.
@@ -57,6 +58,7 @@ struct SkinnedHand {
 struct GhostPart {
     glm::dmat4 tool_from_mesh{1.0};
     bool shown = false;
+    std::size_t tool = 0;  // as ToolPart::tool
 };
 
 // An arrow that demonstrates a motion, or the force on the hand (annotations.hpp).
@@ -108,14 +110,20 @@ inline Vec3 shoulder_position(const render::BoundingBox& workpiece, const Worker
     return at;
 }
 
+// The model of a tool, and the rotation from its frame to the tool's.
+struct ToolModel {
+    assets::Model model;
+    Quat turn{1.0, 0.0, 0.0, 0.0};
+};
+
 // The models of a lesson on the CPU. All but the workpiece are optional: a model that cannot be read is empty
 // and listed in `missing`. A wrench without a file is generated (game/tool_models).
 struct LessonModels {
     view::LoadedModel workpiece;
-    assets::Model workshop, wrench, hand;
+    assets::Model workshop, hand;
+    std::vector<ToolModel> tools;  // in the order of content::LessonTools
     std::optional<shading::RadianceImage> light;
-    Quat wrench_turn{1.0, 0.0, 0.0, 0.0};  // from the frame of the wrench's model to the tool's
-    std::vector<std::string> missing;      // error messages
+    std::vector<std::string> missing;  // error messages
 };
 
 Result<LessonModels> load_lesson_models(const content::Assembly& assembly,
@@ -123,7 +131,8 @@ Result<LessonModels> load_lesson_models(const content::Assembly& assembly,
 
 // The models of a lesson on the GPU. Entities point to them, so they must not be moved.
 struct GpuLessonModels {
-    render::GpuModel workpiece, workshop, wrench, hand, arrows;
+    render::GpuModel workpiece, workshop, hand, arrows;
+    std::vector<render::GpuModel> tools;
     render::EnvironmentLight light;
 };
 

@@ -220,13 +220,17 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
     if (missing_contact_model(assembly)) return std::nullopt;
     const std::filesystem::path file = assembly.models.contact;
     BOLT_TRY_ASSIGN(const auto nodes, read_mesh_nodes(file));
-    const Result<WrenchModel> wrench = read_wrench(assembly.wrench);
-    if (!wrench) return fail(wrench.error());
     BOLT_TRY_ASSIGN(const auto file_identity, identity_of(file));
-    BOLT_TRY_ASSIGN(const auto tool_identity, wrench_identity(assembly.wrench));
-
     ContactModels models;
-    models.files = file_identity + "; " + tool_identity;
+    models.files = file_identity;
+    std::vector<std::vector<collision::ContactMesh>> tools;
+    for (const content::WrenchDesign* design :
+         content::designs_of(assembly, content::lesson_tools(assembly))) {
+        BOLT_TRY_ASSIGN(auto wrench, read_wrench(*design));
+        BOLT_TRY_ASSIGN(const auto identity, wrench_identity(*design));
+        models.files += "; " + identity;
+        tools.push_back(std::move(wrench.meshes));
+    }
     std::vector<collision::ContactMesh> fixed, nuts(setup.nuts.size());
     for (const MeshNode& mesh_node : nodes) {
         std::size_t joint = 0;
@@ -251,7 +255,7 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
         else
             fixed.push_back(std::move(mesh));
     }
-    Result<servo::ToolContact> contact = servo::make_tool_contact(setup, {fixed, nuts, wrench->meshes});
+    Result<servo::ToolContact> contact = servo::make_tool_contact(setup, {fixed, nuts, tools});
     if (!contact) return fail(content_error(file, contact.error().what));
     models.tool_contact = std::move(*contact);
     return std::optional<ContactModels>(std::move(models));

@@ -11,6 +11,22 @@
 
 namespace bolt::session {
 
+namespace {
+
+servo::ToolDescription describe(const content::WrenchDesign& design) {
+    const tool_models::GrippingHead gripping = tool_models::gripping_head(design);
+    servo::ToolDescription tool;
+    tool.head = gripping.head;
+    tool.head_angle = gripping.head_angle;
+    tool.twist_stiffness = gripping.twist_stiffness;
+    tool.handle_length = design.handle_length;
+    tool.click_swing = design.click_swing;
+    tool.click_accuracy = design.click_accuracy;
+    return tool;
+}
+
+}  // namespace
+
 servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const force::OutputLimits& limits,
                         std::uint64_t seed, double dt) {
     servo::SetupDescription description;
@@ -29,20 +45,18 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
     description.joints = designs;
     description.law = law;
     description.flange = f.joints_interact ? &plate : nullptr;
-    const tool_models::GrippingHead gripping = tool_models::gripping_head(assembly.wrench);
-    description.head = gripping.head;
-    description.head_angle = gripping.head_angle;
-    description.twist_stiffness = gripping.twist_stiffness;
-    description.handle_length = assembly.wrench.handle_length;
+    const content::LessonTools tools = content::lesson_tools(assembly);
+    std::vector<servo::ToolDescription> tool_designs;
+    for (const content::WrenchDesign* design : content::designs_of(assembly, tools))
+        tool_designs.push_back(describe(*design));
+    description.tool = tool_designs.front();
+    description.more_tools.assign(tool_designs.begin() + 1, tool_designs.end());
+    description.tool_of_joint = tools.of_joint;
     description.max_torque = highest_torque;
-    description.click_swing = assembly.wrench.click_swing;
-    description.click_accuracy = assembly.wrench.click_accuracy;
     description.limits = limits;
     description.seed = seed;
     description.dt = dt;
-    servo::Setup setup = servo::make_setup(description);
-    setup.wrench.ratchet.loosens = assembly.wrench.loosens;
-    return setup;
+    return servo::make_setup(description);
 }
 
 Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, servo::State& state) {
@@ -146,18 +160,25 @@ LessonSession::~LessonSession() = default;
 
 namespace {
 
-// Fails if the chosen tool cannot turn a joint of the lesson.
+servo::Setup make_lesson_setup(const content::Assembly& assembly, const LessonOptions& options) {
+    servo::Setup setup = make_setup(assembly, options.law, options.device_limits, options.seed, options.dt);
+    servo::set_ratchets(setup, options.task == lesson::Task::loosen);
+    return setup;
+}
+
+// Fails if the tool of a joint cannot turn it.
 Status check_turned_parts(const content::Assembly& assembly) {
-    const auto head = assembly.wrench.head;
-    const bool turns_sockets = head == content::ToolHead::hex_key || head == content::ToolHead::hex_bit;
     for (const content::AssemblyJoint& joint : assembly.joints) {
+        const auto head = content::tool_of(assembly, joint).head;
+        const bool turns_sockets = head == content::ToolHead::hex_key || head == content::ToolHead::hex_bit;
         const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
         if ((part.depth > 0.0) == turns_sockets) continue;
         Error error;
         error.code = ErrorCode::bad_content;
         error.file = assembly.file;
         error.what = fmt::format("joint {} has a {}, which the tool \"{}\" cannot turn", joint.design.id,
-                                 part.depth > 0.0 ? "socket head" : "hexagon", assembly.tool);
+                                 part.depth > 0.0 ? "socket head" : "hexagon",
+                                 joint.tool.empty() ? assembly.tool : joint.tool);
         error.expected =
             part.depth > 0.0
                 ? fmt::format("a hex_key of {:g} mm, or a ratchet with a hex_bit", part.across_flats / mm)
@@ -173,8 +194,7 @@ Result<SessionSetup> prepare_session(const content::Assembly& given, const Lesso
     BOLT_TRY(check_turned_parts(given));
     SessionSetup start;
     start.assembly = lesson::apply_law(given, options.law, options.law_adaptation);
-    start.assembly.wrench.loosens = options.task == lesson::Task::loosen;
-    start.setup = make_setup(start.assembly, options.law, options.device_limits, options.seed, options.dt);
+    start.setup = make_lesson_setup(start.assembly, options);
     start.state = servo::initial_state(start.setup);
     if (options.task == lesson::Task::loosen) {
         BOLT_TRY(pretighten(start.assembly, start.setup, start.state));
@@ -188,7 +208,7 @@ Result<SessionSetup> prepare_session(const content::Assembly& given, const Lesso
 }
 
 void set_device_limits(const LessonOptions& options, SessionSetup& start) {
-    start.setup = make_setup(start.assembly, options.law, options.device_limits, options.seed, options.dt);
+    start.setup = make_lesson_setup(start.assembly, options);
     if (start.state.tool_contact) servo::set_coupling(start.setup, *start.state.tool_contact);
 }
 
@@ -238,6 +258,11 @@ Result<servo::Output> LessonSession::step(const world::WriteHaptics& world, cons
     return tick(world, input, std::move(extra_events));
 }
 
+std::uint8_t LessonSession::due_tool() const {
+    const lesson::LessonStep* due = lesson().due();
+    return static_cast<std::uint8_t>(due != nullptr ? setup().nuts[due->joint].tool : setup().tool);
+}
+
 std::uint8_t LessonSession::restore_action(std::size_t steps) const {
     const lesson::Lesson& l = lesson();
     const std::size_t checkpoints = steps + (finished() ? 0 : 1);  // as in lesson_system()
@@ -259,6 +284,7 @@ Status LessonSession::repeat(const world::WriteHaptics& world, const servo::Tick
 
 Result<servo::Output> LessonSession::tick(const world::WriteHaptics& world, const servo::TickInput& input,
                                           std::vector<lesson::LessonEvent>&& extra_events) {
+    servo::change_tool(session_setup_.setup, session_setup_.state, input);
     const servo::Output output = servo::tick(session_setup_.setup, session_setup_.state, input);
     checkpoints_saved_ += input.checkpoint_action == servo::save_checkpoint ? 1U : 0U;
     TickContext context{{session_setup_.state, input, output}, tracker_};

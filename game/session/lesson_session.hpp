@@ -130,6 +130,8 @@ class LessonSession {
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - session_setup_.state.checkpoint_count;
     }
+    // The tool of the due joint, for servo::TickInput::tool.
+    [[nodiscard]] std::uint8_t due_tool() const;
     // The servo::TickInput::checkpoint_action that goes back `steps` steps before the due one; 0: not
     // allowed.
     [[nodiscard]] std::uint8_t restore_action(std::size_t steps) const;

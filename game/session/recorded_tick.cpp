@@ -57,6 +57,7 @@ TickRecord make_record(const servo::TickInput& input, const servo::Output& outpu
     record.fault = static_cast<std::uint8_t>(output.fault);
     record.checkpoint_action = input.checkpoint_action;
     record.set_torque = input.set_torque;
+    record.tool = input.tool;
     return record;
 }
 
@@ -72,6 +73,7 @@ servo::TickInput input_of(const TickRecord& record) {
     input.guide = record.guide;
     input.checkpoint_action = record.checkpoint_action;
     input.set_torque = record.set_torque;
+    input.tool = record.tool;
     return input;
 }
 
@@ -93,7 +95,7 @@ bool is_valid(const TickRecord& record) {
 
 namespace {
 
-constexpr std::byte newest_chunk_version{4};
+constexpr std::byte newest_chunk_version{5};
 constexpr std::size_t header_bytes = 1 + 4 + 8;
 constexpr int compression_level = 1;  // level 3 takes a tenth longer and saves nothing on these columns
 
@@ -138,6 +140,8 @@ void for_each_column(std::byte chunk_version, Visit visit) {
     visit([](auto& tick) -> auto& { return tick.checkpoint_action; });
     if (chunk_version < std::byte{4}) return;
     visit([](auto& tick) -> auto& { return tick.set_torque; });
+    if (chunk_version < std::byte{5}) return;
+    visit([](auto& tick) -> auto& { return tick.tool; });
 }
 
 std::size_t tick_bytes(std::byte chunk_version) {

@@ -94,6 +94,7 @@ Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
         for (const TickRecord& recorded : chunk) {
             if (!proceed) return;
             const servo::TickInput input = input_of(recorded);
+            servo::change_tool(start.setup, start.state, input);
             const servo::Output output = servo::tick(start.setup, start.state, input);
             TickContext context{{start.state, input, output}, tracker};
             ecs::run(tick_systems, world, context);

@@ -258,11 +258,14 @@ constexpr double clearance = 1e-3;           // m below the wrench
 struct InitialState {
     content::Assembly assembly;
     std::uint64_t seed = 0;
+    bool tightened = false;  // the lesson loosens
     std::vector<joint::JointState> joints;
     std::optional<servo::ToolContact> contact;
 
     [[nodiscard]] servo::Setup setup(const force::OutputLimits& limits, double dt) const {
-        return session::make_setup(assembly, assembly.law, limits, seed, dt);
+        servo::Setup setup = session::make_setup(assembly, assembly.law, limits, seed, dt);
+        servo::set_ratchets(setup, tightened);
+        return setup;
     }
     // Moves the obstacles out, so call it only once.
     servo::State take_state(const servo::Setup& setup) {
@@ -349,7 +352,7 @@ Result<PlannedStation> plan_station(const content::Assembly& assembly, const Sta
 
     const auto initial = std::make_shared<InitialState>();
     initial->assembly = assembly;
-    initial->assembly.wrench.loosens = request.tightened;
+    initial->tightened = request.tightened;
     initial->seed = request.seed;
     const servo::Setup setup = initial->setup({}, 1.0 / planned.options.servo.rate);
     servo::State state = servo::initial_state(setup);

@@ -31,8 +31,10 @@ StepPlan make_step_plan(const TraineeProfile& profile, Random& random, const ser
     plan.loosening = due.kind == StepKind::loosen;
     plan.only_checks = due.kind == StepKind::recheck;
     if (!retry && !plan.fingers && joints > 1 && random.chance(profile.wrong_joint)) {
-        plan.wrong_joint = true;
-        plan.joint = (due.joint + 1 + random.bits() % (joints - 1)) % joints;
+        // A nut of another size is not mistaken for the due one.
+        const std::size_t other = (due.joint + 1 + random.bits() % (joints - 1)) % joints;
+        plan.wrong_joint = setup.nuts[other].tool == setup.nuts[due.joint].tool;
+        if (plan.wrong_joint) plan.joint = other;
     }
     // With a torque wrench a trainee that means to stop at the target waits for the click.
     plan.until_click = !plan.wrong_joint && lesson::wrench_set_torque(lesson) > 0.0;
@@ -150,6 +152,27 @@ double reach_duration(const TraineeState& t) {
     return distance_factor * t.profile.reach_time * detour_factor;
 }
 
+// With obstacles the tool is changed at the rest pose, which is clear of them.
+void go_to_rest(TraineeState& t) {
+    t.to = t.rest;
+    plan_path(t);
+    t.enter(Phase::change_tool, t.waypoints.empty() ? t.profile.reach_time : reach_duration(t));
+}
+
+// Returns true if the joint of the plan needs another tool than the one in use; then it is being changed.
+bool change_tool(TraineeState& t) {
+    const std::size_t needed = t.setup->nuts[t.plan.joint].tool;
+    if (t.plan.fingers || needed == t.setup->tool) return false;
+    if (t.obstacles() != nullptr && t.holds_wrench && t.from.position != t.rest.position) {
+        go_to_rest(t);
+        return true;
+    }
+    t.holds_wrench = false;  // the hand opens, and the other tool lies ready
+    t.tool = static_cast<std::uint8_t>(needed);
+    t.enter(Phase::pause, 0.2);
+    return true;
+}
+
 }  // namespace
 
 void begin_next_action(TraineeState& t) {
@@ -164,6 +187,7 @@ void begin_next_action(TraineeState& t) {
         t.free_turn = 0.0;
         t.plan = make_step_plan(t.profile, t.random, *t.setup, *t.lesson, *due, t.plan);
     }
+    if (change_tool(t)) return;
     if (t.plan.fingers) {
         t.flipped = false;
         t.handle_angle = t.random.uniform(0.0, 2.0 * pi);
@@ -173,12 +197,9 @@ void begin_next_action(TraineeState& t) {
     }
     const double search_time = search_view(t);
     t.placement_error = random_placement_error(t);
-    // With obstacles the tool is changed at the rest pose, which is clear of them.
     const bool tool_change = t.holds_wrench == t.plan.fingers;
     if (t.obstacles() != nullptr && tool_change && t.from.position != t.rest.position) {
-        t.to = t.rest;
-        plan_path(t);
-        t.enter(Phase::change_tool, t.waypoints.empty() ? t.profile.reach_time : reach_duration(t));
+        go_to_rest(t);
         return;
     }
     t.holds_wrench = !t.plan.fingers;

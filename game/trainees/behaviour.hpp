@@ -85,6 +85,7 @@ struct TraineeState {
     double hover_height = 0.0;        // m above the nut, start of the lowering
 
     bool holds_wrench = false;
+    std::uint8_t tool = 0;        // that it uses or wants next: servo::TickInput::tool
     double caught_time = 0.0;     // s for which an obstacle has held the wrench back
     int consecutive_catches = 0;  // retreats from an obstacle in a row
     int consecutive_misses = 0;   // attempts in a row in which the jaw did not slide onto the nut

@@ -71,7 +71,7 @@ Pose step_phase(TraineeState& t, const Percept& felt, Grip& grip) {
         case Phase::change_tool:
             pose = motion::arc_pose(t.from, t.to, motion::minimum_jerk(t.progress()), t.bulge);
             if (!t.phase_over() || start_next_waypoint(t, Phase::change_tool)) break;
-            t.holds_wrench = !t.plan.fingers;
+            t.holds_wrench = !t.plan.fingers && t.setup->nuts[t.plan.joint].tool == t.setup->tool;
             t.enter(Phase::pause, 0.2);
             break;
         case Phase::reach:
@@ -199,6 +199,7 @@ IntendedPose advance(TraineeState& t, const servo::Setup& setup, const servo::St
     }
     if (t.obstacles() != nullptr && t.holds_wrench) intended.grip = Grip::wrench;
     intended.tool = pose;
+    intended.tool_index = t.tool;
     intended.holds_nut = holds_nut;
     return intended;
 }
@@ -226,6 +227,7 @@ servo::TickInput SimulatedTrainee::act(const servo::Setup& setup, const servo::S
     input.dead_man = true;
     input.guide = intended.guide;
     input.grip = intended.grip;
+    input.tool = intended.tool_index;
     input.commanded_tool = servo::to_commanded_tool(t.hand);
     report_visibility(t, lesson.due());
     return input;

@@ -153,6 +153,7 @@ void handle_mouse_input(ActiveLesson& active, const FrameInput& input, const Pro
     }
     if (active.undo.target && hand_of(active).nut) command.retreat = true;
     if (active.clock.finished || active.clock.paused) command = {};
+    command.tool = active.session->due_tool();
     trainer::apply_command(active.helped_hand, command, active.session->setup(), active.session->state());
 }
 
@@ -251,7 +252,7 @@ void step_ticks(scene::SceneWorld& world, LessonFrame& frame) {
     const WorkingHand hand = write_hand(world, hand_of(active.helped_hand));
     if (hand.action == HandAction::reaching)
         active.handle_posture_index =
-            scene::natural_handle_posture(active.postures, hand.to, Vec3(0, 1, 0), active.shoulder);
+            scene::natural_handle_posture(postures_of(active), hand.to, Vec3(0, 1, 0), active.shoulder);
 }
 
 // Repeats the station's ticks since the last frame with the lesson's own servo.
@@ -281,7 +282,7 @@ void repeat_station_ticks(scene::SceneWorld& world, LessonFrame& frame) {
     if (frame.status && !sent) frame.status = sent;
     const WorkingHand hand = write_hand(world, hand_of(client));
     if (hand.wrench && !had_wrench)
-        active.handle_posture_index = scene::natural_handle_posture(active.postures, tool_of(active).pose,
+        active.handle_posture_index = scene::natural_handle_posture(postures_of(active), tool_of(active).pose,
                                                                     Vec3(0, 1, 0), active.shoulder);
     write_glove(world, client);
 }
@@ -311,7 +312,7 @@ void placement_system(scene::SceneWorld& world, LessonFrame& frame) {
     const ActiveLesson& active = frame.active;
     const servo::State& state = active.session->state();
     scene::placement_system(
-        world, {active.session->setup(), active.postures, active.shoulder, active.handle_posture_index,
+        world, {active.session->setup(), postures_of(active), active.shoulder, active.handle_posture_index,
                 active.effort.share, active.effort.tremor, frame.seconds,
                 state.tool_contact ? &state.tool_contact->world : nullptr});
 }

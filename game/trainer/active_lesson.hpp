@@ -81,10 +81,10 @@ struct ActiveLesson {
     scene::Workplace workplace;  // contains the world
     render::Scene scene;
 
-    scene::Postures postures;
-    std::size_t handle_posture_index = 0;  // index in Postures::on_handle
-    Vec3 shoulder{0.0};                    // m, the trainee's
-    scene::Effort effort;                  // of the hand
+    std::vector<scene::Postures> postures;  // by tool of the setup
+    std::size_t handle_posture_index = 0;   // index in Postures::on_handle
+    Vec3 shoulder{0.0};                     // m, the trainee's
+    scene::Effort effort;                   // of the hand
     view::Palette palette;
 
     InputState input;
@@ -104,6 +104,10 @@ struct ActiveLesson {
 // Components that world::write_haptics has written.
 inline const world::WorkingHand& hand_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::WorkingHand>();
+}
+// At the tool in use.
+inline const scene::Postures& postures_of(const ActiveLesson& active) {
+    return active.postures[active.session->setup().tool];
 }
 inline const world::ConstrainedTool& tool_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::ConstrainedTool>();

@@ -114,6 +114,16 @@ void go_to_nut(HelpedHand& hand, const servo::Setup& setup, const servo::State& 
           nut_of(hand, setup).axis);
 }
 
+// Goes to the nut of the hand. If the wrench in the hand does not turn it, changes the tool first.
+void start_for_nut(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
+    hand.changes_tool = false;
+    const servo::NutGeometry& nut = nut_of(hand, setup);
+    if (hand.wrench && nut.tool != setup.tool)
+        reach(hand, hand.rest, HelpedHand::OnArrival::change_tool, setup, state, nut.axis);
+    else
+        go_to_nut(hand, setup, state);
+}
+
 void lift(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     hand.pose = hand.wrench && state.tool_contact && state.tool_contact->in_hand
                     ? state.tool_contact->god_object.constrained_tool
@@ -130,6 +140,7 @@ void lift(HelpedHand& hand, const servo::Setup& setup, const servo::State& state
 // Moves the hand towards the trainee, with whatever it holds.
 void withdraw(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     hand.nut.reset();
+    hand.changes_tool = false;
     const Vec3 up = setup.nuts.empty() ? Vec3(0, 1, 0) : setup.nuts.front().axis;
     const Vec3 near_trainee = hand.rest * Vec3(0.0, hand.trainee_side * retreat_distance, 0.0);
     reach(hand, {near_trainee + retreat_distance * up, hand.rest.orientation}, HelpedHand::OnArrival::rest,
@@ -152,6 +163,11 @@ void arrive(HelpedHand& hand, const servo::Setup& setup, const servo::State& sta
             break;
         case HelpedHand::OnArrival::lay_down:
             hand.wrench = false;
+            break;
+        case HelpedHand::OnArrival::change_tool:
+            hand.wrench = false;
+            hand.tool = static_cast<std::uint8_t>(nut_of(hand, setup).tool);
+            hand.changes_tool = true;
             break;
         case HelpedHand::OnArrival::lower:
             if (hand.button_down)
@@ -264,6 +280,7 @@ void apply_command(HelpedHand& hand, const MouseCommand& command, const servo::S
                       : command.nut                ? command.nut
                                                    : hand.queued_nut;
     if (!free) return;
+    if (!hand.wrench && !hand.changes_tool) hand.tool = command.tool;
     const Vec3 up = setup.nuts.empty() ? Vec3(0, 1, 0) : setup.nuts.front().axis;
     if (command.retreat) {
         withdraw(hand, setup, state);
@@ -276,7 +293,7 @@ void apply_command(HelpedHand& hand, const MouseCommand& command, const servo::S
     } else if (command.nut && *command.nut < setup.nuts.size()) {
         hand.nut = command.nut;
         hand.loosens = command.loosens;
-        go_to_nut(hand, setup, state);
+        start_for_nut(hand, setup, state);
     }
 }
 
@@ -290,6 +307,11 @@ Pose wrench_pose_on_nut(const Pose& rest, const servo::Setup& setup, const servo
 }
 
 servo::TickInput step_hand(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
+    if (hand.changes_tool && setup.tool == hand.tool && hand.nut) {
+        hand.changes_tool = false;
+        hand.wrench = true;
+        go_to_nut(hand, setup, state);
+    }
     servo::Grip grip = hand.wrench ? servo::Grip::wrench : servo::Grip::none;
     switch (hand.action) {
         case HandAction::resting:
@@ -335,13 +357,14 @@ servo::TickInput step_hand(HelpedHand& hand, const servo::Setup& setup, const se
             }
             if (hand.queued_nut && hand.button_down) {
                 hand.nut = std::exchange(hand.queued_nut, std::nullopt);
-                go_to_nut(hand, setup, state);
+                start_for_nut(hand, setup, state);
             }
             break;
     }
     servo::TickInput input;
     input.dead_man = true;
     input.grip = grip;
+    input.tool = hand.tool;
     input.commanded_tool = servo::to_commanded_tool(hand.pose);
     return input;
 }

@@ -21,6 +21,7 @@ using world::WorkingHand;
 struct MouseCommand {
     std::optional<std::size_t> nut;  // pressed since the last frame
     bool take_wrench = false;        // the wrench at rest, or its key, was pressed
+    std::uint8_t tool = 0;           // that lies ready for an empty hand: servo::TickInput::tool
     bool lay_down = false;
     bool retreat = false;  // move away from the nuts, with whatever the hand holds
     bool button_down = false;
@@ -32,6 +33,8 @@ struct MouseCommand {
 struct HelpedHand {
     HandAction action = HandAction::resting;
     bool wrench = false;             // in the hand
+    std::uint8_t tool = 0;           // in the hand, or ready for it
+    bool changes_tool = false;       // at rest, between two tools; goes to `nut` with the next one
     std::optional<std::size_t> nut;  // joint that the hand moves to, is at or holds
     Pose pose;                       // of the tool, in the assembly's frame
     Pose rest;                       // where the wrench lies; an empty hand waits beside it
@@ -52,7 +55,13 @@ struct HelpedHand {
     Vec3 bulge{0.0};              // m, deviation from the straight line at the middle (motion::arc_pose)
     std::vector<Pose> waypoints;  // to visit after `to`, last one first
     double elapsed = 0.0, duration = 0.0;  // s
-    enum class OnArrival : std::uint8_t { rest, take, lay_down, lower } on_arrival = OnArrival::rest;
+    enum class OnArrival : std::uint8_t {
+        rest,
+        take,
+        lay_down,
+        lower,
+        change_tool
+    } on_arrival = OnArrival::rest;
     std::optional<std::size_t> queued_nut;  // pressed while the hand was busy
     bool missed = false;                    // the last attempt did not engage the nut, or lost it
     int misses = 0;  // consecutive; each one makes the next attempt approach higher and from another side

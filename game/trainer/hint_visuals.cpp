@@ -47,16 +47,17 @@ void show_hand(scene::SceneWorld& world, ActiveLesson& active, HintMotion motion
     const servo::Setup& setup = active.session->setup();
     const lesson::LessonStep* due = active.session->lesson().due();
     if (motion == HintMotion::take) {
-        const std::size_t posture = scene::natural_handle_posture(active.postures, hand_of(active).rest,
+        const std::size_t posture = scene::natural_handle_posture(postures_of(active), hand_of(active).rest,
                                                                   Vec3(0, 1, 0), active.shoulder);
-        scene::show_hand_ghost(world, hand_of(active).rest, active.postures.on_handle.at(posture));
+        scene::show_hand_ghost(world, hand_of(active).rest, postures_of(active).on_handle.at(posture));
         return;
     }
     const servo::NutGeometry& nut = setup.nuts[due->joint];
     const Pose at{world::nut_centre(active.workplace.world, setup, due->joint),
                   motion::tool_orientation(nut, 0.0, false)};
-    scene::show_hand_ghost(world, scene::frame_towards(at, active.shoulder, 0.0),
-                           motion == HintMotion::let_go ? active.postures.open : active.postures.on_nut);
+    scene::show_hand_ghost(
+        world, scene::frame_towards(at, active.shoulder, 0.0),
+        motion == HintMotion::let_go ? postures_of(active).open : postures_of(active).on_nut);
 }
 
 // The pose in which the hand would put the wrench on the nut. Cached per step, because the search casts rays.
@@ -78,9 +79,9 @@ void show_ghosts(scene::SceneWorld& world, ActiveLesson& active, const lesson::H
     }
     const Pose& tool = wrench_ghost_pose(active, due);
     const std::size_t posture =
-        scene::natural_handle_posture(active.postures, tool, Vec3(0, 1, 0), active.shoulder);
-    scene::show_wrench_ghost(world, tool);
-    scene::show_hand_ghost(world, tool, active.postures.on_handle.at(posture));
+        scene::natural_handle_posture(postures_of(active), tool, Vec3(0, 1, 0), active.shoulder);
+    scene::show_wrench_ghost(world, active.session->setup().tool, tool);
+    scene::show_hand_ghost(world, tool, postures_of(active).on_handle.at(posture));
 }
 
 MotionGeometry geometry_of(const ActiveLesson& active, const lesson::LessonStep& due, std::size_t joint) {

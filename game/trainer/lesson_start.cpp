@@ -180,15 +180,14 @@ void place_trainee(ActiveLesson& active, const LessonContext& context, float asp
         make_hand(scene::wrench_rest_pose(workpiece, collision::thickness(setup.wrench.head), worker.side),
                   worker.side);
     active.workplace.world.only<world::WorkingHand>() = hand_of(active.helped_hand);
-    active.postures = scene::make_postures(state.tool_contact ? &state.tool_contact->wrench : nullptr,
-                                           setup.wrench.handle_length, worker.side, scene::widest_nut(setup));
+    active.postures = scene::postures_of_tools(setup, state, worker.side);
     active.shoulder = scene::shoulder_position(workpiece, worker);
     if (active.station) {
         StationClient& station = *active.station;
         station.rest = hand_of(active).rest;
         station.home = hand_of(active).pose;
         if (station.tracked) station.tracked->side = worker.side;
-        const hand::Skeleton& open = active.postures.open;
+        const hand::Skeleton& open = active.postures.front().open;
         const Pose fingers = scene::frame_towards(station.home, active.shoulder, 0.0);
         station.empty_hand_wrist =
             inverse(station.home) * fingers * Pose{open.position[hand::wrist], open.rotation[hand::wrist]};

@@ -184,13 +184,13 @@ Vec3 wrist_at(const ActiveLesson& active, std::size_t joint) {
             at_nut ? tool_of(active).pose
                    : wrench_pose_on_nut(hand_of(active).rest, setup, active.session->state(), joint, loosens);
         const std::size_t posture =
-            scene::natural_handle_posture(active.postures, tool, Vec3(0, 1, 0), active.shoulder);
-        return tool * active.postures.on_handle.at(posture).position[hand::wrist];
+            scene::natural_handle_posture(postures_of(active), tool, Vec3(0, 1, 0), active.shoulder);
+        return tool * postures_of(active).on_handle.at(posture).position[hand::wrist];
     }
     const servo::NutGeometry& nut = setup.nuts[joint];
     const Pose at{world::nut_centre(active.workplace.world, setup, joint),
                   motion::tool_orientation(nut, 0.0, false)};
-    return scene::frame_towards(at, active.shoulder, 0.0) * active.postures.on_nut.position[hand::wrist];
+    return scene::frame_towards(at, active.shoulder, 0.0) * postures_of(active).on_nut.position[hand::wrist];
 }
 
 void show_due_joint(ActiveLesson& active, const glm::dvec2& picture) {

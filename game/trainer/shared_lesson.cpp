@@ -10,8 +10,10 @@ namespace bolt::trainer {
 namespace {
 
 view::StreamedModels streamed(const scene::GpuLessonModels& models) {
-    return {{&models.workpiece, &models.workshop, &models.wrench, &models.hand, &models.arrows},
-            &models.light};
+    view::StreamedModels streamed{{&models.workpiece, &models.workshop, &models.hand, &models.arrows},
+                                  &models.light};
+    for (const render::GpuModel& tool : models.tools) streamed.models.push_back(&tool);
+    return streamed;
 }
 
 Error unknown_scene() {

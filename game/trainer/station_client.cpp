@@ -209,6 +209,7 @@ Status send_actions(StationClient& client, const session::LessonSession& session
     controls.approach_joint =
         attracting_nut && closes ? static_cast<std::int16_t>(*attracting_nut) : std::int16_t{-1};
     controls.set_torque = static_cast<float>(lesson::wrench_set_torque(session.lesson()));
+    controls.tool = session.due_tool();
     client.link->set_controls(controls);
     client.hand_closed = closes;
     return send_commands(client, session, actions);

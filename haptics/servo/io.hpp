@@ -52,6 +52,9 @@ struct TickInput {
     // N·m on the scale of a click-type torque wrench; 0: it does not click. Ignored from the click until the
     // wrench leaves the nut.
     float set_torque = 0.0F;
+    // The tool that lies ready for the hand, as an index in Setup::tools. The hand takes it up when it holds
+    // no tool (change_tool in tick.hpp).
+    std::uint8_t tool = 0;
 };
 
 struct Output {

@@ -61,50 +61,84 @@ double half_play(const Wrench& wrench, double across_flats, double rounded) {
 
 bool reversible(const Wrench& wrench) { return std::holds_alternative<collision::Jaw>(wrench.head); }
 
+namespace {
+
+// `number`: of the tool in the lesson, for its random stream. `across_flats`: m, the widest that it turns.
+Wrench make_wrench(const SetupDescription& d, const ToolDescription& tool, std::size_t number,
+                   double across_flats) {
+    Wrench wrench;
+    wrench.head_angle = tool.head_angle;
+    wrench.handle_length = tool.handle_length;
+    wrench.head = tool.head;
+    wrench.ratchet.tooth_angle = collision::tooth_angle(tool.head);
+    wrench.ratchet.drag = usual_drag;
+    wrench.half_play = half_play(wrench, across_flats, 0.0);
+    // Modelling assumption: wrench and wrists yield 2.5° at the largest torque.
+    wrench.stiffness = std::max(d.max_torque, 1.0) / to_radians(2.5);
+    if (tool.twist_stiffness > 0.0)  // in series
+        wrench.stiffness = 1.0 / (1.0 / wrench.stiffness + 1.0 / tool.twist_stiffness);
+    wrench.click.swing = tool.click_swing;
+    Random random(d.seed, tool_stream + number);
+    wrench.deviation = random.uniform(-tool.click_accuracy, tool.click_accuracy);
+    return wrench;
+}
+
+void add_tool(const SetupDescription& d, const ToolDescription& tool, Setup& setup) {
+    const std::size_t number = setup.tools.size();
+    double across_flats = 0.0;
+    LessonTool added;
+    for (const NutGeometry& nut : setup.nuts) {
+        added.grip_heights.push_back(collision::grip_height(tool.head, shape_of(nut)));
+        if (nut.tool == number) across_flats = std::max(across_flats, nut.across_flats);
+    }
+    added.wrench = make_wrench(d, tool, number, across_flats);
+    setup.tools.push_back(std::move(added));
+}
+
+}  // namespace
+
+void use_tool(Setup& setup, std::size_t tool) {
+    setup.tool = tool;
+    setup.wrench = setup.tools[tool].wrench;
+    for (std::size_t i = 0; i < setup.nuts.size(); ++i)
+        setup.nuts[i].grip_height = setup.tools[tool].grip_heights[i];
+}
+
+void set_ratchets(Setup& setup, bool loosen) {
+    setup.wrench.ratchet.loosens = loosen;
+    for (LessonTool& tool : setup.tools) tool.wrench.ratchet.loosens = loosen;
+}
+
 Setup make_setup(const SetupDescription& d) {
     Setup setup;
     setup.dt = d.dt;
     setup.group = d.law == joint::Law::mechanistic ? joint::make_group(d.joints, d.flange, d.seed)
                                                    : joint::make_published_group(d.published);
-    double across_flats = 0.0;
     for (const joint::JointDesign& design : d.joints) {
-        NutGeometry nut = nut_geometry(design);
-        nut.grip_height = collision::grip_height(d.head, shape_of(nut));
-        across_flats = std::max(across_flats, nut.across_flats);
-        setup.nuts.push_back(nut);
+        setup.nuts.push_back(nut_geometry(design));
+        const std::size_t joint = setup.nuts.size() - 1;
+        if (joint < d.tool_of_joint.size()) setup.nuts.back().tool = d.tool_of_joint[joint];
     }
     if (d.law == joint::Law::published)
         for (std::size_t i = 0; i < setup.nuts.size(); ++i)
             setup.nuts[i].start_gap =
                 setup.nuts[i].lead * to_radians(joint::published_boundaries(d.published[i]).linearity);
-
-    setup.wrench.head_angle = d.head_angle;
-    setup.wrench.handle_length = d.handle_length;
-    setup.wrench.head = d.head;
-    setup.wrench.ratchet.tooth_angle = collision::tooth_angle(d.head);
-    setup.wrench.ratchet.drag = usual_drag;
-    setup.wrench.half_play = half_play(setup.wrench, across_flats, 0.0);
-    const double max_torque = std::max(d.max_torque, 1.0);
-    // Modelling assumption: wrench and wrists yield 2.5° at the largest torque.
-    setup.wrench.stiffness = max_torque / to_radians(2.5);
-    if (d.twist_stiffness > 0.0)  // in series
-        setup.wrench.stiffness = 1.0 / (1.0 / setup.wrench.stiffness + 1.0 / d.twist_stiffness);
-
-    setup.wrench.click.swing = d.click_swing;
-    Random random(d.seed, tool_stream);
-    setup.wrench.deviation = random.uniform(-d.click_accuracy, d.click_accuracy);
+    add_tool(d, d.tool, setup);
+    for (const ToolDescription& tool : d.more_tools) add_tool(d, tool, setup);
+    use_tool(setup, 0);
 
     setup.limits = d.limits;
     setup.hold_stiffness = std::min(setup.hold_stiffness, d.limits.stiffness);
     if (d.limits.torsion > 0.0) setup.hold_torsion = std::min(setup.hold_torsion, d.limits.torsion);
     // The energy of a spring that the device cannot render must not count as stored.
     if (d.limits.force <= 0.0) setup.hold_stiffness = 0.0;
-    setup.torque_rendering = force::make_torque_rendering(d.limits, d.max_torque, d.handle_length);
+    const double handle_length = d.tool.handle_length;
+    setup.torque_rendering = force::make_torque_rendering(d.limits, d.max_torque, handle_length);
     setup.guiding.max_force = std::min(3.0, 0.2 * d.limits.force);
     setup.guiding.stiffness = std::min(setup.guiding.stiffness, d.limits.stiffness);
     // Without torque output the aligning torque is a force at the end of the wrench.
     setup.guiding.max_torque =
-        d.limits.torque > 0.0 ? 0.1 * d.limits.torque : 0.2 * d.limits.force * d.handle_length;
+        d.limits.torque > 0.0 ? 0.1 * d.limits.torque : 0.2 * d.limits.force * handle_length;
     return setup;
 }
 

@@ -27,6 +27,7 @@ struct NutGeometry {
     double bearing_diameter = 0.0;  // m, of the bearing face inside the chamfer
     double socket_depth = 0.0;      // m, of the head's hexagonal socket; 0: the tool grips it from outside
     double head_diameter = 0.0;     // m, of a head with a socket
+    std::size_t tool = 0;           // index in Setup::tools of the tool that turns it
     // m above the bearing face at which the tool's origin belongs, and the fingertips.
     double grip_height = 0.0;
     double corner_pressure = 0.0;  // Pa at which the corners yield (haptics/joint/nut.hpp)
@@ -71,10 +72,20 @@ double half_play(const Wrench& wrench, double across_flats, double rounded);
 // Returns true if the tool can be turned over on the hexagon: only an open end.
 bool reversible(const Wrench& wrench);
 
+// A tool of the lesson.
+struct LessonTool {
+    Wrench wrench;
+    std::vector<double> grip_heights;  // by joint, m: NutGeometry::grip_height with this tool
+};
+
+// The constants of the tick. `wrench`, `tool` and the nuts' grip heights are those of the tool in use;
+// change_tool() (tick.hpp) replaces them between two ticks.
 struct Setup {
     double dt = 0.001;
     joint::GroupParameters group;
     std::vector<NutGeometry> nuts;
+    std::vector<LessonTool> tools;
+    std::size_t tool = 0;  // index in `tools`
     Wrench wrench;
     double finger_stiffness = 5.0;   // N·m/rad
     double finger_force = 65.0;      // N across the flats at which the fingertips slip
@@ -90,23 +101,35 @@ struct Setup {
     }
 };
 
+struct ToolDescription {
+    collision::ToolHead head;
+    double head_angle = 0.0;       // rad, see Wrench
+    double twist_stiffness = 0.0;  // N·m/rad, of an extension bar; 0: none
+    double handle_length = 0.0;    // m
+    double click_swing = 0.0;  // rad that a click-type torque wrench swings at its click; 0: a plain wrench
+    double click_accuracy = 0.0;  // relative bound of Wrench::deviation, which is drawn from the seed
+};
+
 struct SetupDescription {
     std::span<const joint::JointDesign> joints;
     joint::Law law = joint::Law::mechanistic;
     std::vector<joint::PublishedParameters> published;  // law `published`: one set for each joint
     const joint::FlangePlate* flange = nullptr;
-    collision::ToolHead head;
-    double head_angle = 0.0;       // rad, see Wrench
-    double twist_stiffness = 0.0;  // N·m/rad, of an extension bar; 0: none
-    double handle_length = 0.0;    // m
-    double max_torque = 0.0;       // N·m, the largest torque of the lesson; maps to the device's range
+    ToolDescription tool;  // in use at the beginning
+    std::vector<ToolDescription> more_tools;
+    std::vector<std::size_t> tool_of_joint;  // 0: `tool`, then `more_tools`; empty: `tool` turns all joints
+    double max_torque = 0.0;  // N·m, the largest torque of the lesson; maps to the device's range
     force::OutputLimits limits;
-    double click_swing = 0.0;  // rad that a click-type torque wrench swings at its click; 0: a plain wrench
-    double click_accuracy = 0.0;  // relative bound of Wrench::deviation, which is drawn from the seed
     std::uint64_t seed = 0;
     double dt = 0.001;
 };
 
 Setup make_setup(const SetupDescription& description);
+
+// Makes a tool of the lesson the one in use. Does not allocate.
+void use_tool(Setup& setup, std::size_t tool);
+
+// Sets the levers of all ratchets.
+void set_ratchets(Setup& setup, bool loosen);
 
 }  // namespace bolt::servo

@@ -276,6 +276,14 @@ State initial_state(const Setup& setup) {
     return state;
 }
 
+void change_tool(Setup& setup, State& state, const TickInput& input) {
+    const std::size_t tool = input.tool;
+    if (tool == setup.tool || tool >= setup.tools.size()) return;
+    if (input.grip == Grip::wrench || state.engagement.joint >= 0) return;
+    if (state.tool_contact) use_tool(*state.tool_contact, setup.tool, tool);
+    use_tool(setup, tool);
+}
+
 Output tick(const Setup& setup, State& state, const TickInput& input) {
     return tick(setup, state, input, [&](const Vec3& from, const Vec3& to) {
         return !state.tool_contact || !occluded(*state.tool_contact, from, to, input.guide);

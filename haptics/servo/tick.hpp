@@ -50,6 +50,10 @@ struct State {
 
 State initial_state(const Setup& setup);
 
+// Puts the tool that the input names into use, if it is a tool of the lesson and the hand holds neither a
+// tool nor a nut. Call it before each tick. Does not allocate.
+void change_tool(Setup& setup, State& state, const TickInput& input);
+
 // One tick. `free` returns true if the straight segment between two points crosses no obstacle; the guiding
 // force plans with it. The first overload queries State::tool_contact, so without contact simulation every
 // segment is free.

@@ -199,6 +199,48 @@ void set_coupling(const Setup& setup, ToolContact& contact) {
     contact.parameters.coupling = proxy::make_coupling(range);
 }
 
+namespace {
+
+Result<ToolInContact> make_tool_in_contact(const collision::ToolHead& head,
+                                           std::span<const collision::ContactMesh> meshes,
+                                           const ToolContact& contact) {
+    ToolInContact tool;
+    Result<collision::ToolShape> shape = collision::make_tool(meshes);
+    if (!shape) return fail(shape.error());
+    tool.shape = std::move(*shape);
+    for (const collision::TurnedShape& turned : contact.shapes) {
+        tool.shape_solids.emplace_back();
+        if (!collision::grips(head, turned)) continue;
+        BOLT_TRY_ASSIGN(auto solids, collision::shape_solids(turned));
+        tool.shape_solids.back() = std::move(solids);
+    }
+    BOLT_TRY_ASSIGN(auto solids, collision::head_solids(head));
+    tool.head = std::move(solids);
+    tool.narrow_phase = collision::make_narrow_phase(contact.world, tool.shape);
+    return tool;
+}
+
+// Exchanges the tool in use with one of `tools`.
+void swap_in(ToolContact& contact, std::size_t index) {
+    ToolInContact& tool = contact.tools[index];
+    std::swap(contact.wrench, tool.shape);
+    std::swap(contact.narrow_phase, tool.narrow_phase);
+    std::swap(contact.head, tool.head);
+    std::swap(contact.shape_solids, tool.shape_solids);
+    contact.parameters.radius = contact.wrench.origin_radius();
+    contact.parameters.box = contact.wrench.solid.box;
+}
+
+}  // namespace
+
+void use_tool(ToolContact& contact, std::size_t from, std::size_t to) {
+    swap_in(contact, from);
+    swap_in(contact, to);
+    contact.cache.nuts_unchanged = contact.cache.meshes_unchanged = false;
+    contact.joint_in_tool = -1;
+    contact.in_hand = false;
+}
+
 Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescription& d) {
     ToolContact contact;
     std::vector<collision::Obstacle> obstacles;
@@ -211,26 +253,18 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
     Result<collision::CollisionWorld> world = collision::make_world(obstacles);
     if (!world) return fail(world.error());
     contact.world = std::move(*world);
-    Result<collision::ToolShape> wrench = collision::make_tool(d.wrench);
-    if (!wrench) return fail(wrench.error());
-    contact.wrench = std::move(*wrench);
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         contact.nut_bodies.push_back(collision::find_body(contact.world, collision::ObstacleId::nut(i)));
         contact.shapes.push_back(shape_of(setup.nuts[i]));
-        contact.shape_solids.emplace_back();
-        if (collision::grips(setup.wrench.head, contact.shapes.back())) {
-            BOLT_TRY_ASSIGN(auto solids, collision::shape_solids(contact.shapes.back()));
-            contact.shape_solids.back() = std::move(solids);
-        }
         contact.nut_poses.push_back(nut_pose(setup.nuts[i], 0.0));
     }
-    BOLT_TRY_ASSIGN(auto head, collision::head_solids(setup.wrench.head));
-    contact.head = std::move(head);
-    contact.narrow_phase = collision::make_narrow_phase(contact.world, contact.wrench);
+    for (std::size_t k = 0; k < d.tools.size(); ++k) {
+        BOLT_TRY_ASSIGN(auto tool, make_tool_in_contact(setup.tools[k].wrench.head, d.tools[k], contact));
+        contact.tools.push_back(std::move(tool));
+    }
+    swap_in(contact, setup.tool);
 
     set_coupling(setup, contact);
-    contact.parameters.radius = contact.wrench.origin_radius();
-    contact.parameters.box = contact.wrench.solid.box;
     contact.parameters.friction_coefficient = d.friction_coefficient;
     return contact;
 }

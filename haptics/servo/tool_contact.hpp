@@ -23,8 +23,9 @@ struct ToolContactDescription {
     std::span<const collision::ContactMesh> fixed;
     // By joint. An empty mesh: this nut is tested against the tool's head only.
     std::span<const collision::ContactMesh> nuts;
-    std::span<const collision::ContactMesh> wrench;  // in the tool's frame
-    double friction_coefficient = 0.15;              // steel on painted iron with a film of oil
+    // By tool of the setup, in the tool's frame.
+    std::span<const std::vector<collision::ContactMesh>> tools;
+    double friction_coefficient = 0.15;  // steel on painted iron with a film of oil
 };
 
 // The contacts of the last query with its pose and band: the head's with nuts first, then those of meshes.
@@ -40,17 +41,27 @@ struct ContactCache {
     std::array<collision::Contact, proxy::max_contacts> contacts;
 };
 
+// The shape of a tool, and what contact queries keep about it.
+struct ToolInContact {
+    collision::ToolShape shape;
+    collision::NarrowPhaseState narrow_phase;
+    std::vector<collision::Convex> head;
+    std::vector<std::vector<collision::Convex>> shape_solids;  // by joint; empty: the head cannot turn it
+};
+
 struct ToolContact {
     collision::CollisionWorld world;
-    collision::ToolShape wrench;
+    collision::ToolShape wrench;  // the tool in use, with the next three
     collision::NarrowPhaseState narrow_phase;
+    std::vector<collision::Convex> head;
+    std::vector<std::vector<collision::Convex>> shape_solids;  // by joint; empty: the head cannot turn it
+    // By tool of the setup. The members of the tool in use are those above, and empty here.
+    std::vector<ToolInContact> tools;
     proxy::GodObjectParameters parameters;
     proxy::GodObjectState god_object;
     std::vector<std::optional<std::size_t>> nut_bodies;  // by joint: index into world.bodies; none: no mesh
     std::vector<collision::TurnedShape> shapes;          // by joint
-    std::vector<std::vector<collision::Convex>> shape_solids;  // by joint; empty: the head cannot turn it
-    std::vector<Pose> nut_poses;                               // by joint, in the assembly's frame
-    std::vector<collision::Convex> head;
+    std::vector<Pose> nut_poses;                         // by joint, in the assembly's frame
     int joint_in_tool = -1;          // joint that the tool's head holds, or over which it slips; −1: none
     proxy::GodObjectStep last_step;  // result of the last tick
     ContactCache cache;
@@ -60,6 +71,9 @@ struct ToolContact {
 
 // Builds the collision structures; the only function here that allocates. Fails if a mesh is not closed.
 Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescription& description);
+
+// Makes tool `to` the one in use instead of `from`. The hand must not hold a tool. Does not allocate.
+void use_tool(ToolContact& contact, std::size_t from, std::size_t to);
 
 // Derives the coupling from the device's limits and the tick's dt. Call it again when either changes.
 void set_coupling(const Setup& setup, ToolContact& contact);

@@ -338,6 +338,7 @@ servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& set
 
     input.dead_man = controls.dead_man;
     input.guide = controls.guide;
+    input.tool = controls.tool;
     input.stop = controls.stop;
     input.reset = controls.reset;
     input.missed = static_cast<std::uint8_t>(std::min<std::uint64_t>(inputs.missed, 15));
@@ -377,10 +378,11 @@ DeviceCommands map_output(const DeviceLayout& layout, const servo::Setup& setup,
     return commands;
 }
 
-DeviceCommands tick(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
-                    servo::State& servo, const StationInputs& inputs) {
+DeviceCommands tick(const DeviceLayout& layout, servo::Setup& setup, StationState& state, servo::State& servo,
+                    const StationInputs& inputs) {
     servo::TickInput input = read_inputs(layout, setup, state, inputs);
     move_to_nut(layout, setup, state, servo, inputs, input);
+    servo::change_tool(setup, servo, input);
     return map_output(layout, setup, state, servo::tick(setup, servo, input));
 }
 
@@ -411,7 +413,7 @@ DeviceCommands pause_tick(const DeviceLayout& layout, const servo::Setup& setup,
     return {};
 }
 
-StationStep step(const DeviceLayout& layout, const servo::Setup& setup, StationState& s, servo::State& servo,
+StationStep step(const DeviceLayout& layout, servo::Setup& setup, StationState& s, servo::State& servo,
                  const StationInputs& inputs, std::uint64_t number) {
     StationStep done;
     done.paused = inputs.controls.pause;

@@ -72,6 +72,7 @@ struct StationControls {
     bool clutch = false, stop = false, reset = false;
     std::int16_t guide = -1;  // joint that the guiding force leads to; −1: none
     float set_torque = 0.0F;  // N·m, of a click-type torque wrench
+    std::uint8_t tool = 0;    // that lies ready: servo::TickInput::tool
     // Unit, from the viewer's frame to the assembly's. A puck moves the tool in the viewer's frame, an arm in
     // the assembly's frame rotated about the vertical to face the viewer.
     Quat view{1.0, 0.0, 0.0, 0.0};
@@ -174,8 +175,8 @@ StationState initial_state(const DeviceLayout& layout);
 // One tick. Forces come from the servo's output stage; this code maps them and may only reduce them. A device
 // that is lost or silent for too long moves nothing and renders no force. When it returns, the hand may be
 // anywhere, so the mapping is realigned, as after a clutch.
-DeviceCommands tick(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
-                    servo::State& servo, const StationInputs& inputs);
+DeviceCommands tick(const DeviceLayout& layout, servo::Setup& setup, StationState& state, servo::State& servo,
+                    const StationInputs& inputs);
 
 // The parts of tick(), in order; read_inputs() calls pivot_about_bolt().
 servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
@@ -234,8 +235,8 @@ struct StationStep {
     bool paused = false;  // no servo tick, so nothing to record
 };
 // tick(), or pause_tick() while StationControls::pause is set. `number` goes to the tick.
-StationStep step(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
-                 servo::State& servo, const StationInputs& inputs, std::uint64_t number);
+StationStep step(const DeviceLayout& layout, servo::Setup& setup, StationState& state, servo::State& servo,
+                 const StationInputs& inputs, std::uint64_t number);
 
 // The following apply to a tool whose device senses velocity (Sensing::velocity).
 //

@@ -111,6 +111,41 @@ TEST_CASE("Tools: a socket of another size and an open end on a ratchet are refu
             "/more_tools/r/teeth: a ratchet of 60 teeth is unknown; expected 24, 72 or 90");
 }
 
+TEST_CASE("Tools: a joint type names the only tool that turns it") {
+    const std::string ring = R"("ring": { "kind": "ring_wrench", "size_mm": 13, "handle_length_mm": 150 })";
+    content::LoadedAssembly loaded = content::parse_assembly(
+        edited(with(ring + ", " + clicker), "\"size\": \"M8\"", "\"tool\": \"ring\", \"size\": \"M8\""), "f");
+    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+    content::Assembly& a = loaded.assembly;
+    REQUIRE(!a.joints.empty());
+    for (const content::AssemblyJoint& joint : a.joints) {
+        CHECK(joint.tool == "ring");
+        CHECK(content::tool_of(a, joint).head == content::ToolHead::ring);
+    }
+    const content::LessonTools lesson = content::lesson_tools(a);
+    REQUIRE(lesson.tools.size() == 1);
+    CHECK(a.tools[lesson.tools[0]].name == "ring");
+    // One joint without it: the chosen tool turns this one.
+    a.joints.back().tool.clear();
+    REQUIRE(content::choose_tool(a, "clicker"));
+    const content::LessonTools mixed = content::lesson_tools(a);
+    REQUIRE(mixed.tools.size() == 2);
+    CHECK(mixed.of_joint.back() != mixed.of_joint.front());
+    CHECK(content::designs_of(a, mixed)[mixed.of_joint.back()]->click_swing > 0.0);
+    CHECK(content::tool_of(a, a.joints.back()).click_swing > 0.0);
+
+    const std::vector<std::string> wrong =
+        messages(edited(with(ring), "\"size\": \"M8\"", "\"tool\": \"rign\", \"size\": \"M8\""));
+    REQUIRE(wrong.size() == 1);
+    CHECK(wrong[0].find("/tool: there is no tool \"rign\"; did you mean \"ring\"?") != std::string::npos);
+}
+
+TEST_CASE("Tools: a tool has to fit only the joints that name it") {
+    // The key turns no hexagon, and no joint names it, so its size is not checked against these nuts.
+    const std::string key = R"("key": { "kind": "hex_key", "size_mm": 5, "handle_length_mm": 90 })";
+    CHECK(messages(with(key)).empty());
+}
+
 TEST_CASE("Tools: every shipped assembly has a torque wrench, and a name for each tool in each language") {
     for (const char* name : {"zq350", "dn200-pn16", "cover-m8"}) {
         CAPTURE(name);

@@ -142,10 +142,10 @@ TEST_CASE("Click: each wrench has a constant deviation within its accuracy") {
     const joint::JointDesign design = test::m16_flange_joint();
     SetupDescription description;
     description.joints = {&design, 1};
-    description.head = collision::make_jaw(24.2e-3, 0.0);
-    description.handle_length = 0.23;
-    description.click_swing = to_radians(4.0);
-    description.click_accuracy = 0.04;
+    description.tool.head = collision::make_jaw(24.2e-3, 0.0);
+    description.tool.handle_length = 0.23;
+    description.tool.click_swing = to_radians(4.0);
+    description.tool.click_accuracy = 0.04;
     double least = 1.0, most = -1.0;
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         description.seed = seed;

@@ -14,9 +14,9 @@ inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis
     for (joint::JointDesign& d : designs) d.axis = axis;
     servo::SetupDescription description;
     description.joints = designs;
-    description.head = collision::make_jaw(24.2e-3, to_radians(15.0));
-    description.head_angle = to_radians(15.0);
-    description.handle_length = 0.23;
+    description.tool.head = collision::make_jaw(24.2e-3, to_radians(15.0));
+    description.tool.head_angle = to_radians(15.0);
+    description.tool.handle_length = 0.23;
     description.max_torque = 210.0;
     description.limits = limits;
     return servo::make_setup(description);

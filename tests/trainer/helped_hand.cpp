@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "tests/lesson/three_tools.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
@@ -15,6 +16,12 @@ using trainer::HandAction;
 
 namespace {
 
+void apply_next_command(Player& player, const session::LessonSession& session) {
+    trainer::MouseCommand command = next_command(player, session, 0.016);
+    command.tool = session.due_tool();
+    trainer::apply_command(player.hand, command, session.setup(), session.state());
+}
+
 struct Outcome {
     lesson::LessonResult result;
     double time = 0.0;
@@ -22,11 +29,11 @@ struct Outcome {
     double longest_jump = 0.0;  // m per tick, of the hand
 };
 
-Outcome play_through(const char* name, session::LessonOptions options, double longest) {
+Outcome play_through(const content::Assembly& lesson, session::LessonOptions options, double longest) {
     const test::Folder folder;
     const auto file = folder / "lesson.boltwright";
     options.trainee_profile = "person";
-    auto begun = session::LessonSession::begin(assembly(name), options, file);
+    auto begun = session::LessonSession::begin(lesson, options, file);
     REQUIRE(begun);
     session::LessonSession& session = **begun;
     world::World world;
@@ -36,9 +43,7 @@ Outcome play_through(const char* name, session::LessonOptions options, double lo
     Outcome out;
     Vec3 before = player.hand.pose.position;
     for (std::uint64_t tick = 0; !session.finished() && session.time() < longest; ++tick) {
-        if (tick % 16 == 0)
-            trainer::apply_command(player.hand, next_command(player, session, 0.016), session.setup(),
-                                   session.state());
+        if (tick % 16 == 0) apply_next_command(player, session);
         const servo::TickInput input = trainer::step_hand(player.hand, session.setup(), session.state());
         REQUIRE(session.step(world, input));
         out.longest_jump = std::max(out.longest_jump, glm::distance(before, player.hand.pose.position));
@@ -56,6 +61,18 @@ Outcome play_through(const char* name, session::LessonOptions options, double lo
 
 }  // namespace
 
+TEST_CASE("Helped hand: it changes the tool at rest when a nut needs another one") {
+    for (const auto obstacles : {session::Obstacles::none, session::Obstacles::required}) {
+        session::LessonOptions options;
+        options.obstacles = obstacles;
+        const Outcome out = play_through(test::cover_with_three_tools(), options, 400.0);
+        REQUIRE(out.result.joints.size() == 4);
+        for (const lesson::JointResult& joint : out.result.joints)
+            CHECK(joint.torque_verdict == lesson::Verdict::ok);
+        CHECK(out.longest_jump < 5e-3);
+    }
+}
+
 TEST_CASE("Helped hand: a lesson is played from beginning to end") {
     session::LessonOptions options;
     SUBCASE("among obstacles") { options.obstacles = session::Obstacles::required; }
@@ -71,7 +88,7 @@ TEST_CASE("Helped hand: a lesson is played from beginning to end") {
         name = "zq350";
         options.obstacles = session::Obstacles::required;
     }
-    const Outcome out = play_through(name, options, 1200.0);
+    const Outcome out = play_through(assembly(name), options, 1200.0);
     CHECK(out.result.finished);
     CHECK(out.result.score > 90.0);
     CHECK(out.longest_jump < 5e-3);  // 5 m/s: the hand does not jump

@@ -118,9 +118,9 @@ void servo_tick_12_joints(benchmark::State& state) {
     servo::SetupDescription description;
     description.joints = designs;
     description.flange = &plate;
-    description.head = collision::make_jaw(0.0242, 0.26);
-    description.head_angle = 0.26;
-    description.handle_length = 0.23;
+    description.tool.head = collision::make_jaw(0.0242, 0.26);
+    description.tool.head_angle = 0.26;
+    description.tool.handle_length = 0.23;
     description.max_torque = 200.0;
     const servo::Setup setup = servo::make_setup(description);
     servo::State servo = servo::initial_state(setup);
