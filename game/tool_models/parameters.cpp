@@ -28,10 +28,10 @@ constexpr KindInfo kinds[] = {
      "torque wrench with a display and a light, open-end insert", SizeMeasure::nut},
 };
 
-// Widths across flats of the hexagons of ISO 4014 and ISO 4032 from M5 to M30, and further sizes of sets of
+// Widths across flats of the hexagons of ISO 4014 and ISO 4032 from M3 to M39, and further sizes of sets of
 // wrenches.
-constexpr double nut_sizes[] = {8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 21, 22,
-                                24, 25, 27, 28, 30, 32, 34, 36, 38, 41, 42, 44, 46};
+constexpr double nut_sizes[] = {5.5, 7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 21, 22,
+                                24,  25, 27, 28, 30, 32, 34, 36, 38, 41, 42, 44, 46, 50, 55, 60};
 // ISO 2936, as in the table iso2936def.csv of the Fasteners workbench of FreeCAD.
 struct KeyRow {
     double size, arm, handle;  // mm
@@ -274,8 +274,12 @@ TestTorque test_torque(ToolKind kind, double size) {
         case ToolKind::hex_key:
         case ToolKind::hex_bit:
             return {};  // no table of ISO 2936 or ISO 2351 was to be had
-        default:
-            return interpolated_torque(s, &TorqueRow::open_end);
+        default: {
+            // Beyond the table the power law of open ends exceeds that of rings, which is impossible.
+            TestTorque torque = interpolated_torque(s, &TorqueRow::open_end);
+            torque.torque = std::min(torque.torque, interpolated_torque(s, &TorqueRow::ring).torque);
+            return torque;
+        }
     }
 }
 

@@ -35,6 +35,10 @@ fi
 
 # Sizes and options.
 expect 0 'note: 20 mm is not a standard size of ring' "$author" tool ring --size 20 -o odd --no-picture
+for size in 5.5 7 50 55 60; do
+    "$author" tool combination --size $size -o standard --no-picture >standard.log 2>&1
+    check "$size mm is a standard size" bash -c 'grep -q "^combination: size $1 mm" standard.log && ! grep -q note: standard.log' - $size
+done
 expect 0 'length 300 mm' "$author" tool ring --size 24 --length 300 -o long --no-picture
 check "another length gives other bytes" bash -c '! cmp -s long.glb first/ring.glb'
 expect 0 '24 teeth' "$author" tool socket --size 19 --teeth 24 --drive 12.5 -o ratchet --no-picture
@@ -45,7 +49,7 @@ expect 0 '^   8 mm +44 \+ 108$' "$author" tools
 
 # Mistakes.
 expect 2 'no tool of the kind "rign"; did you mean "ring"\?' "$author" tool rign --size 24 -o never
-expect 2 'ring of 60 mm: the size is out of range; expected 8 to 46 mm; the nearest is 46' "$author" tool ring --size 60 -o never
+expect 2 'ring of 65 mm: the size is out of range; expected 5.5 to 60 mm; the nearest is 60' "$author" tool ring --size 65 -o never
 expect 2 'a ratchet of 73 teeth is unknown; expected 24, 72, 90' "$author" tool socket --size 24 --teeth 73 -o never
 expect 2 'a length of 20 mm is impossible' "$author" tool ring --size 24 --length 20 -o never
 expect 2 'is not a size' "$author" tool ring --size 24 --picture-size huge -o never

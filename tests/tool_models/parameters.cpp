@@ -1,6 +1,7 @@
 // Kinds, sizes, test torques and their messages.
 #include <doctest/doctest.h>
 
+#include "haptics/joint/fastener.hpp"
 #include "support.hpp"
 
 namespace tool_models_parameters_test {
@@ -33,9 +34,20 @@ TEST_CASE("Tool parameters: an unknown kind gives the nearest name, and every ki
     }
 }
 
+TEST_CASE("Tool parameters: every hexagon of an assembly's fasteners has a wrench of a standard size") {
+    const auto sizes = standard_sizes(SizeMeasure::nut);
+    CHECK(std::is_sorted(sizes.begin(), sizes.end()));
+    for (const joint::FastenerSize& fastener : joint::fastener_sizes()) {
+        CAPTURE(std::string(fastener.name));
+        CHECK(std::any_of(sizes.begin(), sizes.end(),
+                          [&](double size) { return std::abs(size * mm - fastener.across_flats) < 1e-9; }));
+        CHECK(error_of(tool(ToolKind::open_end, fastener.across_flats / mm)) == "");
+    }
+}
+
 TEST_CASE("Tool parameters: impossible values are refused with the nearest valid one") {
-    CHECK(error_of(tool(ToolKind::ring, 60)) ==
-          "ring of 60 mm: the size is out of range; expected 8 to 46 mm; the nearest is 46");
+    CHECK(error_of(tool(ToolKind::ring, 65)) ==
+          "ring of 65 mm: the size is out of range; expected 5.5 to 60 mm; the nearest is 60");
     CHECK(error_of(tool(ToolKind::hex_key, 1)) ==
           "hex_key of 1 mm: the size is out of range; expected 2 to 22 mm; the nearest is 2");
     CHECK(error_of(tool(ToolKind::extension_bar, 12)) ==
@@ -103,8 +115,9 @@ TEST_CASE("Tool parameters: test torques are those that were read, and a power l
                   doctest::Approx(torque(kind, row).torque).epsilon(0.01));
         }
     double last = 0.0;
-    for (int size = 8; size <= 46; ++size) {
+    for (double size = 5.5; size <= 60.0; size += 0.5) {
         CHECK(torque(ToolKind::open_end, size).torque > last);
+        CHECK(torque(ToolKind::open_end, size).torque <= torque(ToolKind::ring, size).torque);
         last = torque(ToolKind::open_end, size).torque;
     }
 }

@@ -43,15 +43,24 @@ inline ToolParameters standard(ToolKind kind, double size_mm) {
     return *completed(p);
 }
 
-// Every kind in each of its sizes; of nuts every whole millimetre from 8 to 46.
+// The sizes of nuts in the tests, mm: the standard ones and every whole millimetre between them.
+inline std::vector<double> nut_sizes() {
+    const auto standard_ones = standard_sizes(SizeMeasure::nut);
+    std::vector<double> sizes(standard_ones.begin(), standard_ones.end());
+    for (int size = 6; size < sizes.back(); ++size)
+        if (std::find(standard_ones.begin(), standard_ones.end(), size) == standard_ones.end())
+            sizes.push_back(size);
+    return sizes;
+}
+
+// Every kind in each of its sizes.
 inline std::vector<ToolParameters> all_tools() {
     std::vector<ToolParameters> tools;
     for (const KindInfo& info : tool_kinds()) {
-        std::vector<double> sizes(standard_sizes(info.measure).begin(), standard_sizes(info.measure).end());
-        if (info.measure == SizeMeasure::nut) {
-            sizes.clear();
-            for (int size = 8; size <= 46; ++size) sizes.push_back(size);
-        }
+        const auto listed = standard_sizes(info.measure);
+        const std::vector<double> sizes = info.measure == SizeMeasure::nut
+                                              ? nut_sizes()
+                                              : std::vector<double>(listed.begin(), listed.end());
         for (const double size : sizes) tools.push_back(standard(info.kind, size));
     }
     return tools;

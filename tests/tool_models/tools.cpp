@@ -107,7 +107,7 @@ TEST_CASE("Tools: the same parameters give the same bytes, and other parameters 
 }
 
 TEST_CASE("Tools: the jaw is exactly as wide as the size and the play, at the head's angle") {
-    for (int size = 8; size <= 46; ++size) {
+    for (const double size : nut_sizes()) {
         CAPTURE(size);
         const ToolParameters p = standard(ToolKind::open_end, size);
         const std::vector<Shell> wrench{shell_of(open_end_parts(p, Detail::drawn), "head"),
@@ -183,7 +183,7 @@ TEST_CASE("Tools: the closed forms of rings, sockets and keys agree with the gen
 }
 
 TEST_CASE("Tools: the closed form of the jaw covers the generated jaw") {
-    for (int size = 8; size <= 46; ++size) {
+    for (const double size : nut_sizes()) {
         CAPTURE(size);
         const ToolParameters p = standard(ToolKind::open_end, size);
         const collision::Jaw jaw = collision::make_jaw(p.opening, *p.head_angle);
@@ -205,7 +205,7 @@ TEST_CASE("Tools: the closed form of the jaw covers the generated jaw") {
 }
 
 TEST_CASE("Tools: rings and sockets grip a hexagon every 30 degrees with half the play at each flat") {
-    for (int size = 8; size <= 46; ++size) {
+    for (const double size : nut_sizes()) {
         CAPTURE(size);
         for (const ToolKind kind : {ToolKind::ring, ToolKind::socket}) {
             const std::string name(info_of(kind).name);
