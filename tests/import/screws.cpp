@@ -104,10 +104,19 @@ TEST_CASE("Screws: odd thicknesses give a valid draft, and a hole through the pa
     const Imported through = import_cover({.hole_depth = 40.0, .screw = 70.0});
     REQUIRE(through.draft["joints"].size() == 1);
     CHECK(through.draft["joint_types"].front()["tapped_hole"]["engagement_mm"] == 40.0);
-    const Imported full = import_cover({.screw = 60.0, .cover = 16.0});
-    CHECK(full.draft["joint_types"].front()["bolt_thread_length_mm"] == 60.0);
+    const Imported full = import_cover({.hole_depth = 40.0, .screw = 58.0});
+    CHECK(full.draft["joint_types"].front()["bolt_thread_length_mm"] == 58.0);
     for (const Imported* found : {&through, &full})
         for (const Error& error : found->findings.errors) FAIL_CHECK(error.message());
+}
+
+TEST_CASE("Screws: validate reports a screw that is longer than its blind hole") {
+    const Imported deep = import_cover({.screw = 60.0});
+    REQUIRE(deep.findings.errors.size() == 1);
+    CHECK(
+        deep.findings.errors[0].message().find(
+            R"("J1_bolt" reaches 41.50 mm behind the members, and the tapped hole in "housing" is 30.00 mm deep)") !=
+        std::string::npos);
 }
 
 TEST_CASE("Screws: a screw that clamps nothing, or engages too little, is no joint") {
