@@ -1,6 +1,7 @@
 // The table of all texts: their keys and the placeholders of each text.
 #pragma once
 
+#include <cstddef>
 #include <iterator>
 #include <string_view>
 
@@ -8,25 +9,40 @@ namespace bolt::words {
 
 struct KeyRow {
     std::string_view name;
-    // Names of the placeholders, separated by spaces. The text contains each as {name}.
+    // Names of the placeholders, separated by spaces. The text contains each as {name}, except choices, which
+    // it may contain as {name: text|text}.
     std::string_view placeholders;
+};
+
+// A placeholder that selects one of several texts: {fastener: nut|screw}. A language that needs no
+// distinction leaves it out.
+struct ChoiceRow {
+    std::string_view name;
+    std::size_t texts;  // number of texts
+    std::string_view example;
+};
+inline constexpr ChoiceRow choice_rows[] = {
+    // The part that is turned: the nut of a joint, or a screw at its head.
+    {"fastener", 2, "{fastener: nut|screw}"},
+    // The parts that are turned in a lesson: nuts, screws, or both.
+    {"fasteners", 3, "{fasteners: nuts|screws|nuts and screws}"},
 };
 
 // A text with a singular and a plural form has two keys, NAME.one and NAME.many.
 inline constexpr KeyRow key_rows[] = {
     // Hints: the next action (game/lesson/hints.cpp).
     {"hint.take_wrench", "size"},
-    {"hint.put_wrench_away", ""},
+    {"hint.put_wrench_away", "fastener"},
     {"hint.find_by_wrench", "joint"},
-    {"hint.find_by_fingers", "joint"},
-    {"hint.set_on", "joint"},
+    {"hint.find_by_fingers", "joint fastener"},
+    {"hint.set_on", "joint fastener"},
     {"hint.set_on_again", "joint"},
-    {"hint.set_on_rounded", "joint"},
-    {"hint.grip_nut", "joint"},
-    {"hint.run_down", "joint"},
-    {"hint.run_down_by_wrench", "joint"},
-    {"hint.twist_back", ""},
-    {"hint.seated", "joint"},
+    {"hint.set_on_rounded", "joint fastener"},
+    {"hint.grip_nut", "joint fastener"},
+    {"hint.run_down", "joint fastener"},
+    {"hint.run_down_by_wrench", "joint fastener"},
+    {"hint.twist_back", "fastener"},
+    {"hint.seated", "joint fastener"},
     {"hint.pull", "joint torque"},
     {"hint.pull_to_yield", "low high"},
     {"hint.pull_to_click", "torque"},
@@ -34,41 +50,41 @@ inline constexpr KeyRow key_rows[] = {
     {"hint.ease", "torque"},
     {"hint.ease_to_yield", ""},
     {"hint.stop", "joint"},
-    {"hint.stop_at_yield", "joint"},
+    {"hint.stop_at_yield", "joint fastener"},
     {"hint.stop_at_click", "joint"},
     {"hint.stop_too_much", "joint most"},
-    {"hint.take_off", "joint"},
+    {"hint.take_off", "joint fastener"},
     {"hint.next", "joint"},
-    {"hint.pass_run_down", "joint"},
-    {"hint.pass_tighten", "percent joint"},
-    {"hint.pass_recheck", "joint"},
-    {"hint.pass_loosen", "joint"},
-    {"hint.check", "joint torque"},
-    {"hint.checked", "joint"},
+    {"hint.pass_run_down", "joint fasteners"},
+    {"hint.pass_tighten", "percent joint fasteners"},
+    {"hint.pass_recheck", "joint fasteners"},
+    {"hint.pass_loosen", "joint fasteners"},
+    {"hint.check", "joint torque fastener"},
+    {"hint.checked", "joint fastener"},
     {"hint.break_loose", "joint"},
-    {"hint.turn_off", "joint"},
-    {"hint.free", "joint"},
+    {"hint.turn_off", "joint fastener"},
+    {"hint.free", "joint fastener"},
     {"hint.wrong_joint", "held joint"},
-    {"hint.other_way_on", ""},
-    {"hint.other_way_off", ""},
+    {"hint.other_way_on", "fastener"},
+    {"hint.other_way_off", "fastener"},
     {"hint.wrench_needed", "size"},
-    {"hint.leave_broken", "joint"},
+    {"hint.leave_broken", "joint fastener"},
     {"hint.leave_stripped", "joint"},
-    {"hint.all_done", ""},
+    {"hint.all_done", "fasteners"},
     // More detailed hints: the motion to perform; {control} names the control to use.
     {"how.take", "control"},
     {"how.put_away", "control"},
-    {"how.approach", "control"},
-    {"how.reach", "control"},
-    {"how.set_on", "control"},
-    {"how.grip_nut", "control"},
-    {"how.spin", "control"},
+    {"how.approach", "control fastener"},
+    {"how.reach", "control fastener"},
+    {"how.set_on", "control fastener"},
+    {"how.grip_nut", "control fastener"},
+    {"how.spin", "control fastener"},
     {"how.twist_back", "control"},
     {"how.let_go", "control"},
-    {"how.pull_on", "control"},
-    {"how.pull_off", "control"},
-    {"how.lift", "control"},
-    {"how.set_back", "control"},
+    {"how.pull_on", "control fastener"},
+    {"how.pull_off", "control fastener"},
+    {"how.lift", "control fastener"},
+    {"how.set_back", "control fastener"},
     // Values of {control}, for a mouse and for a device (game/lesson/hints.cpp).
     {"control.mouse.take", "key"},
     {"control.mouse.put_away", "key"},
@@ -108,37 +124,37 @@ inline constexpr KeyRow key_rows[] = {
     {"mistake.out_of_turn.do", "joint"},
     {"mistake.done_already", "held"},
     {"mistake.done_already.do", "joint"},
-    {"mistake.loosened", "held"},
-    {"mistake.loosened.do", ""},
-    {"mistake.tightened", "held"},
-    {"mistake.tightened.do", ""},
+    {"mistake.loosened", "held fastener"},
+    {"mistake.loosened.do", "fastener"},
+    {"mistake.tightened", "held fastener"},
+    {"mistake.tightened.do", "fastener"},
     {"mistake.over_torque", "held most"},
-    {"mistake.over_torque.do", ""},
-    {"mistake.slipped", "held rounded"},
+    {"mistake.over_torque.do", "fastener"},
+    {"mistake.slipped", "held rounded fastener"},
     {"mistake.slipped.do", ""},
     {"mistake.stripped", "held"},
-    {"mistake.stripped.do", ""},
-    {"mistake.broken", "held"},
+    {"mistake.stripped.do", "fastener"},
+    {"mistake.broken", "held fastener"},
     {"mistake.broken.do", ""},
     // The result: why points were lost (game/lesson/feedback.cpp).
-    {"reason.broken", "joint"},
+    {"reason.broken", "joint fastener"},
     {"reason.stripped", "joint"},
     {"reason.torque_low", "joint torque low"},
     {"reason.torque_high", "joint torque high"},
     {"reason.angle_low", "joint angle low"},
     {"reason.angle_high", "joint angle high"},
-    {"reason.off_seat", "joint"},
+    {"reason.off_seat", "joint fastener"},
     {"reason.not_loosened", "joint"},
     {"reason.out_of_turn.one", ""},
     {"reason.out_of_turn.many", "count"},
-    {"reason.done_already.one", ""},
-    {"reason.done_already.many", "count"},
-    {"reason.wrong_way.one", ""},
-    {"reason.wrong_way.many", "count"},
-    {"reason.over_torque_corrected.one", ""},
-    {"reason.over_torque_corrected.many", "count"},
-    {"reason.slipped.one", ""},
-    {"reason.slipped.many", "count"},
+    {"reason.done_already.one", "fasteners"},
+    {"reason.done_already.many", "count fasteners"},
+    {"reason.wrong_way.one", "fasteners"},
+    {"reason.wrong_way.many", "count fasteners"},
+    {"reason.over_torque_corrected.one", "fasteners"},
+    {"reason.over_torque_corrected.many", "count fasteners"},
+    {"reason.slipped.one", "fasteners"},
+    {"reason.slipped.many", "count fasteners"},
     {"reason.unfinished", "step of"},
     // Advice for the next time.
     {"advice.broken", ""},

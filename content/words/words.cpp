@@ -34,14 +34,32 @@ constexpr bool unique_keys() {
 }
 static_assert(unique_keys());
 
-std::vector<std::string> split(std::string_view names) {
+std::vector<std::string> split(std::string_view text, char separator) {
     std::vector<std::string> list;
-    while (!names.empty()) {
-        const std::size_t end = std::min(names.find(' '), names.size());
-        list.emplace_back(names.substr(0, end));
-        names.remove_prefix(std::min(end + 1, names.size()));
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(separator), text.size());
+        list.emplace_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
     }
     return list;
+}
+
+// What is between the braces of a placeholder: a name, or "fastener: nut|screw".
+struct Placeholder {
+    std::string_view name;
+    std::vector<std::string> texts;  // of a choice
+
+    explicit Placeholder(std::string_view inside) : name(inside.substr(0, inside.find(':'))) {
+        inside.remove_prefix(std::min(name.size() + 1, inside.size()));
+        if (inside.starts_with(' ')) inside.remove_prefix(1);
+        texts = split(inside, '|');
+    }
+};
+
+const ChoiceRow* choice_named(std::string_view name) {
+    const auto* const row = std::find_if(std::begin(choice_rows), std::end(choice_rows),
+                                         [&](const ChoiceRow& choice) { return choice.name == name; });
+    return row == std::end(choice_rows) ? nullptr : row;
 }
 
 struct WordsChecker {
@@ -75,7 +93,17 @@ struct WordsChecker {
                        fmt::format("{} is not known here", in_quotes(key)), content::suggest(key, known));
     }
 
-    // Checks that a text has exactly the placeholders of its key.
+    // Checks that a choice has as many texts as it needs, and that no other placeholder has any.
+    void check_choice(const std::string& pointer, const Placeholder& placeholder) {
+        const ChoiceRow* choice = choice_named(placeholder.name);
+        const std::size_t texts = choice == nullptr ? 0 : choice->texts;
+        if (placeholder.texts.size() == texts) return;
+        report(pointer, JsonPart::value,
+               fmt::format("{{{}}} has {} texts to choose from", placeholder.name, placeholder.texts.size()),
+               choice == nullptr ? "none" : fmt::format("{}, as in {}", texts, choice->example));
+    }
+
+    // Checks that a text has exactly the placeholders of its key; it may leave out choices.
     void check_placeholders(const std::string& pointer, const std::string& text,
                             const std::vector<std::string>& expected_names) {
         std::set<std::string> found;
@@ -86,7 +114,9 @@ struct WordsChecker {
                 report(pointer, JsonPart::value, "a brace is unmatched", "placeholders of the form {name}");
                 return;
             }
-            found.insert(text.substr(at + 1, end - at - 1));
+            const Placeholder placeholder(std::string_view(text).substr(at + 1, end - at - 1));
+            found.emplace(placeholder.name);
+            check_choice(pointer, placeholder);
             at = end + 1;
         }
         for (const std::string& name : found)
@@ -95,7 +125,7 @@ struct WordsChecker {
                        expected_names.empty() ? "a text without placeholders"
                                               : content::suggest(name, expected_names));
         for (const std::string& name : expected_names)
-            if (!found.contains(name))
+            if (!found.contains(name) && choice_named(name) == nullptr)
                 report(pointer, JsonPart::value, fmt::format("{{{}}} is missing in the text", name), {});
     }
 
@@ -122,7 +152,7 @@ struct WordsChecker {
             const std::string pointer = "/words/" + pointer_token(known[i]);
             loaded.lines[i] = document.line(pointer);
             if (!words.texts[i].empty())
-                check_placeholders(pointer, words.texts[i], split(key_rows[i].placeholders));
+                check_placeholders(pointer, words.texts[i], split(key_rows[i].placeholders, ' '));
         }
     }
 };
@@ -155,12 +185,14 @@ std::string format_text(const Words& words, TextKey key, std::span<const TextArg
         result.append(text, at, open - at);
         if (open == text.size()) break;
         const std::size_t close = text.find('}', open);
-        const std::string_view name = std::string_view(text).substr(open + 1, close - open - 1);
+        const Placeholder placeholder(std::string_view(text).substr(open + 1, close - open - 1));
         const auto argument =
             std::find_if(arguments.begin(), arguments.end(),
-                         [&](const TextArgument& candidate) { return candidate.name == name; });
+                         [&](const TextArgument& candidate) { return candidate.name == placeholder.name; });
         if (argument == arguments.end())
             result.append(text, open, close + 1 - open);
+        else if (const auto* choice = std::get_if<Choice>(&argument->value))
+            result += placeholder.texts.at(choice->index);
         else if (const auto* number = std::get_if<Number>(&argument->value))
             result += format_number(words, *number);
         else

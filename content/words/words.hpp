@@ -42,16 +42,23 @@ class TextKey {
 //   {"format": "boltwright words 1", "language": "de", "name": "Deutsch", "decimal": ",",
 //    "words": {"hint.next": "Als Nächstes {joint}.", ...}}
 
+// {fastener: Mutter|Schraube} in a text is a choice (choice_rows): the program selects one of the texts.
+
 // A number that is formatted by the rules of the language.
 struct Number {
     double value = 0.0;
     int decimals = 0;
 };
 
+// Selects a text of a placeholder {name: text|text}.
+struct Choice {
+    std::size_t index = 0;
+};
+
 // The value of a placeholder {name} in a text.
 struct TextArgument {
     std::string_view name;
-    std::variant<std::string, Number> value;
+    std::variant<std::string, Number, Choice> value;
 };
 
 struct Words {

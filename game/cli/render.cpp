@@ -17,6 +17,7 @@
 #include "engine/base/result.hpp"
 #include "engine/render/renderer.hpp"
 #include "game/cli/commands.hpp"
+#include "game/lesson/fastener_names.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/view/gpu_context.hpp"
@@ -178,7 +179,9 @@ Result<std::string> view_of_joint(const std::string& what, const std::string& id
                       assembly, *contact, static_cast<std::size_t>(joint - assembly.joints.begin())))
                 : std::nullopt;
     if (!best)
-        return fail(ErrorCode::bad_content, fmt::format("no view of {} shows the nut of joint {}", what, id),
+        return fail(ErrorCode::bad_content,
+                    fmt::format("no view of {} shows the {} of joint {}", what,
+                                lesson::fastener_name(joint->design), id),
                     "--view, or --eye and --target");
     return assembly.views[*best].name;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "game/lesson/fastener_names.hpp"
+
 namespace bolt::lesson {
 
 namespace {
@@ -48,6 +50,7 @@ std::optional<Mistake> mistake_of(const Lesson& lesson, const LessonEvent& event
         const content::AssemblyJoint& joint = joints[static_cast<std::size_t>(event.joint)];
         Mistake mistake{event.mistake, event.joint, row.text, row.remedy, {}};
         mistake.arguments = {{"held", joint.design.id},
+                             fastener_argument(joint.design),
                              {"most", words::torque_number(joint.spec.torque.high)},
                              {"rounded", words::Number{1e3 * event.value, 2}}};
         const LessonStep* due = lesson.due();
@@ -112,8 +115,9 @@ JointTexts joint_texts(const JointResult& joint) {
     return {"reason.off_seat", "advice.off_seat"};
 }
 
-std::vector<words::TextArgument> joint_arguments(const content::Specification& spec,
+std::vector<words::TextArgument> joint_arguments(const content::AssemblyJoint& assembly_joint,
                                                  const JointResult& joint) {
+    const content::Specification& spec = assembly_joint.spec;
     const bool by_angle = joint.torque_verdict == Verdict::ok;
     const content::ToleranceWindow& window = by_angle ? spec.angle : spec.torque;
     const auto shown = [&](double value) {
@@ -122,11 +126,9 @@ std::vector<words::TextArgument> joint_arguments(const content::Specification& s
     // With one decimal, a torque just below the window does not show as the window's edge.
     words::Number torque = words::torque_number(joint.torque);
     if (joint.torque < 100.0) torque.decimals = 1;
-    return {{"joint", joint.id},
-            {"torque", torque},
-            {"angle", words::Number{to_degrees(joint.angle), 0}},
-            {"low", shown(window.low)},
-            {"high", shown(window.high)}};
+    return {{"joint", joint.id},        fastener_argument(assembly_joint.design),
+            {"torque", torque},         {"angle", words::Number{to_degrees(joint.angle), 0}},
+            {"low", shown(window.low)}, {"high", shown(window.high)}};
 }
 
 struct AdviceCost {
@@ -150,7 +152,10 @@ Review review(const content::Assembly& assembly, const LessonResult& result) {
     std::vector<AdviceCost> costs;
     for (const Deduction& reason : result.reasons) {
         DeductionText deduction{
-            reason.points, std::nullopt, {{"count", words::Number{1.0 * reason.count, 0}}}, reason.text};
+            reason.points,
+            std::nullopt,
+            {{"count", words::Number{1.0 * reason.count, 0}}, fasteners_argument(assembly)},
+            reason.text};
         const bool once = reason.count == 1;
         std::optional<TextKey> advice;
         switch (reason.kind) {
@@ -161,7 +166,7 @@ Review review(const content::Assembly& assembly, const LessonResult& result) {
                 const auto joint = static_cast<std::size_t>(reason.joint);
                 const JointTexts how = joint_texts(result.joints[joint]);
                 deduction.key = how.reason;
-                deduction.arguments = joint_arguments(assembly.joints[joint].spec, result.joints[joint]);
+                deduction.arguments = joint_arguments(assembly.joints[joint], result.joints[joint]);
                 advice = how.advice;
                 break;
             }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "game/lesson/fastener_names.hpp"
+
 namespace bolt::lesson {
 
 namespace {
@@ -84,11 +86,13 @@ HintMotion adapt_to_grip(HintMotion motion, const ObservedLesson& work) {
 
 std::vector<words::TextArgument> text_arguments(const ObservedLesson& work) {
     const LessonStep* due = work.lesson.due();
-    if (due == nullptr) return {};
     const auto& joints = work.lesson.assembly->joints;
+    if (due == nullptr) return {fasteners_argument(*work.lesson.assembly)};
     const content::ToleranceWindow window = torque_window(work.lesson, *due);
     std::vector<words::TextArgument> arguments{
         {"joint", joints[due->joint].design.id},
+        fastener_argument(joints[due->joint].design),
+        fasteners_argument(*work.lesson.assembly),
         {"size", words::Number{1e3 * work.setup.nuts[due->joint].across_flats, 0}},
         {"percent", words::Number{100.0 * due->fraction, 0}},
         {"torque", words::torque_number(due->torque)},
@@ -139,7 +143,9 @@ std::string hint_text(const words::Words& words, const Hint& hint) {
 std::string motion_text(const words::Words& words, const Hint& hint, const ControlNames& controls) {
     if (hint.level < 3 || hint.motion == HintMotion::none) return {};
     const auto motion = static_cast<std::size_t>(hint.motion);
-    return words::format_text(words, motion_keys[motion], {{"control", controls[motion]}});
+    std::vector<words::TextArgument> arguments = hint.arguments;
+    arguments.push_back({"control", controls[motion]});
+    return words::format_text(words, motion_keys[motion], arguments);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "game/lesson/fastener_names.hpp"
 #include "game/lesson/lesson.hpp"
 
 namespace bolt::lesson {
@@ -88,7 +89,9 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
         take_points(result, {1.0 * done_already, times(done_already) + " a joint that was done already",
                              DeductionKind::done_already, -1, done_already});
     if (wrong_ways > 0)
-        take_points(result, {1.0 * wrong_ways, times(wrong_ways) + " a nut was turned the wrong way",
+        take_points(result, {1.0 * wrong_ways,
+                             fmt::format("{} a {} was turned the wrong way", times(wrong_ways),
+                                         fastener_name(*lesson.assembly)),
                              DeductionKind::wrong_way, -1, wrong_ways});
     if (overdone > 0)
         take_points(result, {2.0 * overdone, times(overdone) + " too much torque, corrected later",

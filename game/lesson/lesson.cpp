@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "game/lesson/fastener_names.hpp"
+
 namespace bolt::lesson {
 
 namespace {
@@ -148,7 +150,8 @@ void engage(Lesson& lesson, int joint, servo::Grip grip, const world::ReadHaptic
     track.turned_back = track.seated = false;
     track.furthest = joint_at(world, static_cast<std::size_t>(joint)).angle;
     add_event(lesson, tick_of(world), EventKind::engage, joint, 0.0,
-              grip == servo::Grip::wrench ? "wrench on the nut" : "fingers on the nut");
+              fmt::format("{} on the {}", grip == servo::Grip::wrench ? "wrench" : "fingers",
+                          fastener_name(lesson.assembly->joints[static_cast<std::size_t>(joint)].design)));
 }
 
 void release(Lesson& lesson, const world::ReadHaptics& world) {
@@ -363,8 +366,9 @@ void observe(Lesson& lesson, const world::ReadHaptics& world) {
         const double rounded = joint_at(world, joint).rounded;
         ++lesson.joints[joint].slip_count;
         add_mistake(lesson, tick_of(world), MistakeKind::slipped, joint, rounded,
-                    fmt::format("{}: the wrench slipped, {:.2f} mm of the nut's corners are gone",
-                                lesson.joints[joint].result.id, 1e3 * rounded));
+                    fmt::format("{}: the wrench slipped, {:.2f} mm of the {}'s corners are gone",
+                                lesson.joints[joint].result.id, 1e3 * rounded,
+                                fastener_name(lesson.assembly->joints[joint].design)));
     }
     end_assessment(lesson, world);
     // The step of a broken bolt cannot be done; the lesson continues with the next one.

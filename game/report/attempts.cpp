@@ -180,10 +180,10 @@ struct StudyMeasure {
 };
 
 constexpr StudyMeasure measures[] = {
-    {"Time to get onto the nut", "s, median over the steps", &Attempt::time_to_nut, 1.0, 2},
-    {"Time near the nut until it is held", "s, median over the steps", &Attempt::time_near_nut, 1.0, 2},
-    {"Nut in sight meanwhile", "% of the time with 60 % of it visible or more", &Attempt::visible_share,
-     100.0, 0},
+    {"Time to get onto the nut or screw", "s, median over the steps", &Attempt::time_to_nut, 1.0, 2},
+    {"Time near it until it is held", "s, median over the steps", &Attempt::time_near_nut, 1.0, 2},
+    {"Nut or screw in sight meanwhile", "% of the time with 60 % of it visible or more",
+     &Attempt::visible_share, 100.0, 0},
     {"Contacts with obstacles", "in a lesson", &Attempt::obstacle_contacts, 1.0, 1},
     {"Time in contact with obstacles", "s in a lesson", &Attempt::contact_time, 1.0, 2},
     {"Duration of the lesson", "min", &Attempt::duration, 1.0 / 60.0, 2},
@@ -208,10 +208,11 @@ constexpr StudyFactor view{
     "view help",
     "by hand",
     &Attempt::view_help,
-    " A trainee that sees less of nut and jaw than it wants presses V: after a glance of 0.3 s and a "
+    " A trainee that sees less of jaw and nut or screw than it wants presses V: after a glance of 0.3 s and "
+    "a "
     "transition of 0.35 s the eye is in the view that the program found. If that shows too little as well, "
     "the trainee moves its head as without the help. Without the help the eye begins in the assembly's first "
-    "view and moves about the nut at 60° a second. After a glance of 0.3 s it moves up, down or to a side at "
+    "view and moves about it at 60° a second. After a glance of 0.3 s it moves up, down or to a side at "
     "random, and continues while more becomes visible. After 30° without gain it moves back and tries "
     "another direction, until enough is visible or every direction is worse. The hand waits meanwhile. The "
     "less is visible, the less accurately the wrench is placed. Nothing else differs: that people forget the "

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "game/analysis/session_data.hpp"
+#include "game/lesson/fastener_names.hpp"
 #include "game/plot/html.hpp"
 #include "game/report/report.hpp"
 #include "game/statistics/summary.hpp"
@@ -52,12 +53,13 @@ void put_evenness(std::string& out, const analysis::SessionData& s) {
     if (f.force.at_limit > 0)
         put(out, " The output stage limited the change {}, to {}\u00a0N in a millisecond.",
             times_text(f.force.at_limit), plot::number(f.device_limits->force_slew_rate * 1e-3, 1));
-    constexpr const char* names[analysis::activity_count] = {"while the output was switched off",
-                                                             "releasing a nut",
-                                                             "engaging a nut",
-                                                             "on a nut",
-                                                             "against something",
-                                                             "in the air"};
+    const std::string_view fastener = lesson::fastener_name(s.assembly);
+    const std::string names[analysis::activity_count] = {"while the output was switched off",
+                                                         fmt::format("releasing a {}", fastener),
+                                                         fmt::format("engaging a {}", fastener),
+                                                         fmt::format("on a {}", fastener),
+                                                         "against something",
+                                                         "in the air"};
     std::string activities;
     for (std::size_t i = 0; i < analysis::activity_count; ++i)
         if (f.at_limit[i] > 0)
@@ -82,6 +84,7 @@ void put_evenness(std::string& out, const analysis::SessionData& s) {
 
 void put_obstacle_contacts(std::string& out, const analysis::SessionData& s) {
     const analysis::HapticMetrics& f = s.metrics;
+    const std::string_view fastener = lesson::fastener_name(s.assembly);
     out += "<h3>Contacts with obstacles</h3>\n";
     if (!f.recorded) {
         out += "<p>This session is of an older format, which does not record what the wrench touched.</p>\n";
@@ -105,16 +108,16 @@ void put_obstacle_contacts(std::string& out, const analysis::SessionData& s) {
             w->peak_force = std::max(w->peak_force, b.peak_force);
         }
     if (all.count == 0) {
-        out += "<p>None: between the nuts the wrench touched nothing.</p>\n";
+        put(out, "<p>None: between the {}s the wrench touched nothing.</p>\n", fastener);
         return;
     }
     std::vector<std::pair<collision::ObstacleId, ContactTotal>> rows(by_obstacle.begin(), by_obstacle.end());
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto& a, const auto& b) { return a.second.count > b.second.count; });
     put(out,
-        "<p>Between the nuts the wrench touched something {}, for {}\u00a0s in total and with at most "
+        "<p>Between the {}s the wrench touched something {}, for {}\u00a0s in total and with at most "
         "{}\u00a0N.</p>\n",
-        times_text(all.count), plot::number(all.seconds, 1), plot::number(all.peak_force, 1));
+        fastener, times_text(all.count), plot::number(all.seconds, 1), plot::number(all.peak_force, 1));
     out +=
         "<div class=\"scroll\"><table><thead><tr><th>with</th><th class=\"n\">contacts</th><th "
         "class=\"n\">in "
@@ -126,23 +129,26 @@ void put_obstacle_contacts(std::string& out, const analysis::SessionData& s) {
             plot::escape(analysis::obstacle_text(obstacle, s.header.obstacle_names)), w.count,
             plot::number(w.seconds, 2), plot::number(w.longest, 2), plot::number(w.peak_force, 1));
     out += "</tbody></table></div>\n";
-    out +=
-        "<p class=\"note\">Touches less than 0.1\u00a0s apart count as one contact. Touching the nut that "
+    put(out,
+        "<p class=\"note\">Touches less than 0.1\u00a0s apart count as one contact. Touching the {0} that "
         "the "
-        "wrench "
-        "is moving to or has just left does not count, nor does a contact that began with a nut in the "
-        "jaw.</p>\n";
+        "wrench is moving to or has just left does not count, nor does a contact that began with a {0} in "
+        "the "
+        "jaw.</p>\n",
+        fastener);
 }
 
 void put_arrivals(std::string& out, const analysis::SessionData& s) {
     const analysis::HapticMetrics& f = s.metrics;
     if (f.arrivals.empty()) return;
-    out +=
-        "<h3>Time to get onto the nut</h3>\n<div class=\"scroll\"><table><thead><tr><th>joint</th>"
+    const std::string_view fastener = lesson::fastener_name(s.assembly);
+    put(out,
+        "<h3>Time to get onto the {0}</h3>\n<div class=\"scroll\"><table><thead><tr><th>joint</th>"
         "<th class=\"n\">steps with<br/>the wrench</th><th class=\"n\">median, s</th><th "
-        "class=\"n\">slowest, s</th><th class=\"n\">near the nut,<br/>median, s</th>"
-        "<th class=\"n\">nut in<br/>sight</th><th class=\"n\">by hand,<br/>median, "
-        "s</th></tr></thead><tbody>\n";
+        "class=\"n\">slowest, s</th><th class=\"n\">near the {0},<br/>median, s</th>"
+        "<th class=\"n\">{0} in<br/>sight</th><th class=\"n\">by hand,<br/>median, "
+        "s</th></tr></thead><tbody>\n",
+        fastener);
     const auto row = [&](const std::string& name, int joint) {
         std::vector<double> wrench, near, hand;
         double visible_time = 0.0, near_time = 0.0;
@@ -168,12 +174,10 @@ void put_arrivals(std::string& out, const analysis::SessionData& s) {
     for (std::size_t j = 0; j < s.joints.size(); ++j) row(s.joints[j].id, static_cast<int>(j));
     row("all", -1);
     put(out,
-        "</tbody></table></div>\n<p class=\"note\">Times from when the step was due until its nut was held. "
-        "Near "
-        "the nut: within 4\u00a0cm of its seat. Nut in sight: share of the time near it with at least "
-        "60\u00a0% of "
-        "it visible past all obstacles except the wrench. {}</p>\n",
-        f.guided ? "A guiding force led the hand." : "No force led the hand.");
+        "</tbody></table></div>\n<p class=\"note\">Times from when the step was due until its {0} was held. "
+        "Near the {0}: within 4\u00a0cm of its seat. In sight: share of the time near it with at least "
+        "60\u00a0% of it visible past all obstacles except the wrench. {1}</p>\n",
+        fastener, f.guided ? "A guiding force led the hand." : "No force led the hand.");
 }
 
 void put_servo(std::string& out, const analysis::SessionData& s) {

@@ -9,6 +9,7 @@
 
 #include "engine/base/math.hpp"
 #include "game/analysis/session_data.hpp"
+#include "game/lesson/fastener_names.hpp"
 #include "game/plot/html.hpp"
 #include "game/plot/svg.hpp"
 
@@ -344,11 +345,13 @@ plot::Plot joint_plot(const analysis::SessionData& session, std::size_t joint) {
     const JointPlotFrame frame = joint_plot_frame(session, joint);
 
     plot::Plot plot;
-    plot.title = fmt::format("{}: torque and clamp force over the nut angle", session.joints[joint].id);
+    const std::string_view fastener = lesson::fastener_name(session.assembly.joints[joint].design);
+    plot.title =
+        fmt::format("{}: torque and clamp force over the {} angle", session.joints[joint].id, fastener);
     plot.x = {plot::degree_ticks(frame.range, 7), ""};
     plot.x.ticks.range = frame.range;
     plot.x.label =
-        loosening ? "angle turned back, °" : fmt::format("nut angle from {}, °", frame.origin_name);
+        loosening ? "angle turned back, °" : fmt::format("{} angle from {}, °", fastener, frame.origin_name);
     if (frame.cut_before) plot.x.label += fmt::format(" (drawn from {}°)", plot::number(frame.range.low, 0));
     if (frame.cut_after) plot.x.label += fmt::format(" (drawn to {}°)", plot::number(frame.range.high, 0));
     plot::AxisRange torque = shared_value_range(session, joint, torque_of);

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/base/math.hpp"
+#include "game/lesson/fastener_names.hpp"
 #include "game/people/page_trainees.hpp"
 #include "game/plot/html.hpp"
 #include "game/report/attempts.hpp"
@@ -116,10 +117,11 @@ std::string judging_note(const analysis::SessionData& s) {
         "the wrench in the 100\u00a0% tightening pass.",
         angle ? "torque and angle" : "torque");
     if (recheck)
-        out +=
-            " A re-check, like any other pull, counts only if it turned the nut further by more than 2°. If "
-            "the nut only begins to move, the wrench shows the breakaway torque, which is higher by the "
-            "static friction and is not judged.";
+        put(out,
+            " A re-check, like any other pull, counts only if it turned the {0} further by more than 2°. If "
+            "the {0} only begins to move, the wrench shows the breakaway torque, which is higher by the "
+            "static friction and is not judged.",
+            lesson::fastener_name(s.assembly));
     out += " Clamp: at the end of the session.";
     if (std::any_of(joints.begin(), joints.end(), [](const auto& j) { return j.spec.target_clamp <= 0.0; }))
         out +=
@@ -168,7 +170,9 @@ void put_order(std::string& out, const analysis::SessionData& s) {
                                [&](const analysis::OrderEntry& t) { return t.*flag; });
         });
     };
-    out += "<h2>Order</h2>\n<p class=\"note\">Seen from the nuts. Numbers and solid line: the order followed";
+    put(out,
+        "<h2>Order</h2>\n<p class=\"note\">Seen from the {}s. Numbers and solid line: the order followed",
+        lesson::fastener_name(s.assembly));
     if (any([](const analysis::OrderDrawing& d) {
             return !d.order.planned.empty() && !d.order.as_planned();
         }))
@@ -263,7 +267,7 @@ std::string legend(const analysis::SessionData& s) {
     };
     line("ln p2", loosening ? "torque" : "torque, last pass");
     line(drawn.contains("ln p0") ? "ln p0" : "ln p1", "earlier passes");
-    line("ln rest", "nut at rest");
+    line("ln rest", fmt::format("{} at rest", lesson::fastener_name(s.assembly)));
     line("ln cl", "clamp force");
     box("s0", "navigation");
     box("s1", "transition");

@@ -123,6 +123,13 @@ TEST_CASE("Feedback: each deduction has a reason with numbers and a piece of adv
             for (const DeductionText& deduction : r.review().reasons)
                 CHECK(deduction_text(words_in(language), deduction).find('{') == std::string::npos);
     }
+    Outcome screws;
+    for (content::AssemblyJoint& joint : screws.assembly.joints)
+        joint.design.turned = joint::TurnedPart::head;
+    screws.lesson.joints[1].wrong_way_count = 2;
+    CHECK(screws.reasons() == ReasonTexts{"2 times a screw was turned the wrong way."});
+    screws.assembly.joints[0].design.turned = joint::TurnedPart::nut;
+    CHECK(screws.reasons() == ReasonTexts{"2 times a joint was turned the wrong way."});
     Outcome loose(Task::loosen);
     loose.lesson.joints[1].result.torque = 0.0;
     CHECK(loose.reasons() == ReasonTexts{"B2 was not loosened."});

@@ -99,6 +99,24 @@ TEST_CASE("Mistakes: each mistake has its complete text and remedy in every lang
         CHECK(w.after(mistake_duration - 1.0) == c.kind);
         CHECK(w.after(1.0) == MistakeKind::none);
 
+        // The same mistake with screws names no nut.
+        Watch screws;
+        for (content::AssemblyJoint& joint : screws.b.assembly.joints)
+            joint.design.turned = joint::TurnedPart::head;
+        screws.b.seat_both();
+        c.make(screws.b);
+        for (const LessonEvent& event : screws.b.lesson.events)
+            CHECK(event.text.find("nut") == std::string::npos);
+        screws.after(0.5);
+        REQUIRE(screws.mistakes.shown);
+        for (const char* language : {"en", "de", "zh"}) {
+            const words::Words words = words_in(language);
+            const std::string text =
+                mistake_text(words, *screws.mistakes.shown) + remedy_text(words, *screws.mistakes.shown);
+            CAPTURE(text);
+            for (const char* word : {" nut", "Mutter", "螺母"}) CHECK(text.find(word) == std::string::npos);
+        }
+
         Watch examined(Mode::assessment);
         examined.b.seat_both();
         c.make(examined.b);

@@ -357,6 +357,45 @@ TEST_CASE("Hints: texts have the numbers of the step") {
           "Move the hand to the wrench and close it on the handle: press T or click on the wrench.");
 }
 
+TEST_CASE("Hints: name the nut, or the screw that is turned at its head, of the due joint") {
+    const words::Words en = words_in("en"), de = words_in("de"), zh = words_in("zh");
+    const auto start = [](std::initializer_list<std::size_t> screws) {
+        Bench b;
+        for (const std::size_t joint : screws)
+            b.assembly.joints[joint].design.turned = joint::TurnedPart::head;
+        b.frame();
+        return *b.hints.shown;
+    };
+    CHECK(hint_text(en, start({})) ==
+          "This round: run all nuts down by hand until they are seated. Begin with A.");
+    CHECK(hint_text(en, start({0, 1})) ==
+          "This round: run all screws down by hand until they are seated. Begin with A.");
+    CHECK(hint_text(en, start({1})) ==
+          "This round: run all nuts and screws down by hand until they are seated. Begin with A.");
+    CHECK(hint_text(de, start({0, 1})) ==
+          "Dieser Umlauf: alle Schrauben von Hand bis zur Anlage drehen. Beginnen Sie mit A.");
+    CHECK(hint_text(zh, start({0, 1})) == "本轮：用手把所有螺钉拧到贴合。从 A 开始。");
+    // Each joint by itself, in the motion too, and no screw's hint names a nut in any situation and language.
+    Bench b;
+    b.assembly.joints[1].design.turned = joint::TurnedPart::head;
+    Hint nut = make_hint(Situation::grip_nut, Situation::grip_nut, 3, b.work_state());
+    CHECK(hint_text(en, nut) == "Take the nut of A between your fingers.");
+    CHECK(motion_text(en, nut, mouse_controls(en, "T")).find("two faces of the nut") != std::string::npos);
+    for (content::AssemblyJoint& joint : b.assembly.joints) joint.design.turned = joint::TurnedPart::head;
+    for (std::size_t i = 0; i < situation_count; ++i) {
+        const auto situation = static_cast<Situation>(i);
+        const Hint hint = make_hint(situation, situation, 3, b.work_state());
+        for (const words::Words* words : {&en, &de, &zh}) {
+            const std::string text = hint_text(*words, hint) +
+                                     motion_text(*words, hint, mouse_controls(*words, "T")) +
+                                     motion_text(*words, hint, tracked_controls(*words));
+            CAPTURE(text);
+            for (const char* word : {" nut", "Nut", "Mutter", "螺母", "螺栓", "bolt"})
+                CHECK(text.find(word) == std::string::npos);
+        }
+    }
+}
+
 TEST_CASE("Hints: with a glove, controls name the device that moves the hand and the fingers that grip") {
     const auto loaded = words::load_words(words::words_folder(), "en");
     REQUIRE(loaded.ok());

@@ -169,4 +169,13 @@ TEST_CASE("Screws: the programs make a lesson of the file, in which a simulated 
     CHECK(summary["joints"][0]["verdict"] == "OK");
     run("boltwright", "export lesson/session.boltwright --csv ticks.csv --every 100");
     CHECK(bytes(folder / "ticks.csv").find("J1") != std::string::npos);
+    // The session and the report name the screw.
+    const std::string session = bytes(folder / "lesson" / "session.boltwright");
+    CHECK(session.find("wrench on the screw") != std::string::npos);
+    CHECK(session.find("wrench on the nut") == std::string::npos);
+    const std::string report = bytes(folder / "lesson" / "report.html");
+    CHECK(report.find("Time to get onto the screw") != std::string::npos);
+    CHECK(report.find("torque and clamp force over the screw angle") != std::string::npos);
+    CHECK(report.find(" nut") == std::string::npos);
+    run("boltwright", "replay lesson/session.boltwright");
 }

@@ -129,6 +129,42 @@ TEST_CASE("Words: placeholders are filled in, and numbers follow the language") 
     CHECK(format_text(en, "hint.set_back", {{"joint", "B7"}}) == en["hint.set_back"]);
 }
 
+TEST_CASE("Words: a choice selects the text for a nut or a screw") {
+    const Words en = english();
+    const Words de = load_words(words_folder(), "de").words;
+    const Words zh = load_words(words_folder(), "zh").words;
+    const auto text = [](const Words& words, TextKey key, std::size_t index) {
+        return format_text(words, key,
+                           {{"joint", "B7"}, {"fastener", Choice{index}}, {"fasteners", Choice{index}}});
+    };
+    CHECK(text(en, "hint.set_on", 0) ==
+          "Slide the jaw fully onto the nut of B7, straight and square to the bolt.");
+    CHECK(text(en, "hint.set_on", 1) ==
+          "Slide the jaw fully onto the screw head of B7, straight and square to the screw.");
+    CHECK(text(de, "hint.grip_nut", 0) == "Fassen Sie die Mutter von B7 mit den Fingern.");
+    CHECK(text(de, "hint.grip_nut", 1) == "Fassen Sie den Schraubenkopf von B7 mit den Fingern.");
+    CHECK(text(zh, "hint.run_down", 1) == "顺时针旋转 B7 的螺钉，直到贴合。");
+    CHECK(text(en, "hint.all_done", 2) == "All nuts and screws are done. Put the wrench down.");
+    // Without a value the choice stays in the text.
+    CHECK(format_text(en, "hint.twist_back") == en["hint.twist_back"]);
+    const std::string given = "{fastener: nut|screw} again";
+    const auto error_of = [&](const char* to) {
+        const std::string found = mistakes(given, to);
+        return found.substr(std::min(found.find("/words/hint.twist_back"), found.size()));
+    };
+    CHECK(error_of("it again") == "");
+    CHECK(error_of("{fastener: nut|screw|bolt} again") ==
+          "/words/hint.twist_back: {fastener} has 3 texts to choose from; expected 2, as in {fastener: "
+          "nut|screw}\n");
+    CHECK(error_of("{fastener} again") ==
+          "/words/hint.twist_back: {fastener} has 0 texts to choose from; expected 2, as in {fastener: "
+          "nut|screw}\n");
+    CHECK(error_of("{fasteners: a|b|c} again") ==
+          "/words/hint.twist_back: unknown placeholder {fasteners}; did you mean \"fastener\"?\n");
+    CHECK(mistakes("{joint} is next.", "{joint: a|b} is next.")
+              .find("{joint} has 2 texts to choose from; expected none") != std::string::npos);
+}
+
 TEST_CASE("Words: torques have as many decimals as a torque wrench shows") {
     const Words en = english();
     for (const auto& [torque, expected] : {std::pair{20.0, "20"},

@@ -17,6 +17,7 @@
 #include "engine/base/result.hpp"
 #include "engine/text/fonts.hpp"
 #include "engine/text/layout.hpp"
+#include "game/lesson/fastener_names.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/lesson_session.hpp"
 #include "tools/author/commands.hpp"
@@ -118,18 +119,22 @@ std::string format_table(const content::Assembly& assembly, const std::vector<Nu
     std::string text = fmt::format("{:{}}", "", width);
     for (const content::NamedView& view : assembly.views) text += fmt::format("  {:>9}", view.name);
     text += "  best\n";
-    for (const NutVisibility& row : rows) {
+    for (std::size_t joint = 0; joint < rows.size(); ++joint) {
+        const NutVisibility& row = rows[joint];
         text += fmt::format("{:{}}", row.joint, width);
         for (std::size_t i = 0; i < row.views.size(); ++i)
             text += fmt::format(
                 "  {:>{}}", row.views[i].framed ? fmt::format("{:.0f} %", 100.0 * row.views[i].share) : "-",
                 std::max<std::size_t>(9, assembly.views[i].name.size()));
-        text +=
-            fmt::format("  {}\n", row.best ? assembly.views[*row.best].name : "none: no view shows this nut");
+        text += fmt::format("  {}\n",
+                            row.best ? assembly.views[*row.best].name
+                                     : fmt::format("none: no view shows this {}",
+                                                   lesson::fastener_name(assembly.joints[joint].design)));
     }
-    return text +
-           "Visible share of each nut without wrench and hand; -: outside the picture.\n"
-           "Best: the view with the largest visible area of the nut in the picture.\n";
+    return text + fmt::format(
+                      "Visible share of each {0} without wrench and hand; -: outside the picture.\n"
+                      "Best: the view with the largest visible area of the {0} in the picture.\n",
+                      lesson::fastener_name(assembly));
 }
 
 std::string format_json(const content::Assembly& assembly, const std::vector<NutVisibility>& rows) {

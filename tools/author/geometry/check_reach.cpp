@@ -72,15 +72,15 @@ std::string in_degrees(const SwingPair& swings) {
     return text;
 }
 
-// Reports too little swing. `where`: " where it starts, 21 mm above its seat", or empty.
+// Reports too little swing. `where`: "nut" or "head", with " where it starts, 21 mm above its seat".
 void check_swing(const SwingPair& swings, const WrenchShape& wrench, std::size_t index,
                  const std::string& where, const FlattenedModel& scene, const Messages& messages) {
     const double head_angle = std::abs(wrench.head_angle);
     const std::string place = describe_limits(scene, swings.wider());
     if (swings.most() < min_swing || !can_turn_fully(swings, head_angle, false)) {
         messages.error(joint_pointer(index),
-                       fmt::format("{} has {} of free swing on the nut{}: {}", wrench.name,
-                                   in_degrees(swings), where, place),
+                       fmt::format("{} has {} of free swing on the {}: {}", wrench.name, in_degrees(swings),
+                                   where, place),
                        // If the swing is enough either way up, the head limits the wrench, at the same jaw
                        // angles either way up, so that turning it over gains nothing.
                        head_angle < to_radians(1.0) || swings.least() >= min_swing
@@ -88,7 +88,7 @@ void check_swing(const SwingPair& swings, const WrenchShape& wrench, std::size_t
                            : "30 degrees or more both ways up, or 60 one way up");
     } else if (!can_turn_fully(swings, head_angle, true)) {
         messages.note(joint_pointer(index),
-                      fmt::format("{} has {} of free swing on the nut{}, {}: it has to be turned over "
+                      fmt::format("{} has {} of free swing on the {}, {}: it has to be turned over "
                                   "after every stroke",
                                   wrench.name, in_degrees(swings), where, place));
     }
@@ -107,11 +107,13 @@ void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const 
         return SwingPair{find_free_swing(around, plain, height), find_free_swing(around, over, height)};
     };
     const SwingPair swings = swings_at(seated);
-    check_swing(swings, wrench, index, "", scene, messages);
+    const std::string turned = joint.design.turned == joint::TurnedPart::head ? "head" : "nut";
+    check_swing(swings, wrench, index, turned, scene, messages);
     if (joint.design.start_gap > 1.0 * mm)
-        check_swing(swings_at(seated + joint.design.start_gap), wrench, index,
-                    fmt::format(" where it starts, {:.3g} mm above its seat", joint.design.start_gap / mm),
-                    scene, messages);
+        check_swing(
+            swings_at(seated + joint.design.start_gap), wrench, index,
+            fmt::format("{} where it starts, {:.3g} mm above its seat", turned, joint.design.start_gap / mm),
+            scene, messages);
     if (swings.most() <= 0.0) return;  // already reported
     ExitPaths paths{seated, wrench.head_angle, wrench.head_size, wrench.reach};
     std::uint32_t blocked = find_obstruction(around, plain, swings.plain, paths);
@@ -119,9 +121,9 @@ void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const 
     if (blocked != no_part) blocked = find_obstruction(around, over, swings.turned_over, paths);
     if (blocked != no_part)
         messages.error(joint_pointer(index),
-                       fmt::format("{} cannot be brought onto the nut, neither along the bolt nor from "
+                       fmt::format("{} cannot be brought onto the {}, neither along the bolt nor from "
                                    "the side: {} is in its way",
-                                   wrench.name, name_of(scene, blocked)),
+                                   wrench.name, turned, name_of(scene, blocked)),
                        "a free path");
 }
 

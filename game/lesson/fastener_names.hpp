@@ -1,0 +1,20 @@
+// Names of the part of a joint that is turned: a nut, or a screw if it is turned at its head.
+#pragma once
+
+#include <string_view>
+
+#include "content/format/assembly.hpp"
+#include "content/words/words.hpp"
+
+namespace bolt::lesson {
+
+// English, for records and reports: "nut" or "screw".
+std::string_view fastener_name(const joint::JointDesign& design);
+// "joint" if the assembly has both.
+std::string_view fastener_name(const content::Assembly& assembly);
+
+// The choices {fastener: ...} of one joint and {fasteners: ...} of all joints (content/words/key_rows.hpp).
+words::TextArgument fastener_argument(const joint::JointDesign& design);
+words::TextArgument fasteners_argument(const content::Assembly& assembly);
+
+}  // namespace bolt::lesson
