@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <set>
 
 #include "engine/base/nearest.hpp"
 
@@ -61,13 +60,6 @@ Viewpoint default_viewpoint(const render::BoundingBox& box, float fov, float asp
     return {"", render::framing_eye(box, default_direction, lens), 0.5F * (box.low + box.high), fov};
 }
 
-namespace {
-
-constexpr glm::vec4 outline_color{1.0F, 0.78F, 0.1F, 1.0F};
-constexpr float ghost_opacity = 0.35F;
-constexpr float cut_away_radius = 0.65F;  // as a fraction of the revealed node's diagonal
-
-// Indices of the nodes of that name and of their descendants.
 Result<std::set<int>> nodes_of(const assets::Model& model, const std::string& name) {
     std::vector<int> pending;
     std::vector<std::string> names;
@@ -91,6 +83,12 @@ Result<std::set<int>> nodes_of(const assets::Model& model, const std::string& na
     }
     return nodes;
 }
+
+namespace {
+
+constexpr glm::vec4 outline_color{1.0F, 0.78F, 0.1F, 1.0F};
+constexpr float ghost_opacity = 0.35F;
+constexpr float cut_away_radius = 0.65F;  // as a fraction of the revealed node's diagonal
 
 // The entities of the named node and its descendants.
 Result<std::vector<ecs::Entity>> parts_of(const ShownModel& shown, const LoadedModel& model,

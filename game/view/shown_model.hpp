@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <set>
+#include <string>
 
 #include "engine/render/camera.hpp"
 #include "game/view/drawables.hpp"
@@ -41,6 +43,9 @@ inline constexpr float default_fov = 0.6108652F;  // rad, 35°
 
 // The viewpoint in the default direction that shows the whole box.
 Viewpoint default_viewpoint(const render::BoundingBox& box, float fov, float aspect);
+
+// Indices of the nodes of that name and of their descendants. Fails as outline().
+Result<std::set<int>> nodes_of(const assets::Model& model, const std::string& name);
 
 // Names of nodes; each stands for the node with its descendants.
 struct Highlights {

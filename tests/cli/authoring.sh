@@ -23,6 +23,7 @@ done
 expect '^bracket/assembly.json: 2 joints, 5 passes, variant -: no mistakes' ../log
 expect 'contact model: watertight' ../log
 expect 'tool: an open-end wrench of 18 mm, 180 mm from the jaw to the grip, generated from these numbers' ../log
+expect '^room/J2.png: [0-9.]+ degrees of free swing' ../log
 expect '^socket-18.contact.glb: [0-9]+ bytes' ../log
 expect '"id": "J2"' lesson/summary.json
 expect '"obstacles": true' lesson/summary.json

@@ -79,6 +79,17 @@ expect 0 'no mistakes' "$author" validate bare
 expect 0 'bare/assembly.json:[0-9]+:[0-9]+: /tool: no model is named, so the tool is generated: open_end: size 13 mm' "$author" validate bare
 expect 0 '/more_tools/torque_wrench: no model is named, so the tool is generated: torque_wrench: size 13 mm' "$author" validate bare
 expect 0 'B1' "$author" views bare
+# A picture of each joint with the room for its wrench.
+expect 0 'joints/B1.png: [0-9.]+ degrees of free swing.*; blocked by "cover" \([0-9]+ degrees\)' \
+    "$author" validate bare --pictures joints
+check "one picture for each joint" [ "$(ls joints)" = B1.png ]
+expect 0 'again/B1.png' "$author" validate bare --pictures again
+check "the same picture of a joint every time" cmp joints/B1.png again/B1.png
+expect 1 'file/joints cannot be created' "$author" validate bare --pictures file/joints
+expect 2 '--pictures draws the joints of one assembly' "$author" validate bare cover-m8 --pictures never
+sed 's/"model": *"[^"]*",//; s/"model_far": *"[^"]*",//; s/"contact_model": *"[^"]*",//' bare/assembly.json >bare/flat.json
+expect 0 'no model is named' "$author" validate bare/flat.json --pictures never
+check "nothing is drawn without a model" test ! -e never
 for tool in wrench torque_wrench; do
     expect 0 'score' "$bin/boltwright" train bare --tool $tool --headless --no-pictures --obstacles --out "with-$tool"
     expect 0 'all as they were recorded' "$bin/boltwright" replay "with-$tool/session.boltwright"

@@ -349,8 +349,11 @@ CheckOutput check_with(const Machine& machine, const Edit& edit, const Machine* 
         REQUIRE(assets::write_glb(file, model_of(plain_wrench(other.wrench))));
         other.wrench.model = file.string();
     }
-    const auto findings = geometry::check_geometry(loaded.assembly);
-    return {without_file(findings.errors), without_file(findings.notes)};
+    CheckOutput output;
+    const auto findings = geometry::check_geometry(loaded.assembly, &output.rooms);
+    output.errors = without_file(findings.errors);
+    output.notes = without_file(findings.notes);
+    return output;
 }
 
 }  // namespace

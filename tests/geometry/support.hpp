@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,7 @@ bolt::assets::Model model_of(const bolt::geometry::WrenchShape& wrench, double s
 // Output of bolt-author validate.
 struct CheckOutput {
     std::vector<std::string> errors, notes;  // "line:column: pointer: what; expected"
+    std::optional<bolt::geometry::WrenchRooms> rooms;
 };
 std::string all(const std::vector<std::string>& messages);  // one line each
 using Edit = std::function<void(std::string&)>;

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <set>
 
 #include "engine/base/random.hpp"
 #include "support.hpp"
@@ -314,6 +315,36 @@ TEST_CASE("Geometry: the tree finds the same ray hits as all triangles") {
         hits += hit ? 1 : 0;
     }
     CHECK(hits > 50);
+}
+
+TEST_CASE(
+    "Geometry: the room for the wrench has its free and its blocked directions, and the nut fits the jaw") {
+    const CheckOutput output = check(walled(61.0, 0.0, 10.0));
+    REQUIRE(output.rooms);
+    REQUIRE(output.rooms->joints.size() == 1);
+    const geometry::WrenchRoom& room = output.rooms->joints.front();
+    CHECK(room.gripped);
+    CHECK(room.turned.high.y == doctest::Approx(8.4 * mm));
+    CHECK(room.parts.size() == 4);
+    const geometry::Arc* arc = room.swing.widest();
+    REQUIRE(arc != nullptr);
+    CHECK(to_degrees(arc->width()) == doctest::Approx(61.0).epsilon(0.01));
+    CHECK(room.handle == doctest::Approx(0.5 * (arc->from + arc->to)));
+    double blocked = 0.0;
+    std::set<std::string> names;
+    for (const geometry::BlockedArc& other : room.swing.blocked) {
+        CHECK(other.from < other.to);
+        CHECK((other.to <= arc->from + to_radians(1.0) || other.from >= arc->to - to_radians(1.0)));
+        blocked += other.to - other.from;
+        names.insert(output.rooms->scene.parts[other.part].name);
+    }
+    CHECK(names == std::set<std::string>{"wall_left", "wall_right"});
+    CHECK(to_degrees(blocked + arc->width()) == doctest::Approx(360.0).epsilon(0.01));
+    // A flat of the turned hexagon is at right angles to the jaw. The model's hexagon has a flat at 30
+    // degrees.
+    const double jaw = room.handle + (room.turned_over ? -1.0 : 1.0) * output.rooms->wrench.head_angle;
+    const double flat = to_radians(30.0) + room.turn;
+    CHECK(std::abs(wrap(flat - jaw - 0.5 * pi, pi / 3.0)) < 1e-6);
 }
 
 }  // namespace geometry_wrench_test

@@ -161,7 +161,9 @@ TEST_CASE("Screws: the programs make a lesson of the file, in which a simulated 
         CHECK(WEXITSTATUS(status) == 0);
     };
     run("bolt-author", "import-step pump.step -o pump");
-    run("bolt-author", "validate pump");
+    run("bolt-author", "validate pump --pictures pictures");
+    CHECK(bytes(folder / "log").find("pictures/J1.png: 360.0 degrees of free swing") != std::string::npos);
+    CHECK(std::filesystem::file_size(folder / "pictures" / "J1.png") > 10'000);
     run("boltwright", "train pump --headless --quiet --no-pictures --out lesson");
     const json summary = json::parse(bytes(folder / "lesson" / "summary.json"));
     CHECK(summary["finished"] == true);

@@ -22,6 +22,7 @@
 #include "game/session/lesson_session.hpp"
 #include "tools/author/commands.hpp"
 #include "tools/author/geometry/check.hpp"
+#include "tools/author/pictures/joint_pictures.hpp"
 
 namespace bolt::author {
 
@@ -254,12 +255,13 @@ std::vector<std::string> models_of(const content::Assembly& assembly) {
 struct AssemblyReport {
     std::vector<Error> errors;
     std::string remarks;  // notes that are not errors, one line each
+    std::optional<geometry::WrenchRooms> rooms;
 };
 
 // Checks an assembly that has loaded without errors.
 AssemblyReport validate(const content::Assembly& assembly) {
     AssemblyReport result;
-    geometry::Findings findings = geometry::check_geometry(assembly);
+    geometry::Findings findings = geometry::check_geometry(assembly, &result.rooms);
     result.errors = std::move(findings.errors);
     for (const Error& note : findings.notes) result.remarks += fmt::format("note: {}\n", note.message());
     const std::vector<std::string> files = models_of(assembly);
@@ -282,10 +284,17 @@ AssemblyReport validate(const content::Assembly& assembly) {
     return result;
 }
 
-int run_validate(const std::vector<std::string>& assemblies, const std::string& variant) {
+struct ValidateOptions {
+    std::vector<std::string> assemblies;
+    std::string variant, pictures;
+};
+
+int run_validate(const ValidateOptions& options) {
+    if (!options.pictures.empty() && options.assemblies.size() > 1)
+        return print_error({ErrorCode::usage, "--pictures draws the joints of one assembly", "one assembly"});
     int worst = 0;
-    for (const std::string& where : assemblies) {
-        const content::LoadedAssembly loaded = content::load_assembly(where, variant);
+    for (const std::string& where : options.assemblies) {
+        const content::LoadedAssembly loaded = content::load_assembly(where, options.variant);
         if (!loaded.ok()) {
             worst = std::max(worst, print_error(loaded.errors));
             continue;
@@ -298,6 +307,10 @@ int run_validate(const std::vector<std::string>& assemblies, const std::string& 
                                 loaded.assembly.variant.empty() ? "-" : loaded.assembly.variant);
         worst = std::max(worst, print_error(result.errors));
         if (const Status printed = print(text); !printed) return print_error(printed.error());
+        if (options.pictures.empty() || !result.rooms) continue;
+        if (const Status drawn = draw_joint_pictures(loaded.assembly, *result.rooms, options.pictures);
+            !drawn)
+            return print_error(drawn.error());
     }
     return worst;
 }
@@ -305,17 +318,14 @@ int run_validate(const std::vector<std::string>& assemblies, const std::string& 
 }  // namespace
 
 void add_validate(CLI::App& app, int& exit_code) {
-    struct ValidateOptions {
-        std::vector<std::string> assemblies;
-        std::string variant;
-    };
     auto options = std::make_shared<ValidateOptions>();
     CLI::App* command = app.add_subcommand("validate", "Report all errors of assemblies");
     command->add_option("assembly", options->assemblies, "Folders, files, or names under content/assemblies")
         ->required();
     command->add_option("--variant", options->variant, "Material variant; the default if not given");
-    command->callback(
-        [options, &exit_code] { exit_code = run_validate(options->assemblies, options->variant); });
+    command->add_option("--pictures", options->pictures,
+                        "Draw each joint with the wrench and its free swing into this folder, JOINT.png");
+    command->callback([options, &exit_code] { exit_code = run_validate(*options); });
 }
 
 }  // namespace bolt::author

@@ -9,6 +9,7 @@
 #include "engine/assets/gltf.hpp"
 #include "game/tool_models/tool_model.hpp"
 #include "tools/author/geometry/check_model.hpp"
+#include "tools/author/geometry/wrench_room.hpp"
 
 namespace bolt::geometry {
 
@@ -80,36 +81,55 @@ Bvh build_bvh(const FlattenedModel& scene) {
     return Bvh(std::move(triangles));
 }
 
-void check_model(const content::Assembly& assembly, const FlattenedModel& scene, const Messages& messages) {
-    check_triangles(scene, near_budget, "/model", messages);
-    const std::vector<WrenchShape> wrenches = load_wrenches(assembly, messages);
+WrenchRoom describe_joint(std::size_t index, const JointParts& parts) {
+    WrenchRoom room;
+    room.joint = index;
+    room.to_assembly = parts.to_assembly;
+    room.turned = parts.turned.box;
+    for (const Fastener* fastener : {&parts.bolt, &parts.washer_head, &parts.washer_nut, &parts.nut})
+        room.parts.insert(fastener->parts.begin(), fastener->parts.end());
+    return room;
+}
 
+WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scene, const Messages& messages) {
+    check_triangles(scene, near_budget, "/model", messages);
+    std::vector<WrenchShape> wrenches = load_wrenches(assembly, messages);
     const std::vector<int> nodes = check_nodes(assembly, scene, messages);
-    const Bvh everything = build_bvh(scene);
+    WrenchRooms rooms;
+    rooms.everything = build_bvh(scene);
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
         if (nodes[i] < 0) continue;
         const content::AssemblyJoint& joint = assembly.joints[i];
         const JointParts parts = find_joint_parts(scene, nodes[i], joint.design);
-        if (!check_fasteners_and_members(joint, i, parts, scene, everything, assembly.tools, messages))
-            continue;
-        for (const WrenchShape& wrench : wrenches) check_wrench(joint, i, parts, scene, wrench, messages);
+        WrenchRoom room = describe_joint(i, parts);
+        if (check_fasteners_and_members(joint, i, parts, scene, rooms.everything, assembly.tools, messages))
+            for (const WrenchShape& wrench : wrenches)
+                check_wrench(joint, i, parts, scene, wrench, messages,
+                             &wrench == wrenches.data() ? &room : nullptr);
+        rooms.joints.push_back(std::move(room));
     }
+    rooms.wrench = std::move(wrenches.front());
+    rooms.scene = std::move(scene);
+    return rooms;
 }
 
 }  // namespace
 
-Findings check_geometry(const content::Assembly& assembly) {
+Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchRooms>* rooms) {
     Findings findings;
     const auto document = content::JsonDocument::parse(assembly.text, assembly.file, findings.errors);
     if (!document) return findings;
     const Messages messages{*document, findings};
-    const auto model = read_scene(assembly.models.model, "/model", messages);
+    auto model = read_scene(assembly.models.model, "/model", messages);
     const auto far = read_scene(assembly.models.far_level, "/model_far", messages);
     const auto contact = read_scene(assembly.models.contact, "/contact_model", messages);
-    if (model) check_model(assembly, *model, messages);
     if (far) check_triangles(*far, far_budget, "/model_far", messages);
     if (model && far) check_names(*model, *far, messages);
     if (model && contact) check_contact(*contact, *model, messages);
+    if (model) {
+        WrenchRooms found = check_model(assembly, std::move(*model), messages);
+        if (rooms != nullptr) *rooms = std::move(found);
+    }
     content::sort_by_position(findings.errors);
     content::sort_by_position(findings.notes);
     return findings;

@@ -2,10 +2,12 @@
 // overlaps, room for the wrench, levels of detail.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "content/format/assembly.hpp"
 #include "engine/base/result.hpp"
+#include "tools/author/geometry/wrench_room.hpp"
 
 namespace bolt::geometry {
 
@@ -15,7 +17,7 @@ struct Findings {
 };
 
 // `assembly` must have loaded without errors, and its model files must exist. An assembly without a model has
-// no findings.
-Findings check_geometry(const content::Assembly& assembly);
+// no findings. `rooms`: receives the room for the default wrench on each joint, if there is a model.
+Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchRooms>* rooms = nullptr);
 
 }  // namespace bolt::geometry

@@ -14,6 +14,7 @@
 #include "tools/author/geometry/messages.hpp"
 #include "tools/author/geometry/scene.hpp"
 #include "tools/author/geometry/wrench.hpp"
+#include "tools/author/geometry/wrench_room.hpp"
 
 namespace bolt::geometry {
 
@@ -69,8 +70,10 @@ bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_
                                  const JointParts& parts, const FlattenedModel& scene, const Bvh& everything,
                                  std::span<const content::Tool> tools, const Messages& messages);
 
-// Checks that the wrench can be brought onto the nut and swings far enough on it.
+// Checks that the wrench can be brought onto the nut and swings far enough on it. `room`: receives what was
+// measured; null: nothing.
 void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const JointParts& parts,
-                  const FlattenedModel& scene, const WrenchShape& wrench, const Messages& messages);
+                  const FlattenedModel& scene, const WrenchShape& wrench, const Messages& messages,
+                  WrenchRoom* room);
 
 }  // namespace bolt::geometry

@@ -11,6 +11,7 @@
 #include "tools/author/geometry/check_model.hpp"
 #include "tools/author/geometry/scene.hpp"
 #include "tools/author/geometry/wrench.hpp"
+#include "tools/author/geometry/wrench_room.hpp"
 
 namespace bolt::geometry {
 
@@ -31,8 +32,24 @@ struct SwingPair {
     }
     [[nodiscard]] double most() const { return std::max(width(plain), width(turned_over)); }
     [[nodiscard]] double least() const { return std::min(width(plain), width(turned_over)); }
-    [[nodiscard]] const FreeSwing& wider() const {
-        return width(turned_over) > width(plain) ? turned_over : plain;
+    [[nodiscard]] bool is_wider_turned_over() const { return width(turned_over) > width(plain); }
+    [[nodiscard]] const FreeSwing& wider() const { return is_wider_turned_over() ? turned_over : plain; }
+};
+
+// A wrench on the turned part of one joint, either way up, and what is around it, in the joint's frame.
+struct WrenchOnJoint {
+    double seated = 0.0;  // m, height of the wrench on the tightened joint
+    Bvh plain, over, around;
+
+    WrenchOnJoint(const JointParts& parts, const FlattenedModel& scene, const WrenchShape& wrench)
+        : plain(place_on_nut(wrench, false)), over(place_on_nut(wrench, true)) {
+        const double low = parts.turned.box.low.y, high = parts.turned.box.high.y;
+        seated = std::max(0.5 * (low + high), low + wrench.half_thickness + clearance);
+        const double lowest = seated + std::min(plain.box().low.y, over.box().low.y);
+        around = Bvh(nearby_triangles(scene, parts.to_joint, 3.0 * wrench.reach, lowest, parts.turned.parts));
+    }
+    [[nodiscard]] SwingPair swings_at(double height) const {
+        return {find_free_swing(around, plain, height), find_free_swing(around, over, height)};
     }
 };
 
@@ -94,31 +111,40 @@ void check_swing(const SwingPair& swings, const WrenchShape& wrench, std::size_t
     }
 }
 
+// Requires a turned part with a hexagon.
+void fill_in(WrenchRoom& room, const JointParts& parts, const WrenchShape& wrench, double height,
+             const SwingPair& swings) {
+    room.gripped = true;
+    room.height = height;
+    room.turned_over = swings.is_wider_turned_over();
+    room.swing = swings.wider();
+    if (const Arc* arc = room.swing.widest()) room.handle = 0.5 * (arc->from + arc->to);
+    // Angles about +Y run from +X towards -Z. The flats of the jaw are parallel to the jaw.
+    const double jaw = room.handle + (room.turned_over ? -1.0 : 1.0) * wrench.head_angle;
+    if (const auto hexagon = measure_hexagon(parts.turned.triangles))
+        room.turn = wrap(jaw + 0.5 * pi + hexagon->flat_angle, hexagon_turn);
+}
+
 }  // namespace
 
 void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const JointParts& parts,
-                  const FlattenedModel& scene, const WrenchShape& wrench, const Messages& messages) {
-    const double low = parts.turned.box.low.y, high = parts.turned.box.high.y;
-    const double seated = std::max(0.5 * (low + high), low + wrench.half_thickness + clearance);
-    const Bvh plain = place_on_nut(wrench, false), over = place_on_nut(wrench, true);
-    const double lowest = seated + std::min(plain.box().low.y, over.box().low.y);
-    const Bvh around(nearby_triangles(scene, parts.to_joint, 3.0 * wrench.reach, lowest, parts.turned.parts));
-    const auto swings_at = [&](double height) {
-        return SwingPair{find_free_swing(around, plain, height), find_free_swing(around, over, height)};
-    };
-    const SwingPair swings = swings_at(seated);
+                  const FlattenedModel& scene, const WrenchShape& wrench, const Messages& messages,
+                  WrenchRoom* room) {
+    const WrenchOnJoint placed(parts, scene, wrench);
+    const SwingPair swings = placed.swings_at(placed.seated);
+    if (room != nullptr) fill_in(*room, parts, wrench, placed.seated, swings);
     const std::string turned = joint.design.turned == joint::TurnedPart::head ? "head" : "nut";
     check_swing(swings, wrench, index, turned, scene, messages);
     if (joint.design.start_gap > 1.0 * mm)
         check_swing(
-            swings_at(seated + joint.design.start_gap), wrench, index,
+            placed.swings_at(placed.seated + joint.design.start_gap), wrench, index,
             fmt::format("{} where it starts, {:.3g} mm above its seat", turned, joint.design.start_gap / mm),
             scene, messages);
     if (swings.most() <= 0.0) return;  // already reported
-    ExitPaths paths{seated, wrench.head_angle, wrench.head_size, wrench.reach};
-    std::uint32_t blocked = find_obstruction(around, plain, swings.plain, paths);
+    ExitPaths paths{placed.seated, wrench.head_angle, wrench.head_size, wrench.reach};
+    std::uint32_t blocked = find_obstruction(placed.around, placed.plain, swings.plain, paths);
     paths.jaw_angle = -wrench.head_angle;
-    if (blocked != no_part) blocked = find_obstruction(around, over, swings.turned_over, paths);
+    if (blocked != no_part) blocked = find_obstruction(placed.around, placed.over, swings.turned_over, paths);
     if (blocked != no_part)
         messages.error(joint_pointer(index),
                        fmt::format("{} cannot be brought onto the {}, neither along the bolt nor from "

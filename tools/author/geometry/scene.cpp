@@ -266,6 +266,7 @@ std::optional<MeasuredHexagon> measure_hexagon(std::span<const Triangle> triangl
     const auto [least, most] = std::minmax_element(widths.begin(), widths.end());
     hexagon.across_flats = (widths[0] + widths[1] + widths[2]) / 3.0;
     hexagon.unevenness = *most - *least;
+    hexagon.flat_angle = phase;
     for (std::size_t k = 0; k < 6; ++k) {
         const double angle = phase + static_cast<double>(k) * pi / 3.0;
         hexagon.centre += support[k] / 3.0 * Vec3{std::cos(angle), 0.0, std::sin(angle)};

@@ -80,6 +80,7 @@ std::vector<Triangle> nearby_triangles(const FlattenedModel& scene, const glm::d
 struct MeasuredHexagon {
     double across_flats = 0.0;  // m, mean of the three widths
     double unevenness = 0.0;    // m, widest minus narrowest
+    double flat_angle = 0.0;    // rad, of the outward normal of one flat, from +X towards +Z
     Vec3 centre{0.0};           // m, offset from the axis; y is 0
 };
 

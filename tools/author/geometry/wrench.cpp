@@ -138,6 +138,22 @@ double find_edge(const SwingProbe& probe, double free, double blocked, std::uint
     return free;
 }
 
+// Joins neighbouring samples of one revolution that collide with the same part.
+std::vector<BlockedArc> find_blocked(const std::vector<std::uint32_t>& hits) {
+    const auto samples = static_cast<int>(hits.size());
+    const double step = 2.0 * pi / samples;
+    const auto at = [&](int i) { return hits[static_cast<std::size_t>((i + samples) % samples)]; };
+    std::vector<BlockedArc> blocked;
+    for (int i = 0; i < samples; ++i) {
+        if (at(i) == no_part || at(i - 1) == at(i)) continue;
+        int last = i;
+        while (at(last + 1) == at(i)) ++last;
+        blocked.push_back({(i - 0.5) * step, (last + 0.5) * step, at(i)});
+    }
+    if (blocked.empty() && at(0) != no_part) blocked.push_back({0.0, 2.0 * pi, at(0)});
+    return blocked;
+}
+
 }  // namespace
 
 const Arc* FreeSwing::widest() const {
@@ -165,6 +181,7 @@ FreeSwing find_free_swing(const Bvh& surroundings, const Bvh& wrench, double hei
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
     swing.blocking = most->first;
     const auto at = [&](int i) { return hits[static_cast<std::size_t>((i + samples) % samples)]; };
+    swing.blocked = find_blocked(hits);
     for (int i = 0; i < samples; ++i) {
         if (at(i) != no_part || at(i - 1) == no_part) continue;
         int last = i;

@@ -44,9 +44,16 @@ struct Arc {
     [[nodiscard]] double width() const { return to - from; }
 };
 
+// A range of handle angles, to a degree, in which the same part collides with the wrench.
+struct BlockedArc {
+    double from = 0.0, to = 0.0;  // rad, from < to
+    std::uint32_t part = no_part;
+};
+
 // The free arcs of one revolution of a wrench on a nut.
 struct FreeSwing {
     std::vector<Arc> arcs;             // in the order of their angles; empty: the wrench fits at no angle
+    std::vector<BlockedArc> blocked;   // in the order of their angles
     std::uint32_t blocking = no_part;  // the part that collides at the most angles
 
     [[nodiscard]] const Arc* widest() const;  // nullptr without an arc

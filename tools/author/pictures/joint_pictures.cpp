@@ -1,0 +1,320 @@
+#include "tools/author/pictures/joint_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "content/format/json_document.hpp"
+#include "engine/assets/gltf.hpp"
+#include "engine/assets/image.hpp"
+#include "engine/base/file.hpp"
+#include "engine/render/renderer.hpp"
+#include "engine/text/fonts.hpp"
+#include "game/session/contact_models.hpp"
+#include "game/tool_models/tool_model.hpp"
+#include "game/view/gpu_context.hpp"
+#include "game/view/labels.hpp"
+#include "game/view/shown_model.hpp"
+#include "tools/author/geometry/wrench_room.hpp"
+#include "tools/author/pictures/joint_view.hpp"
+#include "tools/author/pictures/swing_fan.hpp"
+
+namespace bolt::author {
+
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::WrenchRoom;
+using geometry::WrenchRooms;
+
+constexpr double fan_reach = 0.62;  // outer radius of the fan, as a fraction of the wrench's reach
+constexpr glm::vec4 free_color{0.1F, 0.8F, 0.25F, 1.0F}, blocked_color{0.95F, 0.1F, 0.1F, 1.0F};
+constexpr glm::vec4 turned_color{1.0F, 0.78F, 0.1F, 1.0F};
+constexpr float fan_opacity = 0.35F;
+constexpr double least_named = to_radians(8.0);      // narrower blocked directions get no label
+constexpr double least_described = to_radians(1.5);  // narrower ones are not printed
+constexpr std::size_t most_names = 4;                // labels in a picture
+
+// A part that blocks the wrench: how much of the revolution, and where its widest range is.
+struct Blocker {
+    std::string name;
+    double total = 0.0, widest = 0.0, middle = 0.0;  // rad
+};
+
+// The widest first.
+std::vector<Blocker> blockers_of(const WrenchRooms& rooms, const WrenchRoom& room) {
+    std::vector<Blocker> blockers;
+    for (const geometry::BlockedArc& arc : room.swing.blocked) {
+        const std::string& name = rooms.scene.parts[arc.part].name;
+        auto found = std::find_if(blockers.begin(), blockers.end(),
+                                  [&](const Blocker& blocker) { return blocker.name == name; });
+        if (found == blockers.end()) found = blockers.insert(blockers.end(), {name});
+        const double width = arc.to - arc.from;
+        found->total += width;
+        if (width <= found->widest) continue;
+        found->widest = width;
+        found->middle = 0.5 * (arc.from + arc.to);
+    }
+    std::stable_sort(blockers.begin(), blockers.end(),
+                     [](const Blocker& a, const Blocker& b) { return a.total > b.total; });
+    return blockers;
+}
+
+std::string description(const WrenchRoom& room, const std::vector<Blocker>& blockers) {
+    if (room.turned.empty()) return "the model has no part that is turned";
+    if (!room.gripped) return "the wrench cannot grip the part that is turned";
+    const geometry::Arc* arc = room.swing.widest();
+    std::string text =
+        fmt::format("{:.1f} degrees of free swing", arc == nullptr ? 0.0 : to_degrees(arc->width()));
+    if (room.turned_over) text += ", the wrench turned over";
+    const char* separator = "; blocked by ";
+    for (const Blocker& blocker : blockers) {
+        if (blocker.total < least_described) continue;
+        text += fmt::format("{}{} ({:.0f} degrees)", separator, content::in_quotes(blocker.name),
+                            to_degrees(blocker.total));
+        separator = ", ";
+    }
+    return text;
+}
+
+// A file name for any id.
+std::string file_name(std::string id) {
+    for (char& c : id)
+        if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ') c = '_';
+    if (id.starts_with('.')) id.front() = '_';
+    return id + ".png";
+}
+
+// The pose of the wrench's tool frame in the assembly's frame: on the turned part, at the handle's angle.
+glm::dmat4 wrench_pose(const WrenchRoom& room) {
+    const double side = room.turned_over ? -1.0 : 1.0;
+    // The same axes as geometry::place_on_nut().
+    const glm::dmat4 on_nut(glm::dvec4(1.0, 0.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, -side, 0.0),
+                            glm::dvec4(0.0, side, 0.0, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
+    return glm::rotate(glm::translate(room.to_assembly, Vec3(0.0, room.height, 0.0)), room.handle,
+                       Vec3(0.0, 1.0, 0.0)) *
+           on_nut;
+}
+
+struct WrenchModel {
+    assets::Model model;
+    glm::dmat4 from_model{1.0};  // to the tool's frame
+};
+
+Result<WrenchModel> load_wrench_model(const content::WrenchDesign& design) {
+    if (design.model.empty())
+        return WrenchModel{tool_models::drawn_model(tool_models::parameters_of(design)), glm::dmat4(1.0)};
+    BOLT_TRY_ASSIGN(auto model, assets::read_gltf(design.model));
+    BOLT_TRY_ASSIGN(const auto turn, session::wrench_rotation(design));
+    return WrenchModel{std::move(model), glm::mat4_cast(turn)};
+}
+
+// Draws one picture after the other.
+class JointPainter {
+  public:
+    static Result<std::unique_ptr<JointPainter>> create(const content::Assembly& assembly,
+                                                        const WrenchRooms& rooms);
+
+    // Returns the bytes of a PNG file.
+    Result<std::string> draw(const WrenchRoom& room, const std::vector<Blocker>& blockers);
+
+    ~JointPainter() {
+        if (gpu_context_.device) (void)gpu_context_.device->idle();
+    }
+    JointPainter(const JointPainter&) = delete;
+    JointPainter& operator=(const JointPainter&) = delete;
+
+  private:
+    JointPainter(const content::Assembly& assembly, const WrenchRooms& rooms)
+        : assembly_(assembly), rooms_(rooms) {}
+
+    Status show_turned_part(const WrenchRoom& room, render::Scene& scene) const;
+    [[nodiscard]] FanRing ring_of(const WrenchRoom& room) const;
+    [[nodiscard]] PictureContents contents_of(const WrenchRoom& room, const FanRing& ring) const;
+    void add_labels(const WrenchRoom& room, const FanRing& ring, const std::vector<Blocker>& blockers,
+                    render::Scene& scene) const;
+
+    const content::Assembly& assembly_;
+    const WrenchRooms& rooms_;
+    text::Fonts fonts_;
+    view::LoadedModel model_;
+    WrenchModel wrench_;
+    // Each of these depends on those above it.
+    std::optional<gpu::Instance> instance_;
+    view::GpuContext gpu_context_;
+    render::EnvironmentLight light_;
+    std::unique_ptr<view::ShownModel> shown_;
+    render::GpuModel gpu_wrench_;
+};
+
+Result<std::unique_ptr<JointPainter>> JointPainter::create(const content::Assembly& assembly,
+                                                           const WrenchRooms& rooms) {
+    std::unique_ptr<JointPainter> painter(new JointPainter(assembly, rooms));
+    view::ModelLoadResult loaded = view::load_model(assembly.file);
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    painter->model_ = std::move(loaded.model);
+    BOLT_TRY_ASSIGN(painter->wrench_, load_wrench_model(assembly.wrench));
+    BOLT_TRY_ASSIGN(painter->fonts_, text::load_fonts());
+    BOLT_TRY_ASSIGN(const auto radiance, view::load_light("studio"));
+    BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create({}));
+    painter->instance_.emplace(std::move(instance));
+    render::RendererOptions renderer;
+    renderer.level_error_px = 0.5F;
+    BOLT_TRY_ASSIGN(painter->gpu_context_, view::make_gpu_context(*painter->instance_, {}, renderer));
+    gpu::Device& device = *painter->gpu_context_.device;
+    BOLT_TRY_ASSIGN(painter->light_, render::upload_environment(device, radiance));
+    BOLT_TRY_ASSIGN(painter->shown_,
+                    view::show_model(device, painter->model_, painter->light_, {true, true}));
+    BOLT_TRY_ASSIGN(painter->gpu_wrench_, render::upload_model(device, painter->wrench_.model));
+    return painter;
+}
+
+// Outlines the part that is turned, turns its hexagon into the jaw, and lets what hides it fade.
+Status JointPainter::show_turned_part(const WrenchRoom& room, render::Scene& scene) const {
+    const content::AssemblyJoint& joint = assembly_.joints[room.joint];
+    std::set<int> turned, own;
+    if (!room.turned.empty()) {
+        BOLT_TRY_ASSIGN(turned, view::nodes_of(model_.model, content::turned_node(joint)));
+    }
+    BOLT_TRY_ASSIGN(own, view::nodes_of(model_.model, joint.node));
+    const glm::mat4 turn(glm::rotate(room.to_assembly, room.turn, Vec3(0.0, 1.0, 0.0)) *
+                         glm::inverse(room.to_assembly));
+    for (render::Object& object : scene.objects) {
+        object.cut = !own.contains(object.node);
+        if (!turned.contains(object.node)) continue;
+        object.world = turn * object.world;
+        object.outline = turned_color;
+    }
+    const Vec3 middle = room.turned.empty() ? Vec3(0.0) : room.turned.middle();
+    const double radius = room.turned.empty() ? 0.02 : glm::length(room.turned.half());
+    scene.cut_away = {glm::vec3(room.to_assembly * glm::dvec4(middle, 1.0)), static_cast<float>(radius),
+                      1.0F};
+    return {};
+}
+
+FanRing JointPainter::ring_of(const WrenchRoom& room) const {
+    return {1.1 * std::hypot(room.turned.half().x, room.turned.half().z), fan_reach * rooms_.wrench.reach,
+            room.height};
+}
+
+PictureContents JointPainter::contents_of(const WrenchRoom& room, const FanRing& ring) const {
+    PictureContents contents;
+    const auto in_assembly = [&](const Vec3& p) { return Vec3(room.to_assembly * glm::dvec4(p, 1.0)); };
+    const Vec3 low = room.turned.empty() ? Vec3(-0.02) : room.turned.low;
+    const Vec3 high = room.turned.empty() ? Vec3(0.02) : room.turned.high;
+    const double radius = std::max(high.x, high.z);
+    for (int i = 0; i < 12; ++i) {
+        const double angle = i * pi / 6.0;
+        contents.visible.push_back(in_assembly(fan_point(angle, 0.9 * radius, high.y + 0.1 * mm)));
+        for (const double height : {low.y, high.y})
+            contents.framed.push_back(
+                in_assembly(fan_point(angle, (room.gripped ? 1.5 : 6.0) * radius, height)));
+    }
+    if (!room.gripped) return contents;
+    const double top = room.height + rooms_.wrench.half_thickness + 0.1 * mm;
+    for (int i = 1; i <= 8; ++i)
+        contents.visible.push_back(in_assembly(fan_point(room.handle, i / 8.0 * rooms_.wrench.reach, top)));
+    const auto add_arc = [&](double from, double to, bool is_free) {
+        for (int i = 0; i <= 24; ++i) {
+            const double angle = from + (to - from) * i / 24.0;
+            contents.framed.push_back(in_assembly(fan_point(angle, ring.outer, ring.height)));
+            if (!is_free || i % 4 != 2) continue;
+            for (const double share : {0.4, 0.8})
+                contents.visible.push_back(in_assembly(fan_point(angle, share * ring.outer, ring.height)));
+        }
+    };
+    for (const geometry::Arc& arc : room.swing.arcs) add_arc(arc.from, arc.to, true);
+    for (const geometry::BlockedArc& arc : room.swing.blocked) add_arc(arc.from, arc.to, false);
+    const glm::dmat4 pose = wrench_pose(room);
+    for (const geometry::Triangle& t : rooms_.wrench.triangles)
+        contents.framed.emplace_back(pose * glm::dvec4(t.a, 1.0));
+    return contents;
+}
+
+void JointPainter::add_labels(const WrenchRoom& room, const FanRing& ring,
+                              const std::vector<Blocker>& blockers, render::Scene& scene) const {
+    const auto add = [&](const std::string& text, double angle, const glm::vec4& color) {
+        render::Label label;
+        label.text = text;
+        label.position =
+            glm::vec3(room.to_assembly * glm::dvec4(fan_point(angle, 0.8 * ring.outer, ring.height), 1.0));
+        label.plate = color;
+        label.occluded_visibility = 1.0F;
+        scene.labels.push_back(std::move(label));
+    };
+    for (const Blocker& blocker : blockers)
+        if (blocker.total >= least_named && scene.labels.size() < most_names)
+            add(blocker.name, blocker.middle, {0.6F, 0.05F, 0.05F, 0.85F});
+    if (const geometry::Arc* arc = room.swing.widest())
+        add(fmt::format("{:.0f}°", to_degrees(arc->width())), arc->from + 0.25 * arc->width(),
+            {0.05F, 0.4F, 0.12F, 0.85F});
+}
+
+Result<std::string> JointPainter::draw(const WrenchRoom& room, const std::vector<Blocker>& blockers) {
+    gpu::Device& device = *gpu_context_.device;
+    render::Scene scene = shown_->scene;
+    BOLT_TRY(show_turned_part(room, scene));
+    const FanRing ring = ring_of(room);
+    render::GpuModel gpu_fan;
+    if (room.gripped) {
+        render::add_model(scene, wrench_.model, gpu_wrench_,
+                          glm::mat4(wrench_pose(room) * wrench_.from_model));
+        const assets::Model fan = make_swing_fan(room.swing, ring);
+        BOLT_TRY_ASSIGN(gpu_fan, render::upload_model(device, fan));
+        const std::size_t first = scene.objects.size();
+        render::add_model(scene, fan, gpu_fan, glm::mat4(room.to_assembly));
+        for (std::size_t i = first; i < scene.objects.size(); ++i) {
+            render::Object& sector = scene.objects[i];
+            const auto mesh = static_cast<FanMesh>(sector.mesh);
+            const bool is_free = mesh == FanMesh::free || mesh == FanMesh::free_rim;
+            sector.tint = is_free ? free_color : blocked_color;
+            sector.flat = true;
+            if (mesh == FanMesh::free || mesh == FanMesh::blocked) sector.opacity = fan_opacity;
+        }
+        add_labels(room, ring, blockers, scene);
+    }
+    const VkExtent2D size = joint_picture_size;
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    const view::Orbit orbit = joint_view(rooms_, room, contents_of(room, ring), static_cast<double>(aspect));
+    render::BoundingBox box = shown_->box;
+    const render::BoundingBox all = render::bounds(scene);
+    box.add(all.low);
+    box.add(all.high);
+    const render::Eye eye = view::eye_of(orbit, box, aspect);
+    view::separate_labels(fonts_, scene.labels, eye, glm::vec2(size.width, size.height));
+    BOLT_TRY_ASSIGN(
+        const auto pictures,
+        render::take_pictures(device, *gpu_context_.frames, *gpu_context_.renderer, scene, {&eye, 1}, size));
+    return assets::encode_png(static_cast<int>(size.width), static_cast<int>(size.height), 4,
+                              pictures.front().rgba);
+}
+
+}  // namespace
+
+Status draw_joint_pictures(const content::Assembly& assembly, const WrenchRooms& rooms,
+                           const fs::path& folder) {
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed)
+        return fail(ErrorCode::failed,
+                    fmt::format("{} cannot be created: {}", folder.string(), failed.message()));
+    BOLT_TRY_ASSIGN(const auto painter, JointPainter::create(assembly, rooms));
+    for (const WrenchRoom& room : rooms.joints) {
+        const std::vector<Blocker> blockers = blockers_of(rooms, room);
+        BOLT_TRY_ASSIGN(const auto png, painter->draw(room, blockers));
+        const fs::path file = folder / file_name(assembly.joints[room.joint].design.id);
+        BOLT_TRY(write_file(file, png));
+        BOLT_TRY(print(fmt::format("{}: {}\n", file.string(), description(room, blockers))));
+    }
+    return {};
+}
+
+}  // namespace bolt::author
