@@ -49,11 +49,27 @@ struct Blocker {
     double total = 0.0, widest = 0.0, middle = 0.0;  // rad
 };
 
+// The part to name for a blocked direction: the one that collides, or one in front of it, such as the casing
+// that hides a wheel.
+std::uint32_t foremost_part(const WrenchRooms& rooms, const WrenchRoom& room,
+                            const geometry::BlockedArc& arc) {
+    const double angle = 0.5 * (arc.from + arc.to);
+    const Vec3 from(room.to_assembly * glm::dvec4(0.0, room.height, 0.0, 1.0));
+    const Vec3 out = glm::normalize(Vec3(room.to_assembly * glm::dvec4(fan_point(angle, 1.0, 0.0), 0.0)));
+    const auto hit_of = [&](const geometry::SkipPart& skip) {
+        return geometry::first_hit(rooms.everything, from, out, rooms.wrench.reach, skip);
+    };
+    const auto foremost = hit_of([&](std::uint32_t part) { return room.parts.contains(part); });
+    const auto blocking = hit_of([&](std::uint32_t part) { return part != arc.part; });
+    if (!foremost || !blocking || foremost->distance >= blocking->distance) return arc.part;
+    return rooms.everything.triangles()[foremost->triangle].part;
+}
+
 // The widest first.
 std::vector<Blocker> blockers_of(const WrenchRooms& rooms, const WrenchRoom& room) {
     std::vector<Blocker> blockers;
     for (const geometry::BlockedArc& arc : room.swing.blocked) {
-        const std::string& name = rooms.scene.parts[arc.part].name;
+        const std::string& name = rooms.scene.parts[foremost_part(rooms, room, arc)].name;
         auto found = std::find_if(blockers.begin(), blockers.end(),
                                   [&](const Blocker& blocker) { return blocker.name == name; });
         if (found == blockers.end()) found = blockers.insert(blockers.end(), {name});

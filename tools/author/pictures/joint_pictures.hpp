@@ -10,7 +10,7 @@
 
 namespace bolt::author {
 
-inline constexpr VkExtent2D joint_picture_size{960, 720};
+inline constexpr VkExtent2D joint_picture_size{800, 600};
 
 // Draws FOLDER/JOINT.png for each joint in `rooms` (of check_geometry): the part that is turned, the default
 // wrench on it in the middle of its widest free swing, the free directions in green and the blocked ones in
