@@ -35,31 +35,43 @@ struct FreeSpace {
     // m along the tool's Z: the lower and the upper face of the head and of the handle. An open-end wrench,
     // which can be turned over, has the same faces either way up.
     std::array<double, 2> head{}, handle{};
-    std::array<Vec3, 8> rim{};  // points of the head that reach furthest in each direction
+    // Points of the head that reach furthest in each direction, at its lower and its upper face. Under the
+    // handle of a socket the head is narrow.
+    std::array<std::array<Vec3, 8>, 2> rims{};
 
     FreeSpace(const servo::Setup& s, const servo::ToolContact& t)
         : setup(s), contact(t), length(beyond_grip * s.wrench.handle_length) {
-        std::array<double, 8> furthest{};
         double half_thickness = 0.0;
         handle = {1e9, -1e9};
-        for (const auto& triangle : t.wrench.solid.corners)
-            for (const Vec3 p : triangle) {
-                if (p.x > 0.3 * length) {
-                    half_width = std::max(half_width, std::abs(p.y));
-                    handle = {std::min(handle[0], p.z), std::max(handle[1], p.z)};
-                    continue;
-                }
+        const auto each_point = [&](auto&& visit) {
+            for (const auto& triangle : t.wrench.solid.corners)
+                for (const Vec3 p : triangle) visit(p);
+        };
+        const auto of_handle = [&](const Vec3& p) { return p.x > 0.3 * length; };
+        each_point([&](const Vec3& p) {
+            if (of_handle(p)) {
+                half_width = std::max(half_width, std::abs(p.y));
+                handle = {std::min(handle[0], p.z), std::max(handle[1], p.z)};
+            } else {
                 half_thickness = std::max(half_thickness, std::abs(p.z));
                 head = {std::min(head[0], p.z), std::max(head[1], p.z)};
-                for (std::size_t k = 0; k < rim.size(); ++k) {
-                    const double angle = static_cast<double>(k) * pi / 4.0;
-                    const double far = p.x * std::cos(angle) + p.y * std::sin(angle);
-                    if (far <= furthest[k]) continue;
-                    furthest[k] = far;
-                    rim[k] = {p.x, p.y, 0.0};
-                }
             }
-        if (reversible(s.wrench)) head = handle = {-half_thickness, half_thickness};
+        });
+        const bool either_way_up = reversible(s.wrench);
+        each_point([&](const Vec3& p) {
+            if (of_handle(p)) return;
+            for (std::size_t face = 0; face < rims.size(); ++face)
+                if (either_way_up || (face == 0) == (p.z < handle[0])) add_to_rim(p, rims[face]);
+        });
+        if (either_way_up) head = handle = {-half_thickness, half_thickness};
+    }
+
+    static void add_to_rim(const Vec3& p, std::array<Vec3, 8>& rim) {
+        for (std::size_t k = 0; k < rim.size(); ++k) {
+            const double angle = static_cast<double>(k) * pi / 4.0;
+            const auto far = [angle](const Vec3& q) { return q.x * std::cos(angle) + q.y * std::sin(angle); };
+            if (far(p) > far(rim[k])) rim[k] = {p.x, p.y, 0.0};
+        }
     }
 
     // m, of the middle of the handle above the origin of the tool.
@@ -72,7 +84,8 @@ struct FreeSpace {
             const double margin = face == 0 ? -distance : distance;
             const Vec3 off(0.0, 0.0, handle[face] + margin);
             const Vec3 middle = pose * (Vec3(0.5 * length, 0.0, 0.0) + off);
-            for (const Vec3& side : rim) {
+            for (const Vec3& side : rims[face]) {
+                if (side == Vec3(0.0)) continue;  // this face of the head is nowhere beyond the handle
                 const Vec3 point =
                     side * (1.0 + distance / glm::length(side)) + Vec3(0.0, 0.0, head[face] + margin);
                 if (blocked(before * point, pose * point) || blocked(middle, pose * point)) return false;

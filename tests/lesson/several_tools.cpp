@@ -9,6 +9,7 @@
 #include "tests/lesson/three_tools.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"
+#include "tests/support/skip.hpp"
 
 namespace bolt::lesson::several_tools {
 
@@ -55,7 +56,10 @@ TEST_CASE("Several tools: every trainee finishes with the right tool on each nut
     const content::Assembly cover = test::cover_with_three_tools();
     for (const char* profile : {"expert", "novice", "clumsy"})
         for (const auto obstacles : {session::Obstacles::none, session::Obstacles::required}) {
-            if (test::sanitized && obstacles == session::Obstacles::required) continue;
+            if (test::sanitized && obstacles == session::Obstacles::required) {
+                test::skip_part("a lesson among obstacles takes minutes under a sanitizer");
+                continue;
+            }
             CAPTURE(profile);
             session::LessonOptions options;
             options.seed = 5;
