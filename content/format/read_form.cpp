@@ -1,5 +1,9 @@
 // The form of a joint: through-bolt, screw in a tapped hole, or stud; head, turned part, locking nut.
+#include <fmt/format.h>
+
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -44,16 +48,26 @@ joint::TappedMaterial read_tapped_material(const LayeredObject& layers) {
     return material;
 }
 
+// Returns the enumerator that the member names; none if the member is missing. Reports a name that has no
+// enumerator: the schema permits it, but no code implements it.
+template <class Enum>
+std::optional<Enum> read_name(const LayeredObject& layers, std::string_view key,
+                              std::optional<Enum> (*named)(std::string_view)) {
+    const Located<std::string> text = layers.text(key);
+    if (!text) return std::nullopt;
+    const std::optional<Enum> found = named(*text);
+    if (!found)
+        layers.reader().report(text.pointer, fmt::format("\"{}\" is not implemented", *text),
+                               "another value of the schema");
+    return found;
+}
+
 }  // namespace
 
 void read_form(const LayeredObject& layers, joint::JointDesign& design) {
     using joint::JointForm;
-    const std::string form = layers.text("form").value_or("through_bolt");
-    design.form = form == "tapped_hole" ? JointForm::tapped_hole
-                  : form == "stud"      ? JointForm::stud
-                                        : JointForm::through_bolt;
-    design.head = layers.text("head").value_or("hexagon") == "socket" ? joint::HeadShape::socket
-                                                                      : joint::HeadShape::hexagon;
+    design.form = read_name(layers, "form", joint::joint_form_named).value_or(JointForm::through_bolt);
+    design.head = read_name(layers, "head", joint::head_shape_named).value_or(joint::HeadShape::hexagon);
     const std::string turned =
         layers.text("turned").value_or(design.form == JointForm::tapped_hole ? "head" : "nut");
     design.turned = turned == "head" ? joint::TurnedPart::head : joint::TurnedPart::nut;

@@ -226,13 +226,13 @@ namespace {
 
 // Adds the members that distinguish a joint from a through-bolt whose nut is turned.
 void add_form(const joint::JointDesign& d, nlohmann::ordered_json& type) {
-    if (d.head == joint::HeadShape::socket) type["head"] = "socket";
+    if (d.head != joint::HeadShape::hexagon) type["head"] = name(d.head);
     if (d.locking_insert) type["locking_insert"] = true;
     if (!d.is_tapped()) {
         if (d.turned == joint::TurnedPart::head) type["turned"] = "head";
         return;
     }
-    type["form"] = d.form == joint::JointForm::stud ? "stud" : "tapped_hole";
+    type["form"] = name(d.form);
     const joint::TappedMaterial& part = d.hole.material;
     type["tapped_hole"] = {{"material", part.name},
                            {"E_GPa", rounded_to(part.E / 1e9, 3)},

@@ -2,9 +2,12 @@
 // levers, assembly preload and elastic compliance (VDI 2230). The joint laws are derived from it.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/math.hpp"
@@ -35,8 +38,35 @@ enum class JointForm : std::uint8_t {
     tapped_hole,   // a screw in the thread of the part behind the members
     stud           // a stud in such a thread, with a nut
 };
+inline constexpr std::array all_joint_forms{JointForm::through_bolt, JointForm::tapped_hole, JointForm::stud};
+
+// The name in assembly files.
+constexpr std::string_view name(JointForm form) {
+    constexpr std::array<std::string_view, all_joint_forms.size()> names{"through_bolt", "tapped_hole",
+                                                                         "stud"};
+    return names.at(static_cast<std::size_t>(form));
+}
+// None if no form has this name.
+constexpr std::optional<JointForm> joint_form_named(std::string_view text) {
+    for (const JointForm form : all_joint_forms)
+        if (name(form) == text) return form;
+    return std::nullopt;
+}
 
 enum class HeadShape : std::uint8_t { hexagon, socket };  // ISO 4014/4017; ISO 4762
+inline constexpr std::array all_head_shapes{HeadShape::hexagon, HeadShape::socket};
+
+// The name in assembly files and in the option --head.
+constexpr std::string_view name(HeadShape shape) {
+    constexpr std::array<std::string_view, all_head_shapes.size()> names{"hexagon", "socket"};
+    return names.at(static_cast<std::size_t>(shape));
+}
+// None if no shape has this name.
+constexpr std::optional<HeadShape> head_shape_named(std::string_view text) {
+    for (const HeadShape shape : all_head_shapes)
+        if (name(shape) == text) return shape;
+    return std::nullopt;
+}
 
 // The part that a tool turns.
 enum class TurnedPart : std::uint8_t { nut, head };

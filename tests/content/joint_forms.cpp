@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "content/format/schema.hpp"
 #include "haptics/joint/design.hpp"
 #include "support.hpp"
 
@@ -71,6 +74,20 @@ TEST_CASE("Joint forms: a file without a form is a through-bolt whose nut is tur
     CHECK(d.form == joint::JointForm::through_bolt);
     CHECK(d.turned == joint::TurnedPart::nut);
     CHECK(d.prevailing_torque == 0.0);
+}
+
+TEST_CASE("Joint forms: forms and shapes of heads have the names that the schema permits") {
+    const auto& properties = content::assembly_schema().json().at(
+        nlohmann::json::json_pointer("/definitions/joint_type/properties"));
+    const auto names = [](const auto& all) {
+        std::vector<std::string> list;
+        for (const auto one : all) list.emplace_back(name(one));
+        return list;
+    };
+    CHECK(properties.at("form").at("enum") == names(joint::all_joint_forms));
+    CHECK(properties.at("head").at("enum") == names(joint::all_head_shapes));
+    for (const joint::HeadShape shape : joint::all_head_shapes)
+        CHECK(design_of(R"("bolt_length_mm": 30, "head": ")" + std::string(name(shape)) + '"').head == shape);
 }
 
 TEST_CASE("Joint forms: mistakes are reported with their place and what would fit") {
