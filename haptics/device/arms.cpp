@@ -99,8 +99,9 @@ std::vector<ListedDevice> list_plugin_arms() {
 
 Result<std::unique_ptr<DeviceDriver>> open_listed_plugin_arm(const ListedDevice& listed,
                                                              const OpenOptions& options) {
-    return open_plugin_arm({listed.path, arm_index(listed.id), options.arm_may_move, options.waiting_arms},
-                           steady_timer());
+    return open_plugin_arm(
+        {listed.path, arm_index(listed.id), options.arm_may_move, options.unfinished_calibrations},
+        steady_timer());
 }
 
 constexpr std::array backends{

@@ -206,7 +206,7 @@ Result<std::unique_ptr<DeviceDriver>> open_listed(const std::string& id, const O
 
 DeviceFactory factory_for(std::string id, const OpenOptions& given) {
     OpenOptions kept = given;
-    if (!kept.waiting_arms) kept.waiting_arms = make_unfinished_calibrations();
+    if (!kept.unfinished_calibrations) kept.unfinished_calibrations = make_unfinished_calibrations();
     return [id = std::move(id), options = std::move(kept)]() -> Result<std::unique_ptr<DeviceDriver>> {
         if (!options.permission || !options.permission->acquire()) return open_listed(id, options);
         OpenOptions permitted = options;

@@ -55,7 +55,7 @@ struct OpenOptions {
     // `max_effector_mass`. 0: the handle that the factory has mounted.
     double effector_mass = 0.0;
     std::shared_ptr<UnfinishedCalibrations>
-        waiting_arms{};                            // keeps plug-in arms open between attempts; may be null
+        unfinished_calibrations{};                 // keeps plug-in arms open between attempts; may be null
     std::shared_ptr<MovePermission> permission{};  // factory_for() sets `arm_may_move` from it; may be null
 };
 

@@ -127,7 +127,7 @@ class DeviceThread {
     void command(const force::OutputCommand& command, bool enabled);
     const DeviceSnapshot& snapshot();
 
-    // At most 0.1 s old. One calling thread, not necessarily the servo's.
+    // At most 0.1 s old. Call it from one thread only, not necessarily the servo's.
     const DeviceStatus& status();
 
     // s since the driver's last call returned. While a driver hangs, status() is not updated.

@@ -163,8 +163,9 @@ class ForceDimensionArm final : public DeviceDriver {
             if (!options.may_move) return fail(move_permission_error(description_.name, description_.id));
             if (api_.auto_init(id_) < 0) return failure("it does not find its position");
         }
-        // Ends the regulation of the position; the forces stay on.
-        if (api_.stop_regulation(true, id_) < 0) return failure("its regulation does not end");
+        // Ends the position control; the forces stay on.
+        if (api_.stop_regulation(true, id_) < 0)
+            return failure("its position control cannot be switched off");
         if (api_.set_max_force(description_.limits.force, id_) < 0 ||
             (description_.limits.torque > 0.0 && api_.set_max_torque(description_.limits.torque, id_) < 0))
             return failure("its force cannot be limited");

@@ -161,7 +161,7 @@ Status check_type(const Json* config, const std::string& id) {
 Status check_axes(const Json* config, const std::string& id) {
     const Json* permutation = find_member(find_member(config, "basis"), "permutation");
     if (permutation == nullptr || *permutation == "XYZ") return {};
-    return fail(wrong_message(fmt::format("the axes of device {} are exchanged", id), "the basis XYZ"));
+    return fail(wrong_message(fmt::format("device {} permutes its axes (basis.permutation)", id), "XYZ"));
 }
 
 // A preset may have its origin in the middle of the reach; the others have it at the base.

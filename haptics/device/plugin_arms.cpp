@@ -72,11 +72,11 @@ Status check_axes(Description& d) {
     const bool forces = any(0), torques = any(3);
     if (forces && (d.limits.force == 0.0 || d.limits.stiffness == 0.0))
         return fail(ErrorCode::no_device, "it renders forces, but its largest force or stiffness is 0",
-                    "both, or no axes of force");
+                    "both above 0, or no force axis in bw_arm_info_v1.axes");
     if (torques && (d.limits.torque == 0.0 || d.limits.torsion == 0.0))
         return fail(ErrorCode::no_device,
                     "it renders torques, but its largest torque or torsional stiffness is 0",
-                    "both, or no axes of torque");
+                    "both above 0, or no torque axis in bw_arm_info_v1.axes");
     if (!forces) {
         d.limits.force = d.limits.damping = 0.0;
         d.limits.stiffness = force::OutputLimits{}.stiffness;
@@ -142,7 +142,7 @@ const char* fault_of(const bw_arm_state_v1& state, const Pose& pose) {
     if (!(std::abs(glm::dot(pose.orientation, pose.orientation) - 1.0) < 1e-2))
         return "it reports an orientation that is no unit quaternion";
     if (!std::isfinite(state.gripper)) return "it reports an opening of its gripper that is not finite";
-    return state.size == sizeof state ? nullptr : "it has changed the size of its state";
+    return state.size == sizeof state ? nullptr : "it has overwritten bw_arm_state_v1.size";
 }
 
 class PluginArm final : public DeviceDriver {
@@ -219,29 +219,29 @@ class PluginArm final : public DeviceDriver {
 
 }  // namespace
 
-struct WaitingArm {
+struct UnfinishedCalibration {
     ArmProcess process;
     double since = 0.0;  // s, when its calibration began
 };
 
 class UnfinishedCalibrations {
   public:
-    std::optional<WaitingArm> take(const std::string& id) {
+    std::optional<UnfinishedCalibration> take(const std::string& id) {
         const std::lock_guard lock(mutex_);
         const auto found = arms_.find(id);
         if (found == arms_.end()) return {};
-        std::optional<WaitingArm> arm(std::move(found->second));
+        std::optional<UnfinishedCalibration> arm(std::move(found->second));
         arms_.erase(found);
         return arm;
     }
-    void keep(const std::string& id, WaitingArm arm) {
+    void keep(const std::string& id, UnfinishedCalibration arm) {
         const std::lock_guard lock(mutex_);
         arms_.insert_or_assign(id, std::move(arm));
     }
 
   private:
     std::mutex mutex_;
-    std::map<std::string, WaitingArm> arms_;
+    std::map<std::string, UnfinishedCalibration> arms_;
 };
 
 std::shared_ptr<UnfinishedCalibrations> make_unfinished_calibrations() {
@@ -334,17 +334,19 @@ Result<int> count_plugin_arms(const std::filesystem::path& plugin) {
 
 Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& options, Timer timer) {
     const std::string id = plugin_arm_id(options.plugin, options.index);
-    std::optional<WaitingArm> arm = options.waiting ? options.waiting->take(id) : std::optional<WaitingArm>();
+    std::optional<UnfinishedCalibration> arm = options.unfinished_calibrations
+                                                   ? options.unfinished_calibrations->take(id)
+                                                   : std::optional<UnfinishedCalibration>();
     if (!arm) {
         BOLT_TRY_ASSIGN(auto started, ArmProcess::start(options.plugin));
         BOLT_TRY(started.call(PluginCall::open, options.index));
-        arm.emplace(WaitingArm{std::move(started), timer.now()});
+        arm.emplace(UnfinishedCalibration{std::move(started), timer.now()});
     }
     ArmProcess& process = arm->process;
     BOLT_TRY_ASSIGN(const PluginReply about, process.call(PluginCall::info));
     Result<Description> description = describe_plugin_arm(about.info, options.plugin, options.index);
     if (!description) return fail(process.error(description.error().what, description.error().expected));
-    const bool may_wait = options.waiting != nullptr;
+    const bool may_wait = options.unfinished_calibrations != nullptr;
     BOLT_TRY_ASSIGN(const PluginReply calibrated, calibrate(process, options.may_move, may_wait, timer));
     if (calibrated.result != BW_ARM_DONE) {
         const bool too_late = !may_wait || options.may_move || timer.now() - arm->since > calibration_time;
@@ -352,7 +354,7 @@ Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& op
         if (calibrated.result == BW_ARM_NEEDS_USER) arm->since = timer.now();
         const DeviceNeed need = preparation_of(error).need;
         if (may_wait && (need == DeviceNeed::user || need == DeviceNeed::wait))
-            options.waiting->keep(id, std::move(*arm));
+            options.unfinished_calibrations->keep(id, std::move(*arm));
         return fail(std::move(error));
     }
     BOLT_TRY(process.call(PluginCall::enable, 1));

@@ -33,15 +33,16 @@ struct PluginArmOptions {
     std::filesystem::path plugin;
     int index = 0;          // of the arm, from 0
     bool may_move = false;  // the arm may move by itself to find its position, if it has not done so yet
-    std::shared_ptr<UnfinishedCalibrations> waiting{};  // null: an arm that waits for its user is closed
+    std::shared_ptr<UnfinishedCalibrations>
+        unfinished_calibrations{};  // null: an arm that waits for its user is closed
 };
 
 // Opens arm `index`. The error has a need (preparation_of()) in these cases:
 // - permission: the arm must move by itself, and `may_move` is false;
 // - user: the user must act;
-// - wait: the arm still calibrates after 0.5 s. Without `waiting`, or with `may_move`, the call waits
-// instead. For user and wait, the arm stays open in `waiting` and continues its calibration at the next
-// opening.
+// - wait: the arm still calibrates after 0.5 s. Without `unfinished_calibrations`, or with `may_move`, the
+// call waits instead. For user and wait, the arm stays open in `unfinished_calibrations` and continues its
+// calibration at the next opening.
 Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& options, Timer timer);
 
 }  // namespace bolt::device

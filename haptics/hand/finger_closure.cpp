@@ -132,17 +132,17 @@ struct MovingDigit {
         return joints.position[digits[number].first + k + (number == 0 ? 0 : 1)];
     }
 
-    // Upper bound (m) of the path of a point of a link while the fractions of the joints from `first` on grow
-    // by 1.
-    [[nodiscard]] double speed(std::size_t link, std::size_t first, const Vec3& at) const {
-        double speed = 0.0;
+    // Upper bound (m) of the distance that a point of a link travels while the fractions of the joints from
+    // `first` on grow by 1.
+    [[nodiscard]] double travel_bound(std::size_t link, std::size_t first, const Vec3& at) const {
+        double bound = 0.0;
         // The distance of a joint to the point is at most the length of the bones between them.
         double reach = glm::length(at - joint_at(link));
         for (std::size_t k = link + 1; k-- > 0;) {
             if (k < link) reach += glm::length(joint_at(k + 1) - joint_at(k));
-            if (k >= first) speed += std::abs(to[k] - from[k]) * reach;
+            if (k >= first) bound += std::abs(to[k] - from[k]) * reach;
         }
-        return speed;
+        return bound;
     }
 };
 
@@ -157,8 +157,9 @@ struct DigitQuery {
 // `enough` (m) is not queried again.
 DigitQuery query_digit(MovingDigit& digit, std::size_t first, double share, double enough) {
     DigitQuery result;
-    const auto found = [&](std::size_t link, double distance, double speed) {
-        result.step = std::min(result.step, std::max(distance + edge_tolerance, 0.0) / std::max(speed, 1e-9));
+    const auto found = [&](std::size_t link, double distance, double travel) {
+        result.step =
+            std::min(result.step, std::max(distance + edge_tolerance, 0.0) / std::max(travel, 1e-9));
         if (distance >= result.deepest) return;
         result.deepest = distance;
         result.link = link;
@@ -168,22 +169,22 @@ DigitQuery query_digit(MovingDigit& digit, std::size_t first, double share, doub
         const Capsule capsule = digit.capsule_of(link);
         const double clear = capsule_clearance(digit.tool, capsule, sphere_query_distance);
         if (clear > sphere_query_distance) {
-            found(link, clear, digit.speed(link, first, capsule.to));
+            found(link, clear, digit.travel_bound(link, first, capsule.to));
             continue;
         }
         const std::size_t spheres = sphere_count(capsule);
         for (std::size_t i = 0; i < spheres; ++i) {
             const Sphere sphere = sphere_of(capsule, i, spheres);
-            const double speed = digit.speed(link, first, sphere.at);
+            const double travel = digit.travel_bound(link, first, sphere.at);
             CachedDistance& cached = digit.cached[link][i];
-            const double bound = cached.distance - speed * std::abs(share - cached.share);
+            const double bound = cached.distance - travel * std::abs(share - cached.share);
             if (bound > enough) {
-                found(link, bound, speed);
+                found(link, bound, travel);
                 continue;
             }
             const double distance = signed_distance(digit.tool, sphere.at, sphere.radius + exact_distance);
             cached = {distance - sphere.radius - digit.open_penetration[link][i], share};
-            found(link, cached.distance, speed);
+            found(link, cached.distance, travel);
         }
     }
     result.free = result.deepest >= -stop_tolerance;

@@ -70,7 +70,7 @@ class GloveDriver {
     GloveDriver& operator=(GloveDriver&&) noexcept;
     ~GloveDriver();  // stops the thread
 
-    // Each is for one calling thread.
+    // Call each of these from one thread only.
     const GloveSample& sample();
     const GloveReport& report();
 

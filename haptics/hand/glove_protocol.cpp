@@ -124,25 +124,25 @@ constexpr std::string_view unknown_command = {"e?\r\n\0", 5};
 std::vector<std::uint8_t> GloveHandshake::query_bytes() const {
     const auto bytes = [](std::string_view text) { return Bytes(text.begin(), text.end()); };
     switch (step_) {
-        case HandshakeStep::silencing:
+        case HandshakeStep::stop_streaming:
             return {stop_streaming};
-        case HandshakeStep::sensors:
+        case HandshakeStep::query_sensors:
             return bytes("?S");
-        case HandshakeStep::samples:
+        case HandshakeStep::query_samples:
             return bytes("?N");
         case HandshakeStep::set_samples:
             return {'N', static_cast<std::uint8_t>(identity_.sensors)};
-        case HandshakeStep::hand:
+        case HandshakeStep::query_side:
             return bytes("?R");
-        case HandshakeStep::plugged:
+        case HandshakeStep::query_plugged:
             return bytes("?G");
-        case HandshakeStep::version:
+        case HandshakeStep::query_version:
             return bytes("?V");
-        case HandshakeStep::no_status:
+        case HandshakeStep::disable_status:
             return {'U', 0};
-        case HandshakeStep::no_time:
+        case HandshakeStep::disable_time:
             return {'D', 0};
-        case HandshakeStep::rate:
+        case HandshakeStep::set_rate:
             return bytes(fmt::format("t {} 1\r", std::lround(ticks_per_second / options_.rate)));
         case HandshakeStep::streaming:
             return {'S'};
@@ -174,7 +174,7 @@ bool GloveHandshake::parse_reply() {
         if (match_prefix(reply_, unknown_command) == Match::yes) {
             reply_.erase(reply_.begin(),
                          reply_.begin() + static_cast<std::ptrdiff_t>(unknown_command.size()));
-            if (step_ == HandshakeStep::sensors || step_ == HandshakeStep::samples ||
+            if (step_ == HandshakeStep::query_sensors || step_ == HandshakeStep::query_samples ||
                 step_ == HandshakeStep::set_samples) {
                 fail_with("the device on the port does not report its sensors",
                           "a CyberGlove with 18 or 22 sensors");
@@ -189,10 +189,10 @@ bool GloveHandshake::parse_reply() {
         if (match == Match::incomplete) return false;
         if (match == Match::yes) {
             std::uint8_t value = 0;
-            if (step_ == HandshakeStep::version || step_ == HandshakeStep::rate) {
+            if (step_ == HandshakeStep::query_version || step_ == HandshakeStep::set_rate) {
                 const auto end = std::find(reply_.begin(), reply_.end(), 0);
                 if (end == reply_.end() && reply_.size() < longest_reply) return false;
-                if (step_ == HandshakeStep::version)
+                if (step_ == HandshakeStep::query_version)
                     for (auto c = reply_.begin() + 2; c != end; ++c)
                         if (*c >= 0x20 && *c < 0x7f) identity_.version += static_cast<char>(*c);
                 reply_.erase(reply_.begin(), end == reply_.end() ? end : end + 1);
@@ -213,20 +213,20 @@ bool GloveHandshake::parse_reply() {
 
 bool GloveHandshake::store_value(std::uint8_t value) {
     switch (step_) {
-        case HandshakeStep::sensors:
+        case HandshakeStep::query_sensors:
             identity_.sensors = value;
             if (sensors_of(value).empty()) {
                 fail_with(fmt::format("the glove has {} sensors", value), "18 or 22");
                 return false;
             }
             return true;
-        case HandshakeStep::samples:
+        case HandshakeStep::query_samples:
             samples_ = value;
             return true;
-        case HandshakeStep::hand:
+        case HandshakeStep::query_side:
             identity_.side = value != 0 ? Side::right : Side::left;
             return true;
-        case HandshakeStep::plugged:
+        case HandshakeStep::query_plugged:
             identity_.plugged = (value & 1U) != 0;
             return true;
         default:
@@ -238,26 +238,27 @@ std::vector<std::uint8_t> GloveHandshake::update(std::span<const std::uint8_t> r
     if (failed_ || done()) return {};
     if (!started_) {
         started_ = true;
-        return start_step(HandshakeStep::silencing, now);
+        return start_step(HandshakeStep::stop_streaming, now);
     }
     if (!received.empty()) last_byte_ = now;
-    if (step_ == HandshakeStep::silencing) {
-        if (now - last_byte_ >= options_.quiet_time) return start_step(HandshakeStep::sensors, now);
+    if (step_ == HandshakeStep::stop_streaming) {
+        if (now - last_byte_ >= options_.quiet_time) return start_step(HandshakeStep::query_sensors, now);
         if (now - since_ < options_.quiet_timeout) return {};
-        if (attempts_ < options_.tries) return start_step(HandshakeStep::silencing, now);
+        if (attempts_ < options_.tries) return start_step(HandshakeStep::stop_streaming, now);
         fail_with("the port is never quiet", "a CyberGlove at 115200 baud, which stops streaming on command");
         return {};
     }
     reply_.insert(reply_.end(), received.begin(), received.end());
     if (parse_reply()) {
         HandshakeStep next = static_cast<HandshakeStep>(static_cast<int>(step_) + 1);
-        if (next == HandshakeStep::set_samples && samples_ == identity_.sensors) next = HandshakeStep::hand;
+        if (next == HandshakeStep::set_samples && samples_ == identity_.sensors)
+            next = HandshakeStep::query_side;
         return start_step(next, now);
     }
     if (failed_) return {};
     if (now - since_ < options_.reply_timeout) return {};
     if (attempts_ < options_.tries) return start_step(step_, now);
-    if (step_ >= HandshakeStep::hand)
+    if (step_ >= HandshakeStep::query_side)
         return start_step(static_cast<HandshakeStep>(static_cast<int>(step_) + 1), now);
     fail_with("no device on the port answers as a glove",
               "a CyberGlove at 115200 baud; is its interface unit switched on, and is this its port?");

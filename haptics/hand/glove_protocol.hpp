@@ -128,16 +128,16 @@ class GloveHandshake {
 
   private:
     enum class HandshakeStep : std::uint8_t {
-        silencing,
-        sensors,
-        samples,
-        set_samples,
-        hand,
-        plugged,
-        version,
-        no_status,
-        no_time,
-        rate,
+        stop_streaming,
+        query_sensors,   // number of sensors
+        query_samples,   // number of values in a frame
+        set_samples,     // to the number of sensors
+        query_side,      // right or left hand
+        query_plugged,   // whether the glove is connected to its interface unit
+        query_version,   // of the firmware
+        disable_status,  // leaves the status byte out of the frames
+        disable_time,    // leaves the time out of the frames
+        set_rate,        // samples per second
         streaming
     };
     using Bytes = std::vector<std::uint8_t>;
@@ -152,7 +152,7 @@ class GloveHandshake {
     GloveIdentity identity_;
     std::optional<Error> failed_;
     Bytes reply_;
-    HandshakeStep step_ = HandshakeStep::silencing;
+    HandshakeStep step_ = HandshakeStep::stop_streaming;
     bool started_ = false;
     double since_ = 0.0, last_byte_ = 0.0;
     int attempts_ = 0;

@@ -46,13 +46,13 @@ hand::Angles hand_angles(const PerSensor<double>& angles) {
 
 void update(MeasuredHand& state, const GloveWearer& wearer, const GloveFrame& frame, double time) {
     const double gap = std::max(time - state.time, min_gap);
-    if (!state.any || gap > wearer.max_gap) state.filters = {};
+    if (!state.has_frame || gap > wearer.max_gap) state.filters = {};
     PerSensor<double> angles = sensor_angles(wearer.calibration, frame);
     for (std::size_t i = 0; i < sensor_count; ++i)
         angles[i] = filtered(state.filters[i], wearer.filter, angles[i], gap);
     state.angles = hand::clamp_to_limits(hand_angles(angles));
     state.time = std::max(state.time, time);
-    state.any = true;
+    state.has_frame = true;
 }
 
 }  // namespace bolt::hand

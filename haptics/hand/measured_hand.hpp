@@ -64,9 +64,9 @@ struct GloveWearer {
 
 struct MeasuredHand {
     PerSensor<OneEuro> filters{};
-    hand::Angles angles;  // filtered and clamped
-    double time = 0.0;    // s, time of the last frame
-    bool any = false;     // a frame has been received
+    hand::Angles angles;     // filtered and clamped
+    double time = 0.0;       // s, time of the last frame
+    bool has_frame = false;  // a frame has been received
 };
 
 inline constexpr double min_gap = 1e-3;  // s; a smaller gap between frames counts as this gap

@@ -35,7 +35,7 @@ inline Twist twist_between(const Pose& from, const Pose& to) {
     return {to.position - from.position, turn_between(from.orientation, to.orientation)};
 }
 
-// Upper bound (m) of the path of any point within `radius` of the origin during `twist`.
+// Upper bound (m) of the distance that any point within `radius` of the origin travels during `twist`.
 inline double travel(const Twist& twist, double radius) {
     return glm::length(twist.linear) + radius * glm::length(twist.angular);
 }
@@ -60,7 +60,8 @@ inline double travel(const Twist& twist, double radius, const Quat& orientation,
 // Greatest number of constraints in one call; any more are ignored.
 inline constexpr std::size_t max_constraints = 48;
 
-// The point at `arm` may move towards the obstacle by at most `slack`; below 0 it must move away.
+// The point at `arm` may move towards the obstacle by at most `slack`. If `slack` is negative, the point must
+// move away by at least −slack.
 struct Constraint {
     Vec3 arm{0.0};                      // m, from the body's origin
     Vec3 normal{0.0};                   // unit, away from the obstacle

@@ -12,8 +12,8 @@ constexpr double collision_speed = 0.5;  // m/s
 constexpr double millisecond = 1e-3;     // s
 constexpr double step_share = 0.1;       // of the greatest force, in a millisecond
 
-// Smooth saturation: linear for small x, tends to the length `most` for large x; 1.5 % below linear at half
-// of it.
+// Smooth saturation: linear for small x, tends to the length `most` for large x. If x has half that length,
+// the result is 1.5 % shorter than x.
 Vec3 saturated(const Vec3& x, double most) {
     if (most <= 0.0) return Vec3(0.0);
     const double ratio = glm::dot(x, x) / square(most);

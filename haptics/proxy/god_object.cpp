@@ -12,10 +12,11 @@ namespace bolt::proxy {
 namespace {
 
 constexpr double negligible_motion = 1e-7;  // m; a shorter motion counts as none
-constexpr double small_motion = 50e-6;      // m; after a shorter motion the rest waits for the next tick
-// m; after the first motion of a tick a shorter one waits for the next tick. It changes the force by less
-// than 0.5 % of the greatest.
-constexpr double tiny_motion = 25e-6;
+// m; the tick ends after a complete motion shorter than this. The remaining motion waits for the next tick.
+constexpr double min_motion_to_continue = 50e-6;
+// m; a further motion shorter than this waits for the next tick. It would change the force by less than 0.5 %
+// of the greatest.
+constexpr double min_further_motion = 25e-6;
 // Share of the coupling's energy. The energy grows with the square of the force, so this is a change of the
 // force by 0.05 %.
 constexpr double imperceptible_energy = 1e-3;
@@ -75,7 +76,7 @@ class Stepper {
           recovery_left_(parameters.recovery_speed * dt) {}
 
     GodObjectStep run() {
-        const double displacement = path_bound(twist_between(before_.commanded_tool, commanded_tool_));
+        const double displacement = travel_bound(twist_between(before_.commanded_tool, commanded_tool_));
         current_query_ = query(pose_, std::min(displacement, before_.nearest_contact));
         recovering_ = current_query_.nearest < 0.0;
         set_change_limits();
@@ -103,8 +104,8 @@ class Stepper {
   private:
     enum class AdvanceResult { moved, rate_limited, arrived, budget_exhausted };
 
-    // Upper bound (m) of the path of any point of the tool during a motion from the current pose.
-    [[nodiscard]] double path_bound(const Twist& motion) const {
+    // Upper bound (m) of the distance that any point of the tool travels in a motion from the current pose.
+    [[nodiscard]] double travel_bound(const Twist& motion) const {
         return p_.box ? travel(motion, p_.radius, pose_.orientation, *p_.box) : travel(motion, p_.radius);
     }
     [[nodiscard]] bool is_shorter(const Twist& part, const Twist& motion) const {
@@ -116,9 +117,9 @@ class Stepper {
     ContactQuery query(const Pose& pose, double free = 0.0) {
         const double band = std::clamp(free, p_.stride, p_.max_band);
         const ContactQuery found = query_contacts(finder_, pose, band + p_.skin + query_margin);
-        // The first query, at the pose where the last tick ended, is not charged if its band is one stride: a
-        // finder with a cache answers it without cost, and a finder without a cache must permit the same
-        // motion. A wider band is charged, because it replaces later queries.
+        // The first query, at the pose where the last tick ended, is not charged if its band is one stride. A
+        // finder with a cache answers it without cost, and the motion must not depend on whether the finder
+        // has a cache. A wider band is charged, because it replaces later queries.
         if (++step_.queries > 1 || band > p_.stride) charged_cost_ += found.cost;
         step_.query_cost += found.cost;
         return found;
@@ -318,7 +319,7 @@ class Stepper {
 
     // Returns true if the remaining motion is not worth another query.
     [[nodiscard]] bool is_negligible(const Twist& motion, double length) const {
-        return !recovering_ && ((has_moved_ && length < tiny_motion) || oscillates(motion));
+        return !recovering_ && ((has_moved_ && length < min_further_motion) || oscillates(motion));
     }
 
     void accept(const Pose& pose, const Twist& motion) {
@@ -338,16 +339,16 @@ class Stepper {
         double longest = std::max(p_.stride, certified);
         for (int attempt = 0; attempt < max_attempts; ++attempt) {
             const Twist motion = solve(wanted, rows);
-            const double length = path_bound(motion);
+            const double length = travel_bound(motion);
             if (length < negligible_motion || (attempt == 0 && is_negligible(motion, length)))
                 return AdvanceResult::arrived;
             const double share = std::min(1.0, longest / length);
             const Twist part = rate_limited_part(motion, share, rows);
-            const double displacement = path_bound(part);
+            const double displacement = travel_bound(part);
             const bool rate_limited = is_shorter(part, share * motion);
             const Pose next = moved(pose_, part);
             const bool at_commanded_pose =
-                path_bound(twist_between(next, commanded_tool_)) < negligible_motion;
+                travel_bound(twist_between(next, commanded_tool_)) < negligible_motion;
             if (displacement <= certified) {
                 accept(next, part);
                 current_query_.nearest -= displacement;
@@ -362,7 +363,7 @@ class Stepper {
             if (!too_near(next_query, next)) {
                 accept(next, part);
                 current_query_ = next_query;
-                const bool near_enough = !rate_limited && share == 1.0 && length < small_motion;
+                const bool near_enough = !rate_limited && share == 1.0 && length < min_motion_to_continue;
                 return rate_limited                       ? AdvanceResult::rate_limited
                        : at_commanded_pose || near_enough ? AdvanceResult::arrived
                                                           : AdvanceResult::moved;

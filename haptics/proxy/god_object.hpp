@@ -18,7 +18,7 @@
 
 namespace bolt::proxy {
 
-// Writes the contacts of the tool at a pose up to `band` (m); the result is as contact.hpp states.
+// Writes the contacts of the tool at a pose, up to a distance of `band` (m), as contact.hpp describes them.
 using ContactFinder =
     FunctionRef<collision::ContactQueryResult(const Pose&, double band, std::span<collision::Contact>)>;
 
@@ -49,8 +49,9 @@ struct GodObjectParameters {
     double radius = 0.3;                        // m; bounds the distance of the tool's points from its origin
     std::optional<collision::BoundingBox> box;  // bounds the tool as well, in its own frame
     double friction_coefficient = 0.15;
-    // m, kept between tool and obstacles. Features between the finder's samples are detected up to 0.19 mm
-    // late as measured (bolt-contact-validation, on the ZQ350), so the penetration stays below 0.1 mm.
+    // m, kept between tool and obstacles. The finder samples the surfaces. Between two samples the tool can
+    // be up to 0.19 mm nearer than the finder reports (measured by bolt-contact-validation, on the ZQ350), so
+    // the penetration stays below 0.1 mm.
     double skin = 110e-6;
     // m, how far a point of the tool may move until the next query. It may move further only if the last
     // query found no obstacle within that distance.
@@ -94,8 +95,9 @@ GodObjectState start_god_object(const Pose& pose);
 // Advances by one tick of `dt` (s). A motion is accepted in one of two cases. Either no point of the tool
 // travels further than the distance to the nearest obstacle, less the skin. Or no point travels further than
 // `stride`, and the query at the end of the motion finds no contact that is nearer than a fifth of the skin
-// and that the motion approached. Features that the finder detects up to 0.25 mm late are tolerated. Ignores
-// a pose that is not finite. Does not allocate.
+// and that the motion approached. A contact that the motion did not approach is tolerated if it was at most
+// 0.25 mm deep at the start, because the finder can have missed it there. Ignores a pose that is not finite.
+// Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
                               const Pose& commanded_tool, ContactFinder finder, double dt);
 

@@ -74,13 +74,14 @@ struct Output {
     std::int16_t joint = -1;  // engaged joint; −1: none
     joint::Stage stage = joint::Stage::navigation;
     double wrench_torque = 0.0;  // N·m about the bolt's axis, tightening positive
-    double nut_angle = 0.0;      // rad from the hand-started nut, tightening positive
+    double nut_angle = 0.0;      // rad, tightening positive; 0: the nut as started by hand
     double clamp = 0.0;          // clamp force, N
 
     std::int16_t slipped = -1;  // joint over whose corners the jaw slipped in this tick; −1: none
     bool clicked = false;       // the torque wrench clicked in this tick
     std::uint8_t undone = 0;    // checkpoint that was restored in this tick, 1: the newest; 0: none
-    double rounded = 0.0;       // m, of the engaged or slipped nut (joint::CornerGrip::rounded)
+    // m that the corners of the engaged or slipped nut have lost along each flat (joint::CornerGrip::rounded)
+    double rounded = 0.0;
 };
 
 }  // namespace bolt::servo

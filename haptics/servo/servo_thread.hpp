@@ -20,10 +20,10 @@ namespace bolt::servo {
 // A histogram of durations from nanoseconds to minutes, of fixed size, with log-linear bins as in
 // HdrHistogram: 1 ns below 32 ns, then 16 bins per octave, so the relative resolution is 1/16.
 struct Histogram {
-    static constexpr int fine = 4;  // bits of a value below its leading bit that select the bin
+    static constexpr int sub_bin_bits = 4;  // bits of a value below its leading bit that select the bin
     static constexpr std::uint64_t max_duration =
         (1ULL << 40) - 1;  // ns, 18 minutes; longer durations count as this
-    static constexpr std::size_t bins = (40 - fine + 1) << fine;
+    static constexpr std::size_t bins = (40 - sub_bin_bits + 1) << sub_bin_bits;
 
     std::array<std::uint64_t, bins> counts{};
     std::uint64_t count = 0;
@@ -32,16 +32,17 @@ struct Histogram {
 };
 
 constexpr std::size_t bin_of(std::uint64_t ns) {
-    const int octave = std::max(0, static_cast<int>(std::bit_width(ns)) - 1 - Histogram::fine);
-    return (static_cast<std::size_t>(octave) << Histogram::fine) + static_cast<std::size_t>(ns >> octave);
+    const int octave = std::max(0, static_cast<int>(std::bit_width(ns)) - 1 - Histogram::sub_bin_bits);
+    return (static_cast<std::size_t>(octave) << Histogram::sub_bin_bits) +
+           static_cast<std::size_t>(ns >> octave);
 }
 
 // The first value, ns, of the next bin.
 constexpr std::uint64_t end_of(std::size_t bin) {
-    constexpr std::size_t linear = 2U << Histogram::fine;
+    constexpr std::size_t linear = 2U << Histogram::sub_bin_bits;
     if (bin < linear) return bin + 1;
-    const std::size_t octave = (bin >> Histogram::fine) - 1;
-    return (static_cast<std::uint64_t>(bin - (octave << Histogram::fine)) + 1) << octave;
+    const std::size_t octave = (bin >> Histogram::sub_bin_bits) - 1;
+    return (static_cast<std::uint64_t>(bin - (octave << Histogram::sub_bin_bits)) + 1) << octave;
 }
 
 // Negative durations, from a clock that went backwards, count as 0.
@@ -141,7 +142,7 @@ struct Deadline {
 // A missed deadline is skipped, because two ticks in quick succession would be felt as a jerk. `clock` has
 // now() and sleep_until(deadline), in ns of a monotonic clock. `tick` takes a Deadline and returns false to
 // end the loop. `publish` gets the timing after every tick. The loop sleeps before every tick, even if the
-// deadline is near: the kernel suspends a real-time thread that never sleeps for 50 ms of each second
+// deadline is near: if a real-time thread never sleeps, the kernel suspends it for 50 ms of each second
 // (sched_rt_runtime_us).
 template <class Clock, class Tick, class Publish>
 void run_loop(Clock& clock, std::int64_t period, Timing& timing, Tick&& tick, Publish&& publish) {

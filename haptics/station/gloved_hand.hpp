@@ -75,7 +75,7 @@ class HandThread {
     void set_tool(const ToolPoses& tool);
     [[nodiscard]] servo::Grip grip() const;
 
-    // For one calling thread each.
+    // Call each of these from one thread only.
     const DisplayedHand& displayed();
     std::vector<std::string> fault_messages();
     const hand::GloveReport& report();  // for the thread that calls fault_messages()

@@ -12,7 +12,7 @@
 
 namespace bolt::station {
 
-// Statistics of the data between a device and the servo, counted by the servo's ticks.
+// Statistics of the data between a device and the servo, updated after each tick of the servo.
 struct LinkStats {
     // Samples after the first, including those replaced before a tick read them.
     std::uint64_t samples = 0;
@@ -40,8 +40,10 @@ struct WorkspaceOptions {
     // Unit, from the device's frame to the user's: the identity unless the device is mounted at another angle
     // than its maker intends.
     Quat rotation{1.0, 0.0, 0.0, 0.0};
-    std::optional<double> scale;        // none: fitted to the mover's reach
-    std::optional<double> power_ratio;  // none: 1/scale, so that forces keep their magnitude
+    std::optional<double> scale;  // none: fitted to the mover's reach
+    // Power at the device / power at the tool (force::WorkspaceMap); none: 1/scale, so that forces keep their
+    // magnitude.
+    std::optional<double> power_ratio;
     // The device's frame is the assembly's frame. An offset between tool and hand decays to 0
     // (WorkspaceMap::return_time).
     bool absolute = false;
@@ -92,7 +94,7 @@ class Station {
     bool next_tick(StationTick& tick);  // all ticks in order, except those of a pause; false: none yet
     [[nodiscard]] std::uint64_t lost_ticks() const;  // not read in time and dropped
 
-    // The gloved hand for display; null: none. For one calling thread.
+    // The gloved hand for display; null: none. Call it from one thread only.
     const DisplayedHand* hand();
 
     // Messages on present faults of mover, wheel, output and glove, in this order, at most 0.1 s old.

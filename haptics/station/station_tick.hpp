@@ -96,8 +96,8 @@ struct PlaceTool {
 // Stores the state of the nuts for undo. Checkpoints are saved one a tick, before a pending restore.
 struct SaveCheckpoint {};
 // Restores the n-th last checkpoint, 1 … servo::max_checkpoints. It stays pending until the servo
-// permits it (see servo::TickInput::checkpoint_action), and replaces a pending restore. More steps than
-// servo::max_checkpoints have no effect.
+// permits it (see servo::TickInput::checkpoint_action), and replaces a pending restore. A command with more
+// steps than servo::max_checkpoints is ignored.
 struct RestoreCheckpoint {
     std::uint8_t steps = 1;
 };
@@ -135,9 +135,9 @@ inline constexpr double gripper_closes_below = 0.35, gripper_opens_above = 0.55;
 struct DeviceLink {
     // Number of the last sample, and DeviceSnapshot::connection_number of the device when it was read.
     std::uint64_t number = 0, connection_number = 0;
-    double silence = 0.0;  // s since the last sample
-    bool fresh = false;    // a sample arrived in this tick
-    bool usable = false;
+    double silence = 0.0;      // s since the last sample
+    bool fresh = false;        // a sample arrived in this tick
+    bool usable = false;       // DeviceSnapshot::usable in this tick
     double force_share = 0.0;  // 0 … 1, share of the force that the device renders
 };
 
@@ -181,9 +181,9 @@ DeviceCommands tick(const DeviceLayout& layout, servo::Setup& setup, StationStat
 // The parts of tick(), in order; read_inputs() calls pivot_about_bolt().
 servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                              const StationInputs& inputs);
-// On a bolt and near it the wrench follows the end of its handle, and its jaw points to the bolt. The wrist
-// may turn freely, because a device without torque cannot hold the wrist, and a hand cannot align a jaw with
-// the bolt to 1°. `last`: the tool's pose before this tick.
+// On a bolt and near it the mover moves the end of the wrench's handle, and the wrench turns so that its jaw
+// points to the bolt. The mover's orientation has no effect, because a device without torque cannot hold the
+// wrist, and a hand cannot align a jaw with the bolt to 1°. `last`: the tool's pose before this tick.
 void pivot_about_bolt(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                       const Pose& last, double dt);
 // Moves a tool whose device senses velocity and renders no force: along with a held nut, and towards

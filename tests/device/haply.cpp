@@ -295,17 +295,17 @@ TEST_CASE("Haply: lists the arms of a service") {
     CHECK(error.message().find("the Haply service does not answer: 127.0.0.1:") == 0);
 }
 
-TEST_CASE("Haply: another arm and exchanged axes are refused, because limits and directions would be wrong") {
+TEST_CASE("Haply: another arm and permuted axes are refused, because limits and directions would be wrong") {
     CHECK(Bench({.type = "inverse3x"}).open());
     CHECK(Bench({.type = ""}).open());
     CHECK(Bench({.type = "minverse"}).error_of_opening().message() ==
           "Haply service: device 049D is no Inverse3; expected an Inverse3, whose limits are known");
-    const Bench exchanged({.basis = "XZY"});
-    CHECK(exchanged.error_of_opening().message() ==
-          "Haply service: the axes of device 049D are exchanged; expected the basis XYZ");
-    const auto listed = list_haply(exchanged.service, patience);
+    const Bench permuted({.basis = "XZY"});
+    CHECK(permuted.error_of_opening().message() ==
+          "Haply service: device 049D permutes its axes (basis.permutation); expected XYZ");
+    const auto listed = list_haply(permuted.service, patience);
     REQUIRE_FALSE(listed);
-    CHECK(listed.error().what.find("are exchanged") != std::string::npos);
+    CHECK(listed.error().what.find("permutes its axes") != std::string::npos);
 }
 
 TEST_CASE("Haply: BOLTWRIGHT_HAPLY names the service") {

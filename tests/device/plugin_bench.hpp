@@ -23,7 +23,8 @@ inline void write_text(const std::filesystem::path& file, const std::string& tex
 struct PluginBench {
     Folder folder;
     std::filesystem::path plugin = folder / "faulty_arm.so";
-    std::shared_ptr<device::UnfinishedCalibrations> waiting = device::make_unfinished_calibrations();
+    std::shared_ptr<device::UnfinishedCalibrations> unfinished_calibrations =
+        device::make_unfinished_calibrations();
     EnvironmentVariable fault_file{"FAULTY_ARM", (folder / "fault").c_str()};
 
     PluginBench() { std::filesystem::copy_file(plugins / "faulty_arm.so", plugin); }
@@ -33,7 +34,8 @@ struct PluginBench {
         std::filesystem::rename(folder / "next", folder / "fault");
     }
     [[nodiscard]] OpenedArm open(bool may_move = false) const {
-        return device::open_plugin_arm({plugin, 0, may_move, waiting}, device::steady_timer());
+        return device::open_plugin_arm({plugin, 0, may_move, unfinished_calibrations},
+                                       device::steady_timer());
     }
     [[nodiscard]] OpenedArm open_with(const std::string& fault) const {
         show(fault);

@@ -134,7 +134,9 @@ TEST_CASE("Plug-in: reports that are not finite, negative or contradictory are r
              {"infinite force", "its largest force is inf N; expected a finite number that is not negative"},
              {"negative torque",
               "its largest torque is -1 N·m; expected a finite number that is not negative"},
-             {"no stiffness", "its largest force or stiffness is 0; expected both, or no axes of force"},
+             {"no stiffness",
+              "its largest force or stiffness is 0; expected both above 0, or no force axis in "
+              "bw_arm_info_v1.axes"},
              {"slow", "it sends 50 samples a second; expected 500 or more"},
              {"late", "its delay is 3 ms; expected 0 to 2 ms at 1000 samples a second"},
              {"no reach", "its reach along y is 0 m; expected a finite number above 0"},

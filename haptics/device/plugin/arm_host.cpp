@@ -177,7 +177,8 @@ void end_after_program(int socket) {
 void run_arm_host(const std::filesystem::path& plugin, int socket) {
     end_after_program(socket);
     PluginServer(load_plugin(plugin), read_config(plugin), socket).serve();
-    ::_exit(0);  // a plug-in's own threads and destructors cannot fail any more
+    // Skips the plug-in's destructors and ends its threads, so that neither can fail here.
+    ::_exit(0);
 }
 
 }  // namespace bolt::device

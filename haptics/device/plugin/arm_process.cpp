@@ -112,10 +112,8 @@ Result<std::optional<PluginReply>> ArmProcess::reply(double timeout) {
     if (!*received) return std::optional<PluginReply>{};
     waiting_ = false;
     if (**received != sizeof replied || replied.call != function_)
-        return fail(error("its process has sent an invalid reply",
-                          fmt::format("{} bytes that begin with the called function (the plug-in may have "
-                                      "overwritten memory)",
-                                      sizeof replied)));
+        return fail(error("its process has sent an invalid reply (the plug-in may have overwritten memory)",
+                          fmt::format("{} bytes for the function that was called", sizeof replied)));
     if (replied.result >= 0) return std::optional(replied);
     // The plug-in can have overwritten any byte of its process.
     const std::string text = clean_text({replied.text, ::strnlen(replied.text, sizeof replied.text)});
