@@ -139,7 +139,7 @@ Result<TraineeSettings> parse_settings(std::string_view text, const std::string&
         read.left_handed = members.flag(root, "", "left_handed");
         read.force_scale = members.number(root, "", "force_scale", min_force_scale, 1.0);
         if (root.contains("force_arrow")) read.force_arrow = members.flag(root, "", "force_arrow");
-        if (root.contains("surroundings")) read.surroundings = members.flag(root, "", "surroundings");
+        if (root.contains("surroundings")) read.passthrough = members.flag(root, "", "surroundings");
         if (root.contains("vignette")) read.vignette = members.flag(root, "", "vignette");
         read_seat(members, root, read);
         read_law(members, root, read);
@@ -160,7 +160,7 @@ std::string settings_text(const TraineeSettings& settings) {
     root["left_handed"] = settings.left_handed;
     root["force_scale"] = settings.force_scale;
     if (!settings.force_arrow) root["force_arrow"] = false;
-    if (settings.surroundings) root["surroundings"] = true;
+    if (settings.passthrough) root["surroundings"] = true;
     if (!settings.vignette) root["vignette"] = false;
     root["seated_height_m"] = settings.seated_eye_height ? nlohmann::ordered_json(*settings.seated_eye_height)
                                                          : nlohmann::ordered_json(nullptr);

@@ -49,10 +49,11 @@ struct TraineeSettings {
     bool captions = false;
     PaletteKind palette = PaletteKind::usual;
     bool left_handed = false;
-    double force_scale = 1.0;   // min_force_scale … 1, share of the force that device and assembly permit
-    bool force_arrow = true;    // an arrow shows the force on a hand that the mouse moves freely
-    bool surroundings = false;  // headsets with passthrough show the real room in place of the workshop
-    bool vignette = true;       // a headset darkens the edge of the view while the scene moves
+    double force_scale = 1.0;  // min_force_scale … 1, share of the force that device and assembly permit
+    bool force_arrow = true;   // an arrow shows the force on a hand that the mouse moves freely
+    // "surroundings": headsets with passthrough show the real room in place of the workshop.
+    bool passthrough = false;
+    bool vignette = true;                     // a headset darkens the edge of the view while the scene moves
     std::optional<double> seated_eye_height;  // m, of the eyes above the floor; none: the trainee stands
     std::string law;                          // "mechanistic", "published"; empty: the assembly's own
     std::map<std::string, std::string> keys;  // by action; other actions have their default keys

@@ -152,7 +152,7 @@ void Headset::end_frame(const HeadsetFrame& frame, bool drawn, const DepthRange&
     if (pending_error_) (void)drop_on_error(fail(*std::exchange(pending_error_, std::nullopt)));
     if (session_)
         (void)drop_on_error(
-            session_->end_frame(frame.timing, {drawn ? &frame.view : nullptr, depth, frame.surroundings}));
+            session_->end_frame(frame.timing, {drawn ? &frame.view : nullptr, depth, frame.passthrough}));
 }
 
 void Headset::vibrate(Side side, const Vibration& vibration) {

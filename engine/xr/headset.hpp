@@ -25,8 +25,8 @@ struct HeadsetFrame {
     FrameTiming timing;
     HeadView view;  // without eyes: nothing can be drawn
     Hands hands;
-    bool focused = false;       // false: pause the lesson, output no force, hide the hands
-    bool surroundings = false;  // set by the caller; see Session::Drawn
+    bool focused = false;      // false: pause the lesson, output no force, hide the hands
+    bool passthrough = false;  // set by the caller; see Session::Drawn
     // Events since the last frame. Recentred comes with the first frame whose poses are in the new space.
     std::vector<SessionEvent> events;
 };

@@ -50,7 +50,7 @@ class Runtime final : public gpu::VulkanCreator {
     [[nodiscard]] const std::string& name() const { return name_; }        // of the runtime, with version
     [[nodiscard]] const std::string& headset() const { return headset_; }  // as the runtime calls it
     [[nodiscard]] const XrSystemProperties& properties() const { return properties_; }
-    // The blend mode that shows the surroundings behind what is drawn; none: the headset cannot show them.
+    // The blend mode that shows the real room behind what is drawn; none: the headset cannot show it.
     [[nodiscard]] std::optional<XrEnvironmentBlendMode> passthrough() const { return passthrough_; }
     [[nodiscard]] XrEnvironmentBlendMode opaque() const { return opaque_; }
     [[nodiscard]] XrViewConfigurationType view_configuration() const { return view_configuration_; }

@@ -153,9 +153,9 @@ class Session {
     struct Drawn {
         const HeadView* view = nullptr;  // the views that were drawn and recorded; null: none
         DepthRange depth;
-        // Show the surroundings behind the pictures if the headset can. The pictures then have premultiplied
+        // Show the real room behind the pictures if the headset can. The pictures then have premultiplied
         // alpha.
-        bool surroundings = false;
+        bool passthrough = false;
     };
     // Ends the frame.
     Status end_frame(const FrameTiming& frame, const Drawn& drawn);

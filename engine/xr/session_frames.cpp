@@ -278,7 +278,7 @@ Status Session::end_frame(const FrameTiming& frame, const Drawn& drawn) {
         depths[eye].farZ = drawn.depth.near;
         views[eye].next = &depths[eye];
     }
-    const bool blends = drawn.surroundings && runtime_->passthrough().has_value();
+    const bool blends = drawn.passthrough && runtime_->passthrough().has_value();
     XrCompositionLayerProjection projection{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
     projection.layerFlags = blends ? XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT : 0;
     projection.space = space_.get();

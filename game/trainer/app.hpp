@@ -31,8 +31,8 @@ struct AppOptions {
     ComputerCheck::GatherFacts gather_facts = computer::gather_facts;  // tests replace it
     StationFactory start_station = trainer::start_station;
 
-    // Called with the folder of a lesson when it starts. Removes the files of an earlier lesson that would
-    // describe another session.
+    // Called with the folder of a lesson when it starts. Removes the files of an earlier lesson, such as its
+    // report, that do not describe the new session.
     std::function<void(const std::filesystem::path&)> on_start;
     // Called when a lesson has ended, completed or not. Writes what belongs beside the session, into the same
     // folder.
@@ -81,7 +81,7 @@ class App : public view::WindowContent {
 
     [[nodiscard]] bool closed() const override { return closed_; }
     [[nodiscard]] bool scales_scene() const override { return active_.has_value() && !in_room(); }
-    [[nodiscard]] bool shows_surroundings() const override { return preferences_.settings.surroundings; }
+    [[nodiscard]] bool wants_passthrough() const override { return preferences_.settings.passthrough; }
     [[nodiscard]] render::ImageLayer window_picture(const render::Renderer& renderer) const override {
         if (in_room()) return gpu_->panel->layer();
         return gpu_->shows_enlarged ? gpu_->enlarged->layer() : renderer.picture(0);
@@ -134,7 +134,7 @@ class App : public view::WindowContent {
     void count_study_lesson();
     Status upload_lesson();
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
-    [[nodiscard]] bool in_room() const { return room_ && room_->shown; }
+    [[nodiscard]] bool in_room() const { return room_ && room_->surrounds_user; }
     void pause_unseen(bool seen);
     void place_in_room(const view::ImmersiveFrame& immersive);
     void start_registered_arm(const view::ImmersiveFrame& immersive);

@@ -126,7 +126,8 @@ Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
     outcome_.reset();
     tour_ = tour_requested_ ? std::optional(Tour{}) : std::nullopt;
     screen_ = ShownScreen::lesson;
-    menu_.first_start = false;  // The settings would tell the experimenter the condition.
+    menu_.first_start = false;
+    // In a study the settings would reveal the condition to the experimenter.
     log(study_ ? "lesson begun"
                : fmt::format("lesson begun: {} {}, {}, law {}", context_->assembly.name,
                              context_->assembly.variant, lesson::name(context_->options.mode),

@@ -92,7 +92,7 @@ void App::start_registered_arm(const view::ImmersiveFrame& immersive) {
             scale != 1.0
                 ? fmt::format("the scale of the arm is {:.2f}; expected 1 (\"scale\" in the station file)",
                               scale)
-                : "the headset has no stage, to which the arm is registered"));
+                : "the headset does not report the floor of the room; expected a room setup"));
         return;
     }
     room.arm = found->from == content::CoordinateFrame::arm ? found->pose : inverse(found->pose);
@@ -156,12 +156,12 @@ void App::place_in_room(const view::ImmersiveFrame& immersive) {
 void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
     const view::ImmersiveFrame* immersive = window.immersive;
     pause_unseen(immersive != nullptr && immersive->attentive);
-    if (room_) room_->shown = false;
+    if (room_) room_->surrounds_user = false;
     if (immersive == nullptr) return;
     if (!room_) room_.emplace();
     RoomState& room = *room_;
     // On walls a lesson by mouse is played in the window, and the walls show it.
-    room.shown = immersive->tracks_hands || !active_ || options_.choice.equipment.has_hardware();
+    room.surrounds_user = immersive->tracks_hands || !active_ || options_.choice.equipment.has_hardware();
     room.seen = immersive->attentive;
     if (immersive->tracks_hands) offer_tracked_hand(menu_.devices);
     if (immersive->recentred) {
@@ -169,7 +169,7 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
         room.touch_done = false;  // the registration may be wrong from now on
     }
     place_in_room(*immersive);
-    if (!room.shown) return;
+    if (!room.surrounds_user) return;
     if (immersive->tracks_hands) {
         // The window's pointer would compete with the hands'.
         std::erase_if(events, [](platform::InputEvent& event) { return pointer_position(event) != nullptr; });
@@ -185,7 +185,7 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
 Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& immersive) {
     const Pose place = scene_in_room();
     render::Scene scene = active_ ? active_->scene : empty_room();
-    if (immersive.can_show_surroundings && shows_surroundings()) {
+    if (immersive.has_passthrough && wants_passthrough()) {
         scene.transparent = true;
         if (active_)
             std::erase_if(scene.objects, [&](const render::Object& object) {

@@ -25,7 +25,7 @@ void App::load_trainee() {
         log(fmt::format("{} is new here; did you mean {}?", person.code, identified.similar_code));
     for (const Error& error : identified.adoption_errors) log(error.message());
     load_preferences(preferences_, person.code);
-    preferences_.shown = person.name;
+    preferences_.display_name = person.name;
     if (preferences_.file_error != Preferences::FileError::none) log(preferences_.file_error_message);
     if (!person.name.empty())
         text = person.name;

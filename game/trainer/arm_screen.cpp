@@ -38,13 +38,13 @@ std::string keys_of(const words::Words& words, const ArmScreen& screen) {
 
 void update(ArmScreen& screen, const device::ArmNeeds& needs, double seconds) {
     const bool same = needs.preparation == screen.needs.preparation && needs.moves == screen.needs.moves;
-    screen.shown = same ? screen.shown + seconds : 0.0;
+    screen.shown_for = same ? screen.shown_for + seconds : 0.0;
     screen.needs = needs;
 }
 
 ScreenAction action_of(const ArmScreen& screen, std::span<const platform::InputEvent> events,
                        bool enter_answers) {
-    const bool takes_answer = asks(screen.needs) && screen.shown >= question_time;
+    const bool takes_answer = asks(screen.needs) && screen.shown_for >= question_time;
     for (const platform::InputEvent& event : events) {
         const bool answers = enter_answers || !std::holds_alternative<platform::KeyEvent>(event);
         if (is_confirmation(event) && takes_answer && answers) return ScreenAction::permit_move;
@@ -61,7 +61,7 @@ ScreenAction draw_arm(const ScreenContext& context, const ArmScreen& screen) {
     ImGui::Separator();
     if (asks(screen.needs)) {
         draw_wrapped(keys_of(context.words, screen), muted_text);
-        ImGui::BeginDisabled(screen.shown < question_time);
+        ImGui::BeginDisabled(screen.shown_for < question_time);
         if (draw_button(context, "arm.move")) action = ScreenAction::permit_move;
         ImGui::EndDisabled();
     }

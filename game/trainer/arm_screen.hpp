@@ -18,7 +18,7 @@ inline constexpr double question_time = 0.5;
 struct ArmScreen {
     device::ArmNeeds needs;
     bool in_lesson = false;
-    double shown = 0.0;  // s
+    double shown_for = 0.0;  // s
 };
 
 // Call once a frame. New needs restart the time.

@@ -20,9 +20,9 @@
 namespace bolt::trainer {
 
 enum class Action : std::uint8_t {
-    tool,       // takes the wrench or lays it down
-    find_view,  // shows the due joint
-    whole_view,
+    tool,        // takes the wrench or lays it down
+    find_view,   // shows the due joint
+    whole_view,  // shows the whole workpiece
     hint,
     clamp_map,  // shows and hides the clamp force of every joint
     pause,

@@ -9,12 +9,12 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double wheel_step = 0.02;              // m along the view for a notch
-constexpr double wheel_step_on_bolt = 0.01;      // m along the bolt
-constexpr double wheel_turn = to_radians(30.0);  // of the fingers for a notch; below max_angular_deflection
+constexpr double notch_step = 0.02;              // m along the view for a notch
+constexpr double notch_step_on_bolt = 0.01;      // m along the bolt
+constexpr double notch_turn = to_radians(30.0);  // of the fingers for a notch; below max_angular_deflection
 // s in which the hand follows a notch of the mouse wheel. An immediate step would move the tool into the
 // workpiece at 1 m/s and make the fingers slip off the nut.
-constexpr double wheel_time = 0.1, min_notch = 1e-3;
+constexpr double notch_time = 0.1, min_notch = 1e-3;
 constexpr double finger_turn = to_radians(2.5);  // of the fingers for a pixel of drag
 constexpr double key_speed = 0.25;               // m/s
 constexpr double key_turn_speed = 1.5;           // rad/s
@@ -77,9 +77,9 @@ Vec3 handle_end(const DragScene& scene) {
 
 // The part of the pending notches that the hand follows in this frame. Notches count only while the button is
 // held.
-double smooth_wheel(DraggedHand& hand, const DragInput& input) {
+double followed_notches(DraggedHand& hand, const DragInput& input) {
     hand.scroll = input.mouse.left_down ? hand.scroll + input.mouse.scroll : 0.0;
-    const double followed = std::min(1.0, input.seconds / wheel_time) * hand.scroll;
+    const double followed = std::min(1.0, input.seconds / notch_time) * hand.scroll;
     hand.scroll = std::abs(hand.scroll - followed) < min_notch ? 0.0 : hand.scroll - followed;
     return followed;
 }
@@ -87,7 +87,7 @@ double smooth_wheel(DraggedHand& hand, const DragInput& input) {
 // Away from the viewer along the bolt for a positive number of notches.
 Vec3 along_bolt(const DragScene& scene, const Vec3& axis, double notches) {
     const double away = glm::dot(axis, view_direction(scene)) < 0.0 ? -1.0 : 1.0;
-    return notches * wheel_step_on_bolt * away * axis;
+    return notches * notch_step_on_bolt * away * axis;
 }
 
 HandShift swing_on_bolt(const DragInput& input, const DragScene& scene) {
@@ -100,7 +100,7 @@ HandShift swing_on_bolt(const DragInput& input, const DragScene& scene) {
 }
 
 HandShift twist_nut(const DragInput& input, const DragScene& scene) {
-    const double angle = finger_turn * input.mouse.left_drag.x + wheel_turn * input.mouse.scroll;
+    const double angle = finger_turn * input.mouse.left_drag.x + notch_turn * input.mouse.scroll;
     return {Vec3(0.0), -angle * scene.nut->axis};
 }
 
@@ -136,7 +136,7 @@ HandShift in_the_air(const DragInput& input, const DragScene& scene) {
     } else {
         motion.shift = in_picture(scene.projection, handle_end(scene), input.mouse.left_drag);
     }
-    motion.shift += wheel_step * input.mouse.scroll * view_direction(scene);
+    motion.shift += notch_step * input.mouse.scroll * view_direction(scene);
     return motion;
 }
 
@@ -154,17 +154,18 @@ HandShift mouse_motion(const DraggedHand& hand, const DragInput& input, const Dr
 void drag_hand(DraggedHand& hand, const DragInput& input, const DragScene& scene) {
     if (input.mouse.pressed_at) hand.grasps = scene.points_at_reachable;
     if (!input.mouse.left_down) hand.grasps = false;
-    const bool let_go = std::exchange(hand.held, input.mouse.left_down) && !hand.held;
+    const bool let_go = std::exchange(hand.button_down, input.mouse.left_down) && !hand.button_down;
     hand.easing =
         let_go && scene.wrench && scene.engaged ? ease_time : std::max(0.0, hand.easing - input.seconds);
-    if (hand.held) hand.easing = 0.0;
+    if (hand.button_down) hand.easing = 0.0;
     const bool eases = hand.easing > 0.0;
-    const bool closed = (hand.held && (hand.grasps || scene.wrench)) || input.keys.buttons != 0 || eases;
+    const bool closed =
+        (hand.button_down && (hand.grasps || scene.wrench)) || input.keys.buttons != 0 || eases;
     hand.motion.buttons = closed ? 1 : 0;
 
     hand.motion.compliance_rate = eases ? ease_compliance : scene.engaged ? 0.0 : air_compliance;
     DragInput smooth = input;
-    smooth.mouse.scroll = smooth_wheel(hand, input);
+    smooth.mouse.scroll = followed_notches(hand, input);
     // The intended pose may be far ahead of the arm only while the hand pulls the handle: only this needs the
     // arm's full force, so that the user can overtighten.
     const bool pulls = scene.engaged && smooth.mouse.scroll == 0.0;

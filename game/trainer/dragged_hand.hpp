@@ -18,10 +18,10 @@ namespace bolt::trainer {
 
 struct DraggedHand {
     device::HandMotion motion;  // sent to the arm
-    bool grasps = false;  // the left button was pressed on the wrench or the nut that the hand is beside
-    bool held = false;    // the left button, in the last frame
-    double scroll = 0.0;  // notches of the mouse wheel that the hand has still to follow
-    double easing = 0.0;  // s until the hand opens; until then it lets the wrench on the nut spring back
+    bool grasps = false;       // the left button was pressed on the wrench or the nut that the hand is beside
+    bool button_down = false;  // the left button, in the last frame
+    double scroll = 0.0;       // notches of the mouse wheel that the hand has still to follow
+    double easing = 0.0;       // s until the hand opens; until then it lets the wrench on the nut spring back
 };
 
 // The view, the tool and the nut beside it, in the assembly's frame.

@@ -133,7 +133,7 @@ constexpr ImU32 grid = IM_COL32(150, 160, 170, 60), frame_color = IM_COL32(200, 
 
 void text(const std::string& line) { ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size()); }
 
-ImU32 in_color(const glm::vec4& color, float opacity) {
+ImU32 to_imgui_color(const glm::vec4& color, float opacity) {
     return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, opacity * color.a});
 }
 
@@ -212,8 +212,8 @@ void draw_plot(const ActiveLesson& active, const words::Words& w, const glm::dve
         const ImVec2 top = place(begin, static_cast<float>(active.plot.target->high)),
                      foot = place(begin + across, static_cast<float>(active.plot.target->low));
         // Band and edges, visible without colour vision too.
-        list.AddRectFilled(top, foot, in_color(active.palette.ok, 0.24F));
-        list.AddRect(top, foot, in_color(active.palette.ok, 0.9F));
+        list.AddRectFilled(top, foot, to_imgui_color(active.palette.ok, 0.24F));
+        list.AddRect(top, foot, to_imgui_color(active.palette.ok, 0.9F));
     }
     list.AddLine(place(begin, 0.0F), place(begin + across, 0.0F), grid);
     list.AddRect(low, {low.x + area.x, low.y + area.y}, frame_color);

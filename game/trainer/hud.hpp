@@ -34,7 +34,8 @@ inline constexpr double caption_duration = 2.0;  // s
 
 struct Captions {
     std::array<double, caption_count> remaining{};  // s for which each is still shown
-    // 0 … 1 of the time, or for `groan` of the nut's angle, after which a lasting sound gets its caption.
+    // Progress of a lasting sound towards its caption, 0 … 1: how long it has sounded, or for `groan` how far
+    // the nut has crept. At 1 the caption appears.
     std::array<double, caption_count> progress{};
 };
 

@@ -28,7 +28,7 @@ struct LessonChoice {
     std::optional<joint::Law> law;  // from the command line; a choice in the menu resets it
 };
 
-// The person that the text in the menu's field for the name identifies.
+// The text in the menu's name field, and the person that it identifies.
 struct SelectedTrainee {
     std::string text;  // LessonChoice::trainee when the person was identified
     content::IdentifiedPerson identified;

@@ -315,9 +315,9 @@ ScreenAction draw_menu(const ScreenContext& context, Menu& menu, const MenuPictu
     }
     if (menu.page == MenuPage::files) return draw_files_page(context, menu.folders);
     const glm::vec2 size(context.size);
-    const std::string shown =
+    const std::string layout =
         fmt::format("{} {} {}x{} {}", choice.assembly, context.words.language, size.x, size.y, context.scale);
-    const bool wide = is_wide(size, context.scale) && menu.too_tall != shown;
+    const bool wide = is_wide(size, context.scale) && menu.single_column_for != layout;
     ImGui::SetNextWindowPos({0.0F, 0.0F});
     ImGui::SetNextWindowSize({size.x, size.y});
     ImGui::SetNextWindowBgAlpha(0.94F);
@@ -331,7 +331,7 @@ ScreenAction draw_menu(const ScreenContext& context, Menu& menu, const MenuPictu
     const WideMenu drawn = wide ? draw_wide(context, menu, pictures, choice, preferences)
                                 : WideMenu{draw_narrow(context, menu, pictures, choice, preferences), true};
     ImGui::End();
-    if (!drawn.fits) menu.too_tall = shown;
+    if (!drawn.fits) menu.single_column_for = layout;
     return drawn.action;
 }
 

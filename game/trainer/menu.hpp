@@ -28,7 +28,7 @@ struct Menu {
     glm::vec2 covered{0.0F};  // px that the menu covered in the last frame, at the left and at the bottom
     // Assembly, language and window size for which two columns did not fit: the menu is then one column that
     // scrolls.
-    std::string too_tall;
+    std::string single_column_for;
     std::optional<Error> start_error;  // why the last lesson could not start
     SelectedTrainee trainee;           // whom LessonChoice::trainee meant when it was last entered
 };

@@ -15,10 +15,10 @@ struct Preferences {
     content::SettingsVocabulary known;
 
     content::TraineeSettings settings;
-    KeyMap keys;            // parsed from settings.keys
-    std::string trainee;    // the person's code; empty: no name was entered
-    std::string shown;      // the person's name for the screen; empty: the code is shown
-    std::string file_text;  // the file's content; without a file, that of the default settings
+    KeyMap keys;               // parsed from settings.keys
+    std::string trainee;       // the person's code; empty: no name was entered
+    std::string display_name;  // the person's name for the screen; empty: the code is shown
+    std::string file_text;     // the file's content; without a file, that of the default settings
     enum class FileError : std::uint8_t { none, read_failed, write_failed } file_error = FileError::none;
     std::string file_error_message;  // with file, line and column
 };

@@ -54,10 +54,10 @@ struct RoomState {
     std::optional<TouchCheck> touch;  // checks that registration before the lesson begins
     bool touch_done = false;          // the check ended or was skipped since the room was centred
     Vignette vignette;
-    Pose drawn_scene;     // pose of the scene's frame in the room, as it was last drawn
-    bool shown = false;   // the display surrounds the user in this frame
-    bool seen = false;    // the user saw the lesson in the last frame
-    bool paused = false;  // the lesson is paused because the user does not see it
+    Pose drawn_scene;             // pose of the scene's frame in the room, as it was last drawn
+    bool surrounds_user = false;  // the display surrounds the user in this frame
+    bool seen = false;            // the user saw the lesson in the last frame
+    bool paused = false;          // the lesson is paused because the user does not see it
 };
 
 // The functions below take the bounding box of the workpiece as `box`, in the assembly's frame.

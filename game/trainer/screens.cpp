@@ -100,10 +100,11 @@ void draw_settings_file(const ScreenContext& context, const Preferences& prefere
     if (settings_file(preferences).empty())
         draw_wrapped(context.words["settings.not_kept"], muted_text);
     else if (!preferences.trainee.empty())
-        draw_wrapped(words::format_text(
-                         context.words, "settings.kept",
-                         {{"trainee", preferences.shown.empty() ? preferences.trainee : preferences.shown}}),
-                     muted_text);
+        draw_wrapped(
+            words::format_text(context.words, "settings.kept",
+                               {{"trainee", preferences.display_name.empty() ? preferences.trainee
+                                                                             : preferences.display_name}}),
+            muted_text);
 }
 
 ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode) {

@@ -111,7 +111,7 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     note_widget(context, "menu.force_scale");
     ImGui::NextColumn();
     checkbox("menu.force_arrow", settings.force_arrow);
-    checkbox("menu.surroundings", settings.surroundings);
+    checkbox("menu.surroundings", settings.passthrough);
     checkbox("menu.vignette", settings.vignette);
     ImGui::Columns(1);
     if (settings.seated_eye_height) {

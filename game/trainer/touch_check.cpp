@@ -21,14 +21,14 @@ constexpr float marker_outline = 0.8F;  // opacity
 
 void show_phase(TouchCheck& check, TouchPhase phase) {
     check.phase = phase;
-    check.shown = 0.0;
+    check.shown_for = 0.0;
 }
 
 // Collects positions for the duration of a touch, and for longer if slow frames give too few of them.
 void measure(TouchCheck& check, const std::optional<station::MoverSample>& mover) {
     const station_setup::TouchOptions options;
     if (mover) check.touched.push_back(check.room_from_arm * (mover->pose * check.tip));
-    if (mover && (check.shown < options.duration || check.touched.size() < options.min_samples)) return;
+    if (mover && (check.shown_for < options.duration || check.touched.size() < options.min_samples)) return;
     const Result<Vec3> mean = station_setup::average_touch(check.touched, options);
     check.moved = !mover || !mean;
     if (check.moved) return show_phase(check, TouchPhase::waiting);
@@ -53,7 +53,7 @@ std::optional<TouchCheck> touch_check_of(const content::Registration& registrati
 
 bool update(TouchCheck& check, const std::optional<station::MoverSample>& mover, bool confirmed,
             double seconds) {
-    check.shown += seconds;
+    check.shown_for += seconds;
     const std::uint32_t buttons = mover ? mover->buttons : ~0U;
     const bool pressed = (buttons & ~std::exchange(check.held, buttons)) != 0 && mover;
     if (check.phase == TouchPhase::measuring) {
@@ -75,7 +75,7 @@ TouchAnswer answer_of(const TouchCheck& check, std::span<const platform::InputEv
     for (const platform::InputEvent& event : events) {
         const bool answers = enter_answers || !std::holds_alternative<platform::KeyEvent>(event);
         answer.confirmed =
-            answer.confirmed || (is_confirmation(event) && answers && check.shown >= question_time);
+            answer.confirmed || (is_confirmation(event) && answers && check.shown_for >= question_time);
         answer.ended = answer.ended || is_back(event);
     }
     return answer;

@@ -30,7 +30,7 @@ struct TouchCheck {
     TouchPhase phase = TouchPhase::waiting;
     bool moved = false;         // the hand moved in the last touch
     double error = 0.0;         // m, of the result
-    double shown = 0.0;         // s for which the phase is shown
+    double shown_for = 0.0;     // s for which the phase is shown
     std::vector<Vec3> touched;  // m, positions of the tip in the room
     std::uint32_t held = ~0U;   // buttons of the arm that were held before; only another one is a press
 };

@@ -29,7 +29,9 @@ struct TrackedHandInput {
 // The closure of the hand, 0 … 1, from a button of the controller or from the fingers.
 double closure(const xr::HandInput& hand);
 
-// The pose of the palm (XR_EXT_hand_tracking's or the controller's grip), in the room; none: not tracked.
+// The pose of the palm in the room; none: not tracked. It is the controller's grip pose, or made from the
+// palm joint of XR_EXT_hand_tracking. Its axes are those of OpenXR's grip pose: X out of a left palm and into
+// a right one, Y from the fingertips to the wrist, −Z to the thumb.
 std::optional<Pose> palm_of(const xr::HandInput& hand, xr::Side side);
 
 // The pose of the fingertips in the frame of the palm (palm_of). Its axes are those of the tool of a hand

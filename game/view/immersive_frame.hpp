@@ -32,8 +32,8 @@ struct ImmersiveFrame {
     // Group i is drawn as the renderer's group immersive_group + i; a group without eyes is not drawn.
     std::vector<EyeGroup> groups;
     xr::Hands hands;
-    bool can_show_surroundings = false;  // where the picture is transparent
-    bool tracks_hands = false;           // the display has hands that can move the tool; false on walls
+    bool has_passthrough = false;  // shows the real room where the picture is transparent
+    bool tracks_hands = false;     // the display has hands that can move the tool; false on walls
     std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
 };
 

@@ -194,7 +194,7 @@ Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
     immersive.attentive = frame.focused;
     immersive.recentred = has_recentred(frame);
     immersive.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
-    immersive.can_show_surroundings = headset.runtime().passthrough().has_value();
+    immersive.has_passthrough = headset.runtime().passthrough().has_value();
     immersive.hands = frame.hands;
     immersive.tracks_hands = true;
     immersive.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
@@ -210,8 +210,8 @@ Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
         immersive.groups = {eye_group(frame.view, size)};
     }
     BOLT_TRY(content_.draw(*recorded, window));
-    // The user may have changed shows_surroundings() while the interface was drawn.
-    frame.surroundings = immersive.can_show_surroundings && content_.shows_surroundings();
+    // The user may have changed wants_passthrough() while the interface was drawn.
+    frame.passthrough = immersive.has_passthrough && content_.wants_passthrough();
     const bool drawn = !immersive.groups.empty() && !immersive.groups.front().eyes.empty();
     if (drawn) latch_eyes(frame, window, immersive);
     if (!drawn) {

@@ -68,7 +68,7 @@ class WindowContent {
     [[nodiscard]] virtual bool scales_scene() const { return false; }
     // The background of immersive pictures is transparent, to show the real room in a headset with
     // passthrough.
-    [[nodiscard]] virtual bool shows_surroundings() const { return false; }
+    [[nodiscard]] virtual bool wants_passthrough() const { return false; }
     // True once after each request to switch between window and full screen.
     [[nodiscard]] virtual bool take_full_screen_request() { return false; }
 };

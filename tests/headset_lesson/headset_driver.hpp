@@ -49,7 +49,7 @@ class HeadsetDriver final : public view::WindowContent, public RoomDriver {
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
     Status frame_while_hidden() override { return app_.frame_while_hidden(); }
     Status end() override { return app_.end(); }
-    [[nodiscard]] bool shows_surroundings() const override { return app_.shows_surroundings(); }
+    [[nodiscard]] bool wants_passthrough() const override { return app_.wants_passthrough(); }
     [[nodiscard]] bool closed() const override { return user_done_ || app_.closed(); }
 
     // As the driver of a trainee, in the trainee's thread.

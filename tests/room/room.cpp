@@ -59,18 +59,18 @@ TEST_CASE("Room: workpiece and panel stand in front of the user, and stay when t
     test::save_eyes(driver, "lesson");
 }
 
-TEST_CASE("Room: the trainee's setting shows the surroundings in place of the workshop, if the headset can") {
+TEST_CASE("Room: the trainee's setting shows the real room in place of the workshop, if the headset can") {
     const test::Folder folder;
     HeadlessTrainer driver(with_settings(tracked_hand("cover-m8"), folder,
-                                         [](content::TraineeSettings& s) { s.surroundings = true; }),
+                                         [](content::TraineeSettings& s) { s.passthrough = true; }),
                            {eye_size, 0.3F, 0.02});
-    REQUIRE_MESSAGE(driver.app().preferences().settings.surroundings,
+    REQUIRE_MESSAGE(driver.app().preferences().settings.passthrough,
                     driver.app().preferences().file_error_message);
     driver.immersive = test::standing_user(eye_size);
     driver.draw_interval = 1;
     for (const bool possible : {false, true}) {
         CAPTURE(possible);
-        driver.immersive->can_show_surroundings = possible;
+        driver.immersive->has_passthrough = possible;
         driver.frame();
         driver.frame();
         const render::Picture picture = driver.room_picture(0);
@@ -83,7 +83,7 @@ TEST_CASE("Room: the trainee's setting shows the surroundings in place of the wo
         if (!possible) CHECK(covered == pixels);
         if (possible) CHECK(clear > pixels / 3);
         if (possible) CHECK(covered > pixels / 100);  // workpiece and hand
-        test::save_eyes(driver, possible ? "surroundings" : "workshop");
+        test::save_eyes(driver, possible ? "passthrough" : "workshop");
     }
 }
 
@@ -202,7 +202,7 @@ TEST_CASE("Room: a lesson pauses while its user does not see it, and when the he
     driver.immersive.reset();
     driver.frame();
     CHECK(driver.lesson().clock.paused);
-    CHECK_FALSE(driver.app().room()->shown);
+    CHECK_FALSE(driver.app().room()->surrounds_user);
     driver.frame();
     CHECK(glm::length(driver.lesson().station->latest.output.force) == 0.0);
     // It returns where it was, and the lesson goes on.

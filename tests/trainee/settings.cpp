@@ -37,7 +37,7 @@ TraineeSettings example(std::uint64_t seed) {
     if (random.chance(0.7)) s.keys["tool"] = random.chance(0.5) ? "T" : "F1";
     if (random.chance(0.7)) s.keys["hint"] = "H";
     s.force_arrow = seed % 3 != 0;
-    s.surroundings = seed % 5 == 0;
+    s.passthrough = seed % 5 == 0;
     s.vignette = seed % 7 != 0;
     if (seed % 4 == 1) s.vibration = random.uniform();
     return s;
@@ -60,7 +60,7 @@ TEST_CASE("Settings: writing and reading round-trips to the last bit") {
         CHECK(read->left_handed == s.left_handed);
         CHECK(read->force_scale == s.force_scale);
         CHECK(read->force_arrow == s.force_arrow);
-        CHECK(read->surroundings == s.surroundings);
+        CHECK(read->passthrough == s.passthrough);
         CHECK(read->vignette == s.vignette);
         CHECK(read->seated_eye_height == s.seated_eye_height);
         CHECK(read->law == s.law);

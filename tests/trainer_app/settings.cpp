@@ -254,7 +254,7 @@ TEST_CASE("Menu: a typed name gets a code, which is shown beside it and stands i
     const auto person = content::find_person(people_folder, "Adalbert").value();
     REQUIRE(person);
     CHECK(driver.app().preferences().trainee == person->code);
-    CHECK(driver.app().preferences().shown == "Adalbert");
+    CHECK(driver.app().preferences().display_name == "Adalbert");
     driver.press_button("menu.law.published");
     driver.press_button("menu.start");
     driver.frame();

@@ -182,7 +182,7 @@ TEST_CASE("Pictures: a runtime without depth layers gets none") {
     CHECK_FALSE(drawn.frame.views[0].has_depth);
 }
 
-TEST_CASE("Pictures: the options switch depth off and the surroundings on") {
+TEST_CASE("Pictures: the options switch depth off and the passthrough on") {
     mock::Config config;
     config.blend_modes.push_back(XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND);
     const test::MockRuntime mock(config);
@@ -190,7 +190,7 @@ TEST_CASE("Pictures: the options switch depth off and the surroundings on") {
         xr::HeadsetOptions options;
         options.session.submit_depth = false;
         test::Program program(options);
-        program.set_surroundings(on);
+        program.set_passthrough(on);
         REQUIRE(program.connect());
         CHECK_FALSE(program.headset().session().uses_depth());
         (void)program.focus();
@@ -202,10 +202,10 @@ TEST_CASE("Pictures: the options switch depth off and the surroundings on") {
     }
 }
 
-TEST_CASE("Pictures: surroundings that the headset cannot show are not requested") {
+TEST_CASE("Pictures: passthrough is not requested from a headset without it") {
     const test::MockRuntime mock;
     test::Program program;
-    program.set_surroundings(true);
+    program.set_passthrough(true);
     REQUIRE(program.connect());
     (void)program.focus();
     CHECK(mock->take_frames().back().blend_mode == XR_ENVIRONMENT_BLEND_MODE_OPAQUE);

@@ -122,7 +122,7 @@ std::optional<xr::HeadsetFrame> Program::frame() {
         REQUIRE(vkQueueSubmit(device_->queue(), 1, &submit, VK_NULL_HANDLE) == VK_SUCCESS);
         drawn = true;
     }
-    frame->surroundings = surroundings_;
+    frame->passthrough = passthrough_;
     headset_->end_frame(*frame, drawn, depth_);
     return frame;
 }

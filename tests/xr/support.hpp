@@ -34,7 +34,7 @@ class Program {
     // The pictures that frame() submits; the default is a picture of the recommended size in one colour for
     // each eye.
     void set_pictures(std::vector<xr::EyePicture> pictures) { pictures_ = std::move(pictures); }
-    void set_surroundings(bool shown) { surroundings_ = shown; }
+    void set_passthrough(bool shown) { passthrough_ = shown; }
     void set_depth_range(const xr::DepthRange& range) { depth_ = range; }
     // Is called in each frame between the recording of the pictures and their submission.
     std::function<void()> while_drawing;
@@ -58,7 +58,7 @@ class Program {
     std::deque<gpu::Image> images_;
     std::vector<xr::EyePicture> pictures_;
     xr::DepthRange depth_;
-    bool surroundings_ = false;
+    bool passthrough_ = false;
 };
 
 }  // namespace bolt::test
