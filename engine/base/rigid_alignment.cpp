@@ -197,7 +197,7 @@ Result<RigidAlignment> align_points(std::span<const PointPair> pairs, const Alig
     return result;
 }
 
-std::vector<std::optional<double>> left_out_residuals(std::span<const PointPair> pairs) {
+std::vector<std::optional<double>> leave_one_out_residuals(std::span<const PointPair> pairs) {
     std::vector<std::optional<double>> residuals;
     std::vector<PointPair> others;
     for (std::size_t i = 0; i < pairs.size(); ++i) {

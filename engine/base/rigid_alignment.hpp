@@ -65,7 +65,7 @@ Result<RigidAlignment> align_points(std::span<const PointPair> pairs, const Alig
 // Returns for each point the distance, m, between its measured position in `to` and the position that an
 // alignment of the other points predicts; none if the others cannot be aligned. RigidAlignment::rms is
 // s·√3·√(1 − 2/n) for noise s and is a poor measure of the pose's error; these distances include that error.
-std::vector<std::optional<double>> left_out_residuals(std::span<const PointPair> pairs);
+std::vector<std::optional<double>> leave_one_out_residuals(std::span<const PointPair> pairs);
 
 // A tool that was turned about its tip while the tip stayed on one point.
 struct PivotFit {

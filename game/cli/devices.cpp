@@ -115,7 +115,7 @@ Result<std::string> examine_device(const DevicesOptions& options) {
 void ask_for_stiffness(const device::Description& d, bool yes, station_setup::DeviceCheckOptions& options) {
     const double force = station_setup::trial_force(d, options.bounds);
     if (force <= 0.0) return;
-    options.pushes = ask(
+    options.measures_stiffness = ask(
         fmt::format(
             "{} pushes the hand with {:.1f} N at most, for about {:.0f} s. Hold its handle in the middle of "
             "its reach{}. May it push?",
@@ -124,9 +124,9 @@ void ask_for_stiffness(const device::Description& d, bool yes, station_setup::De
                 ? fmt::format(", and its button {}", std::countr_zero(options.dead_man) + 1)
                 : ""),
         yes);
-    options.no_stiffness = has_terminal()
-                               ? "it may not push the hand"
-                               : "it pushes the hand, which needs permission: use a terminal or --yes";
+    options.why_not_measured = has_terminal()
+                                   ? "it may not push the hand"
+                                   : "it pushes the hand, which needs permission: use a terminal or --yes";
 }
 
 Result<std::string> examine_glove(const std::string& port, double seconds) {

@@ -90,13 +90,14 @@ std::string end_of(const station::StiffnessTrial& trial) {
 }
 
 std::string stiffness_report(const DeviceCheck& check) {
-    if (!check.stiffness) return fmt::format("  stiffness not measured: {}\n", check.no_stiffness);
+    if (!check.stiffness) return fmt::format("  stiffness not measured: {}\n", check.why_not_measured);
     const station::StiffnessTrial& trial = *check.stiffness;
     std::string text =
         trial.stable > 0.0
             ? fmt::format("  stable on this computer up to {:.2g} N/mm of the reported {:.2g} N/mm: {}\n",
                           1e-3 * trial.stable, 1e-3 * trial.limits.stiffness, end_of(trial))
-            : fmt::format("  stable on this computer with no stiffness that was tried: {}\n", end_of(trial));
+            : fmt::format("  not stable on this computer at any stiffness that was tried: {}\n",
+                          end_of(trial));
     if (const auto response = median_response(trial))
         text += fmt::format(
             "  the handle moves by 0.03 mm within {:.0f} ms of a command (median of {} steps of {:.2g} N; "
@@ -128,14 +129,14 @@ Result<DeviceCheck> check_device(device::DeviceThread& thread, const DeviceCheck
     }
     check.seconds = checked.timer.now() - begun;
     check.samples = checked.samples;
-    check.no_stiffness = options.no_stiffness;
+    check.why_not_measured = options.why_not_measured;
     if (trial_force(check.description, {}) <= 0.0) {
-        check.no_stiffness = "it renders no force";
-    } else if (options.pushes) {
+        check.why_not_measured = "it renders no force";
+    } else if (options.measures_stiffness) {
         checked.trial = station::begin_stiffness_trial(check.description);
         checked.dead_man = check.description.buttons > 0 ? options.dead_man : 0;
-        BOLT_TRY_ASSIGN(check.no_stiffness, wait_for_trial(checked, options.stop));
-        if (check.no_stiffness.empty()) check.stiffness = std::move(checked.trial);
+        BOLT_TRY_ASSIGN(check.why_not_measured, wait_for_trial(checked, options.stop));
+        if (check.why_not_measured.empty()) check.stiffness = std::move(checked.trial);
     }
     const device::DeviceStatus& status = thread.status();
     if (status.state != device::DeviceState::usable)
@@ -162,9 +163,8 @@ std::string device_check_report(const DeviceCheck& check) {
     if (check.malformed_samples > 0) text += fmt::format("  {} malformed reports\n", check.malformed_samples);
     if (check.age.count > 0)
         text += fmt::format(
-            "  a sample is {:.2f} ms old when a tick of the servo takes it (median; 99 %: {:.2f} ms), from "
-            "the "
-            "driver's reading on\n",
+            "  from the driver's reading of a sample until a servo tick takes it: {:.2f} ms (median; 99 %: "
+            "{:.2f} ms)\n",
             1e3 * servo::quantile(check.age, 0.5), 1e3 * servo::quantile(check.age, 0.99));
     if (check.writes > 0)
         text += fmt::format("  the driver takes a command in {:.3f} ms (mean of {}; longest {:.2f} ms)\n",

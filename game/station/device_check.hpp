@@ -22,15 +22,14 @@ struct DeviceCheck {
     std::uint64_t writes = 0;
     double mean_write = 0.0, longest_write = 0.0;
     std::optional<station::StiffnessTrial> stiffness;
-    std::string no_stiffness;  // why it was not measured
+    std::string why_not_measured;  // the stiffness; empty: it was measured
 };
 
 struct DeviceCheckOptions {
     double seconds = 1.0;  // in which samples are counted
-    // Measure the stiffness: the user has agreed that the arm pushes the hand. Otherwise `no_stiffness`
-    // states the reason.
-    bool pushes = false;
-    std::string no_stiffness;
+    // True: the user has agreed that the arm pushes the hand. False: `why_not_measured` states the reason.
+    bool measures_stiffness = false;
+    std::string why_not_measured;
     force::LimitBounds bounds;  // of the station file
     std::uint32_t dead_man =
         1;  // mask of the buttons that permit the force; a device without them needs none

@@ -12,14 +12,14 @@ std::string pair_name(const content::Registration& one) {
     return fmt::format("{} -> {}", content::name(one.from), content::name(one.to));
 }
 
-// Number, from 1, of the point with the largest left-out residual; 0 if no point has one, as with three
+// Number, from 1, of the point with the largest leave-one-out residual; 0 if no point has one, as with three
 // points.
 std::size_t worst_point(const MeasuredRegistration& measured) {
     std::size_t worst = 0;
     double most = 0.0;
-    for (std::size_t i = 0; i < measured.left_out.size(); ++i) {
-        if (measured.left_out[i].value_or(0.0) <= most) continue;
-        most = *measured.left_out[i];
+    for (std::size_t i = 0; i < measured.leave_one_out.size(); ++i) {
+        if (measured.leave_one_out[i].value_or(0.0) <= most) continue;
+        most = *measured.leave_one_out[i];
         worst = i + 1;
     }
     return worst;
@@ -36,7 +36,7 @@ Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, cont
     BOLT_TRY_ASSIGN(const RigidAlignment aligned, align_points(fitted));
     MeasuredRegistration measured;
     measured.residuals = aligned.residuals;
-    measured.left_out = left_out_residuals(fitted);
+    measured.leave_one_out = leave_one_out_residuals(fitted);
     measured.scale = aligned.scale;
     measured.thickness_ratio = aligned.thickness_ratio;
     content::Registration& one = measured.registration;
@@ -46,7 +46,7 @@ Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, cont
     one.pose = aligned.pose;
     one.points = static_cast<int>(fitted.size());
     one.rms = aligned.rms;
-    one.largest_left_out = largest(measured.left_out);
+    one.largest_left_out = largest(measured.leave_one_out);
     one.check_point = pairs.back();
     measured.check_error = content::check_error(one).value_or(0.0);
     return measured;
@@ -55,15 +55,16 @@ Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, cont
 std::string describe(const MeasuredRegistration& measured) {
     const content::Registration& one = measured.registration;
     std::string text =
-        fmt::format("{}, {} points\n  point   residual   left out\n", pair_name(one), one.points);
+        fmt::format("{}, {} points\n  point   residual   leave-one-out\n", pair_name(one), one.points);
     for (std::size_t i = 0; i < measured.residuals.size(); ++i)
-        text += fmt::format(
-            "  {:>5}  {:>6.1f} mm  {}\n", i + 1, measured.residuals[i] / mm,
-            measured.left_out[i] ? fmt::format("{:>6.1f} mm", *measured.left_out[i] / mm) : "     -");
+        text += fmt::format("  {:>5}  {:>6.1f} mm  {}\n", i + 1, measured.residuals[i] / mm,
+                            measured.leave_one_out[i]
+                                ? fmt::format("{:>6.1f} mm", *measured.leave_one_out[i] / mm)
+                                : "     -");
     text += fmt::format("  rms {:.1f} mm, at most {:.0f}; scale {:.4f}\n", one.rms / mm, max_rms / mm,
                         measured.scale);
     if (one.largest_left_out)
-        text += fmt::format("  largest left-out residual {:.1f} mm\n", *one.largest_left_out / mm);
+        text += fmt::format("  largest leave-one-out residual {:.1f} mm\n", *one.largest_left_out / mm);
     return text + fmt::format("  check point {:.1f} mm, at most {:.0f}\n", measured.check_error / mm,
                               max_check_error / mm);
 }

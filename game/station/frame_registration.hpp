@@ -21,10 +21,12 @@ inline constexpr std::size_t advised_points = 6;
 
 struct MeasuredRegistration {
     content::Registration registration;
-    std::vector<double> residuals;                // m, of each point but the check point
-    std::vector<std::optional<double>> left_out;  // m, left_out_residuals() of the same points
-    double check_error = 0.0;                     // m, of the check point
-    double scale = 1.0, thickness_ratio = 0.0;    // of RigidAlignment
+    std::vector<double> residuals;  // m, of each point but the check point
+    // m, leave_one_out_residuals() of the same points: from each point to where the other points predict it.
+    std::vector<std::optional<double>> leave_one_out;
+    double check_error = 0.0;      // m, of the check point
+    double scale = 1.0;            // RigidAlignment::scale
+    double thickness_ratio = 0.0;  // RigidAlignment::thickness_ratio; 0: the points lie in a plane
 };
 
 // The last pair is the check point: it is not used for the pose. Fails with fewer than four pairs, or as

@@ -71,8 +71,9 @@ Result<content::GloveCalibration> find_calibration(const std::string& trainee,
                                                    const std::filesystem::path& folder = {});
 
 // The pose of the wrist, in the tool's frame, of a hand around the handle at `along` m from the jaw, thumb
-// towards the jaw, palm on the side of the tool's normal. Selects, among poses near a natural grip, the pose
-// at which the most closures of the hand grasp the handle; if several are equal, the nearest.
+// towards the jaw, palm on the side of the tool's normal. Tries poses near a natural one with several
+// closures of the hand. Returns the pose at which the hand grasps the handle with the most of them; of equal
+// poses, the one nearest to the natural one.
 Pose wrist_at_handle(const hand::Hand& hand, const collision::ToolShape& tool, double along);
 
 // The gloved hand at the assembly's wrench. Fails if the wrench has no contact model.

@@ -12,8 +12,9 @@ namespace bolt::station_setup {
 
 namespace {
 
-// s. Device reports are up to 0.1 s old, and the loss of a device produces several messages in turn.
-constexpr double onset = 0.3;
+// s; a fault that lasts for less is dropped when another one begins (update_episodes), because the loss of a
+// device produces several messages in turn. Device reports are up to 0.1 s old.
+constexpr double same_fault_time = 0.3;
 constexpr double poll_period = 0.02;         // s
 constexpr double supervisor_silence = 0.25;  // s of silence that the device supervisor reports itself
 
@@ -100,8 +101,9 @@ void update_episodes(std::vector<Episode>& episodes, std::span<const std::string
                             [&](const Episode& e) { return !e.until && e.message == message; });
     };
     if (std::any_of(fault_messages.begin(), fault_messages.end(), is_new))
-        std::erase_if(episodes,
-                      [&](const Episode& e) { return !e.until && time - e.from < onset && !persists(e); });
+        std::erase_if(episodes, [&](const Episode& e) {
+            return !e.until && time - e.from < same_fault_time && !persists(e);
+        });
     for (Episode& e : episodes) {
         if (e.until || persists(e)) continue;
         e.until = time;

@@ -102,7 +102,7 @@ TEST_CASE("Rigid alignment: exact points give the exact pose, without residuals"
         REQUIRE(aligned->pose.orientation.w >= 0.0);
         REQUIRE(aligned->rms < 1e-13);
         REQUIRE(std::abs(aligned->scale - 1.0) < 1e-12);
-        for (const auto& residual : left_out_residuals(pairs))
+        for (const auto& residual : leave_one_out_residuals(pairs))
             if (residual) REQUIRE(*residual < 1e-11);
     }
 }
@@ -200,7 +200,7 @@ TEST_CASE("Rigid alignment: the rms hides the error of the pose, and the points 
         for (const unsigned i : {0U, 3U, 5U, 6U})
             pairs.push_back({corner(i), corner(i) + noise(random, sigma)});
         rms += square(align_points(pairs, any_scale)->rms) / trials;
-        for (const auto& residual : left_out_residuals(pairs))
+        for (const auto& residual : leave_one_out_residuals(pairs))
             left_out += square(residual.value()) / (4.0 * trials);
     }
     CHECK(std::sqrt(rms) ==
@@ -218,7 +218,7 @@ TEST_CASE("Rigid alignment: one point that is wrong has the largest left-out res
             pairs.push_back({corner(i), pose * corner(i) + noise(random, 0.5e-3)});
         const auto wrong = static_cast<std::size_t>(trial % 8);
         pairs[wrong].to += 0.02 * random_direction(random);
-        const auto residuals = left_out_residuals(pairs);
+        const auto residuals = leave_one_out_residuals(pairs);
         REQUIRE(largest(residuals) == residuals[wrong]);
         REQUIRE(*residuals[wrong] > 0.015);
     }
@@ -251,7 +251,7 @@ TEST_CASE("Rigid alignment: fewer than three points, and sets near a line, are r
                                          {{0.1, 0, 0}, {0.1, 0, 0}},
                                          {{0.2, 0, 0}, {0.2, 0, 0}},
                                          {{0, 0.2, 0}, {0, 0.2, 0}}};
-    const auto residuals = left_out_residuals(flat);
+    const auto residuals = leave_one_out_residuals(flat);
     CHECK(residuals[0].has_value());
     CHECK(!residuals[3].has_value());
     CHECK(!largest(residuals));

@@ -36,7 +36,7 @@ says() {  # says 'pattern' OUTPUT
 }
 output=$(doctor)
 check 'doctor measures rate and age of samples' says 'sent [0-9]+ samples a second' "$output"
-check 'doctor measures the age of samples' says 'a sample is [0-9.]+ ms old when a tick of the servo takes it' "$output"
+check 'doctor measures the age of samples' says 'until a servo tick takes it: [0-9.]+ ms' "$output"
 check 'nobody is pushed without consent' says 'stiffness not measured: it pushes the hand, which needs permission: use a terminal or --yes' "$output"
 check 'nobody is pushed without the button' says 'not measured: its button was not held' "$(doctor --yes)"
 output=$(answers n "$bin/boltwright" doctor cover-m8 --device $arm --seconds 0.5)

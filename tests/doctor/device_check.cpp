@@ -24,7 +24,7 @@ DeviceCheck checked_arm() {
     check.writes = 10;
     check.mean_write = 0.02e-3;
     check.longest_write = 1.25e-3;
-    check.no_stiffness = "it may not push the hand";
+    check.why_not_measured = "it may not push the hand";
     return check;
 }
 
@@ -36,7 +36,7 @@ TEST_CASE("Device check: the report has what was measured, and why the rest was 
     CHECK(has(text, "  calibrated\n"));
     CHECK(has(text, "  motors at 90 % of their greatest heat: rest the arm\n"));
     CHECK(has(text, "  sent 999 samples a second\n"));
-    CHECK(has(text, "  a sample is 0.5"));
+    CHECK(has(text, "until a servo tick takes it: 0.5"));
     CHECK(has(text, "  the driver takes a command in 0.020 ms (mean of 10; longest 1.25 ms)\n"));
     CHECK(has(text, "  stiffness not measured: it may not push the hand\n"));
 
@@ -54,9 +54,10 @@ TEST_CASE("Device check: the report has what was measured, and why the rest was 
     check.stiffness->level = 0;
     check.stiffness->end = station::TrialEnd::fault;
     check.stiffness->fault = force::Fault::too_fast;
-    CHECK(has(device_check_report(check),
-              "no stiffness that was tried: at 0.2 N/mm the force was blocked: the "
-              "device moves too fast\n"));
+    CHECK(
+        has(device_check_report(check),
+            "not stable on this computer at any stiffness that was tried: at 0.2 N/mm the force was blocked: "
+            "the device moves too fast\n"));
 }
 
 TEST_CASE("Device check: a device without force is examined without its stiffness") {
@@ -67,11 +68,11 @@ TEST_CASE("Device check: a device without force is examined without its stiffnes
     CHECK(trial_force(**thread->wait_until_open(0.0), {}) == 0.0);
     DeviceCheckOptions options;
     options.seconds = 0.05;
-    options.pushes = true;
+    options.measures_stiffness = true;
     const auto check = check_device(*thread, options);
     REQUIRE_MESSAGE(check, (check ? "" : check.error().message()));
     CHECK_FALSE(check->stiffness);
-    CHECK(check->no_stiffness == "it renders no force");
+    CHECK(check->why_not_measured == "it renders no force");
     CHECK(check->seconds >= 0.05);
 }
 
@@ -83,7 +84,7 @@ TEST_CASE("Device check: an arm whose button is not held is not pushed") {
     REQUIRE(thread->wait_until_open(60.0));
     DeviceCheckOptions options;
     options.seconds = 0.2;
-    options.pushes = true;
+    options.measures_stiffness = true;
     int looks = 0;
     options.stop = [&] { return ++looks > 40; };
     const auto check = check_device(*thread, options);
@@ -91,5 +92,5 @@ TEST_CASE("Device check: an arm whose button is not held is not pushed") {
     CHECK(check->samples > 0);
     CHECK(check->age.count > 0);
     CHECK_FALSE(check->stiffness);
-    CHECK(check->no_stiffness == "it was interrupted");
+    CHECK(check->why_not_measured == "it was interrupted");
 }

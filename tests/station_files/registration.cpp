@@ -165,7 +165,7 @@ TEST_CASE("Registration: what an alignment gives is always accepted by the reade
         one.pose = aligned->pose;
         one.points = static_cast<int>(pairs.size());
         one.rms = aligned->rms;
-        one.largest_left_out = largest(left_out_residuals(pairs));
+        one.largest_left_out = largest(leave_one_out_residuals(pairs));
         StationFile station;
         station.registrations.push_back(one);
         const auto again = parse_station(station_json(station), "s.json");
