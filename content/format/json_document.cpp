@@ -130,7 +130,7 @@ class JsonBuilder {
 
     bool key(std::string& value) {
         key_offset_ = next_token();
-        before_ = ParserState::key;
+        last_token_ = ParserState::key;
         if (value.empty()) return stop_at(key_offset_, "an empty name", "a name of at least one letter");
         if (value.size() > json_key_limit)
             return stop_at(key_offset_, "a name of more than 128 bytes", "a shorter name");
@@ -158,7 +158,7 @@ class JsonBuilder {
     }
 
     bool parse_error(std::size_t, const std::string&, const json::exception&) {
-        ParserStop where{end_, before_, {}, misclosed_};
+        ParserStop where{end_, last_token_, {}, misclosed_};
         if (!stack_.empty()) where.open = document_.content_->entries[stack_.back().entry].value_offset;
         const SyntaxError mistake =
             explain_syntax(text_, where, [&](std::size_t offset) { return document_.place(offset); });
@@ -206,9 +206,10 @@ class JsonBuilder {
 
     void value_read() {
         if (stack_.empty())
-            before_ = ParserState::end;
+            last_token_ = ParserState::end;
         else
-            before_ = stack_.back().value->is_object() ? ParserState::object_value : ParserState::array_value;
+            last_token_ =
+                stack_.back().value->is_object() ? ParserState::object_value : ParserState::array_value;
     }
 
     json* store(json value) {
@@ -257,7 +258,7 @@ class JsonBuilder {
             return stop_at(document_.content_->entries[index].value_offset,
                            fmt::format("nested more than {} levels deep", json_depth_limit), {});
         stack_.push_back({slot, index, none, key_, indent_});
-        before_ = object ? ParserState::object_open : ParserState::array_open;
+        last_token_ = object ? ParserState::object_open : ParserState::array_open;
         return true;
     }
 
@@ -277,7 +278,7 @@ class JsonBuilder {
     JsonDocument& document_;
     std::vector<Error>& errors_;
     std::size_t end_;  // byte after the last token read
-    ParserState before_ = ParserState::start;
+    ParserState last_token_ = ParserState::start;
     std::vector<OpenBracket> stack_;
     bool first_on_line_ = false;  // of the last token
     std::size_t indent_ = 0;      // of the last token's line

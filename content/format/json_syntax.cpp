@@ -142,8 +142,8 @@ struct ExpectedToken {
     std::string words;  // description of the permitted tokens
 };
 
-ExpectedToken expected_after(ParserState before) {
-    switch (before) {
+ExpectedToken expected_after(ParserState last_token) {
+    switch (last_token) {
         case ParserState::start:
             return {false, true, "'{'"};
         case ParserState::object_open:
@@ -222,12 +222,12 @@ std::size_t token_end(std::string_view text, std::size_t start) {
 }
 
 SyntaxError explain_syntax(std::string_view text, const ParserStop& stop, const FormatPlace& place) {
-    const ParserState before = stop.before;
-    ExpectedToken expected_token = expected_after(before);
+    const ParserState last_token = stop.last_token;
+    ExpectedToken expected_token = expected_after(last_token);
     std::size_t p = skip_space(text, stop.end);
     // In a list, a comma between two numbers is probably a separator and not a decimal comma.
-    if (before == ParserState::object_value ||
-        (before == ParserState::array_value && p < text.size() && text[p] != ','))
+    if (last_token == ParserState::object_value ||
+        (last_token == ParserState::array_value && p < text.size() && text[p] != ','))
         if (auto mistake = number_mistake(text, stop.end)) return *mistake;
     const auto unclosed = [&](SyntaxError mistake) {
         if (!stop.open) return mistake;
@@ -248,13 +248,13 @@ SyntaxError explain_syntax(std::string_view text, const ParserStop& stop, const 
     };
     if (p >= text.size()) return premature_end();
     // Skip a valid separator; the error is after it.
-    if (before == ParserState::key && text[p] == ':') {
+    if (last_token == ParserState::key && text[p] == ':') {
         expected_token = {false, true, "a value"};
         p = skip_space(text, p + 1);
     } else if (text[p] == ',' &&
-               (before == ParserState::object_value || before == ParserState::array_value)) {
+               (last_token == ParserState::object_value || last_token == ParserState::array_value)) {
         const std::size_t comma = p;
-        const bool object = before == ParserState::object_value;
+        const bool object = last_token == ParserState::object_value;
         expected_token = {object, !object, object ? "a name in double quotes" : "a value"};
         p = skip_space(text, p + 1);
         if (p < text.size() && text[p] == (object ? '}' : ']'))
@@ -263,13 +263,13 @@ SyntaxError explain_syntax(std::string_view text, const ParserStop& stop, const 
     }
     if (p >= text.size()) return premature_end();
     SyntaxError mistake = token_mistake(text, p, expected_token, place);
-    if (!stop.open || before == ParserState::key) return mistake;
+    if (!stop.open || last_token == ParserState::key) return mistake;
     // A bracket of the other kind, a name in a list or an object in place of a name: the enclosing bracket
     // should have been closed before.
     const bool in_object = text[*stop.open] == '{';
     const bool is_misnested =
         in_object ? text[p] == ']' || (expected_token.key && (text[p] == '{' || text[p] == '['))
-                  : text[p] == '}' || (text[p] == ':' && before == ParserState::array_value);
+                  : text[p] == '}' || (text[p] == ':' && last_token == ParserState::array_value);
     return is_misnested ? unclosed(std::move(mistake)) : mistake;
 }
 

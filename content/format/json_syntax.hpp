@@ -17,12 +17,13 @@ struct SyntaxError {
     std::string expected;
 };
 
-// The position of the parser when it stopped, between the last token read and the next.
+// The last token that the parser read before it stopped, besides commas and colons: none, `{`, `[`, a key, a
+// value in an object, a value in an array, or the whole document.
 enum class ParserState { start, object_open, array_open, key, object_value, array_value, end };
 
 struct ParserStop {
     std::size_t end = 0;  // byte after the last valid token
-    ParserState before = ParserState::start;
+    ParserState last_token = ParserState::start;
     std::optional<std::size_t> open;     // offset of the innermost open bracket
     std::optional<std::size_t> suspect;  // offset of an opening bracket without a closing bracket of its
                                          // own, judged by the indentation

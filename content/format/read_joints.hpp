@@ -47,9 +47,9 @@ double usual_prevailing_torque(const joint::JointDesign& design);
 // The torques and angles in `spec`: a joint's specification, or the targets of the published law.
 Specification read_spec(const LayeredObject& spec);
 
-// Reads a joint under the published law and reports its errors. `layers`: the objects "published", those of
-// the joint type above that of the file; each value is read from the first one that has it, and a value that
-// none has is that of Table 1.
+// Reads a joint under the published law and reports its errors. `layers`: the objects "published" of the
+// patches, of the joint type and of the file, in this order. Each value is read from the first object that
+// has it; if none has it, it is that of Table 1 of the 2018 paper.
 PublishedJoint read_published(const LayeredObject& layers);
 
 // Checks the consistency of a joint type: lengths, torques, windows. Checks that need an invalid or missing

@@ -39,8 +39,8 @@ Result<std::map<std::string, double>> measure_session(const std::filesystem::pat
 
 inline constexpr const char* lesson_session_name = "session.boltwright";
 
-// Counts a lesson of the due step that ended with its last step, but whose end could not be stored, for
-// example on a full disk. Any other lesson begins again. Returns true if it was counted.
+// Counts a lesson of the due study step that was played to its end, but whose measures could not be stored
+// then, for example on a full disk. Returns true if it was counted; if not, the lesson is played again.
 Result<bool> count_finished_lesson(Participation& participation);
 
 }  // namespace bolt::study

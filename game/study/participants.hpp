@@ -46,7 +46,7 @@ struct ParticipantState {
     std::vector<std::size_t> conditions;  // in the participant's order
     std::vector<Step> steps;              // none if withdrawn
     std::optional<Error> problem;         // the journal cannot be used, or a withdrawal is not complete
-    std::size_t due = 0;                  // index into `steps`; their number: complete
+    std::size_t due = 0;                  // index into `steps`; steps.size(): all are done
 };
 // All participants of a study's folder, in the order of their numbers.
 Result<std::vector<ParticipantState>> list_participants(const content::Study& study,

@@ -15,8 +15,8 @@
 
 namespace bolt::study {
 
-// Returns the path in the study's folder if it exists; otherwise the text unchanged, as an argument of the
-// command line.
+// The assembly of the lesson: its path in the study's folder if it exists there, otherwise the text of the
+// plan, a name or a path as on the command line.
 std::string assembly_of(const content::StudyLesson& lesson, const std::filesystem::path& study_folder);
 
 // The options that a session records, without the trainee. `assembly_law`: of the assembly.

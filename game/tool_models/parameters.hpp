@@ -28,7 +28,8 @@ enum class ToolKind : std::uint8_t {
     electronic_torque_wrench
 };
 
-// The measure that the size of a kind gives.
+// What the size of a kind measures: the width across flats of the nut or of the socket screw that it turns,
+// or the width of its square drive.
 enum class SizeMeasure : std::uint8_t { nut, socket_screw, drive };
 
 struct KindInfo {
@@ -50,7 +51,7 @@ enum class DriveEnd : std::uint8_t { usual, open_end, socket, hex_bit };
 struct ToolParameters {
     ToolKind kind = ToolKind::open_end;
     double size = 0.0;     // across flats of the nut or the socket screw, or the width of the drive
-    double opening = 0.0;  // between the flats of the tool: the size and the play; of keys the size
+    double opening = 0.0;  // between the flats of the tool: size + play; of keys: size
     double length = 0.0;   // from the origin to the far end
     double drive = 0.0;    // width of the square drive
     int teeth = 0;         // of the ratchet

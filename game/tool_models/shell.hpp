@@ -48,7 +48,8 @@ Shell plate(std::span<const OutlinePoint> outline, double low, double high, int 
 // A rectangular plate with rounded corners and edges.
 Shell block(const Vec3& low, const Vec3& high, double corner, double edge, int steps);
 
-// The distance of a loop's point from its axis, from the angle (rad) and the radius of the profile there.
+// Returns the distance of a point of a turned part from its axis. `angle`: of the point about the axis, rad;
+// `radius`: of the profile there.
 using RadiusOfAngle = std::function<double(double angle, double radius)>;
 
 // A point of a turned part's profile: along the axis and from the axis. `shape` replaces the circle.
@@ -57,8 +58,8 @@ struct ProfilePoint {
     RadiusOfAngle shape = {};
 };
 
-// Turned parts about Z and about X. The profile may run along the outside, over a rim and down a bore: the
-// solid is to the left of its direction as seen with the axis upwards and the radius to the left.
+// Turned parts about Z and about X. Drawn with the axis upwards and the radius to the right, the solid is to
+// the left of the profile's direction. So a profile runs up the outside, over the rim and down the bore.
 Shell lathe_z(std::span<const ProfilePoint> profile, int segments);
 Shell lathe_x(std::span<const ProfilePoint> profile, int segments);
 Shell closed_lathe_z(std::span<const ProfilePoint> profile, int segments);
@@ -68,7 +69,7 @@ double hexagon_radius(double angle, double radius);
 double twelve_point_radius(double angle, double radius);  // two hexagons, 30° apart
 double square_radius(double angle, double radius);
 
-// Moves each point of a shell. The map must keep its orientation.
+// Maps each point of a shell. The map must not mirror, or the triangles would face inwards.
 Shell moved(Shell shell, const std::function<Vec3(const Vec3&)>& map);
 
 // m³ for metres, mm³ for millimetres: positive if the triangles face outwards.

@@ -12,8 +12,8 @@ namespace bolt::tool_models {
 
 namespace {
 
-// Shares of the size or of the opening. A rounded edge of the jaw stays within the chamfer of the closed form
-// (haptics/collision/jaw.hpp), whose plane touches it.
+// Shares of the size or of the opening. The rounded edges of the jaw lie inside the chamfers of the closed
+// form (haptics/collision/jaw.hpp), whose planes are tangent to them.
 constexpr double thickness_share = 0.5, depth_share = 0.6, tip_share = 0.7;
 constexpr double tip_radius = 0.22, lead_in_radius = 0.06, throat_radius = 0.29, jaw_edge = 0.0425;
 constexpr double wall_share = 0.34;  // least metal around the slot

@@ -116,7 +116,8 @@ int run_curve(const CurveCommandOptions& options) {
     if (!index) return print_error(index.error());
 
     const joint::Law law = joint::law_named(options.law).value_or(assembly.law);
-    // The targets of a lesson, but the curve of the file: a lesson may start the nut later on its thread.
+    // The targets of a lesson. The curve is that of the file, because a lesson may start the nut at another
+    // place on its thread.
     const content::AssemblyJoint target = lesson::apply_law(assembly, law).joints[*index];
     joint::JointDesign design = target.design;
     design.friction.scatter = 0.0;  // the nominal joint
@@ -181,6 +182,12 @@ struct TorqueOptions {
     bool json = false;
 };
 
+std::vector<std::string> head_names() {
+    std::vector<std::string> names;
+    for (const joint::HeadShape shape : joint::all_head_shapes) names.emplace_back(name(shape));
+    return names;
+}
+
 // A named value of the answer; the name contains the unit.
 struct AnswerValue {
     std::string name;
@@ -194,12 +201,10 @@ Result<joint::JointDesign> joint_of(const TorqueOptions& options, const std::str
     BOLT_TRY_ASSIGN(design.bolt_class, joint::property_class(options.property_class, design.thread.size.d));
     const std::string_view size = design.thread.size.name;
     design.turned = joint::TurnedPart::head;  // table A1 of VDI 2230 has the bearing of a head
-    if (options.head == "socket") {
-        design.head = joint::HeadShape::socket;
-        if (!joint::socket_head(size))
-            return fail(ErrorCode::usage, fmt::format("there is no socket head of {} in our table", size),
-                        "M5, M6, M8, M10, M12, M16, M20 or M24");
-    }
+    design.head = joint::head_shape_named(options.head).value_or(design.head);
+    if (design.head == joint::HeadShape::socket && !joint::socket_head(size))
+        return fail(ErrorCode::usage, fmt::format("there is no socket head of {} in our table", size),
+                    "M5, M6, M8, M10, M12, M16, M20 or M24");
     if (options.locking && !joint::locking_nut(size))
         return fail(ErrorCode::usage, fmt::format("there is no locking nut of {} in our table", size),
                     "M5, M6, M8, M10, M12, M16, M20 or M24");
@@ -217,7 +222,7 @@ std::vector<AnswerValue> torque_values(const TorqueOptions& options, const joint
                                 design.bearing_diameter(), options.utilisation);
     std::vector<AnswerValue> values = {{"preload_kN", preload.force / 1e3}, {"torque_Nm", preload.torque}};
     if (design.is_tapped()) {
-        constexpr double vdi_surplus = 1.2;
+        constexpr double vdi_surplus = 1.2;  // joint::needed_engagement() explains it
         const joint::TappedHole& hole = design.hole;
         const auto needed = [&](double surplus) {
             return joint::needed_engagement(design.thread.thread, design.bolt_class, hole.material, surplus) /
@@ -285,7 +290,7 @@ void add_torque(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(0.01, 1.0))
         ->capture_default_str();
     torque->add_option("--head", options->head, "Head: hexagon (ISO 4014) or socket (ISO 4762)")
-        ->check(CLI::IsMember({"hexagon", "socket"}))
+        ->check(CLI::IsMember(head_names()))
         ->capture_default_str();
     CLI::Option* tapped =
         torque->add_option("--tapped", options->tapped,

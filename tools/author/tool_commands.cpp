@@ -202,7 +202,7 @@ void add_tool(CLI::App& app, int& exit_code) {
 
 namespace {
 
-std::string shelf_text() {
+std::string tool_table() {
     using namespace tool_models;
     std::string text;
     for (const KindInfo& info : tool_kinds()) {
@@ -234,7 +234,7 @@ std::string shelf_text() {
 void add_tools(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("tools", "List the kinds, sizes and test torques of tools");
     command->callback([&exit_code] {
-        const Status printed = print(shelf_text());
+        const Status printed = print(tool_table());
         exit_code = printed ? 0 : print_error(printed.error());
     });
 }

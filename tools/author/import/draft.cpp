@@ -56,7 +56,7 @@ struct JointTypeKey {
     bool washer_head = false, washer_nut = false;
     std::vector<std::pair<double, std::string>> members;  // mm, material
     std::string tapped;                                   // material of the tapped part; empty: a nut
-    double engagement = 0.0;                              // mm; 0: the whole end of the screw
+    double engagement = 0.0;                              // mm; 0: all of the screw beyond members and washer
     friend bool operator==(const JointTypeKey&, const JointTypeKey&) = default;
 };
 
@@ -160,7 +160,7 @@ class DraftWriter {
 
     std::string member_material(const ClampedMember& member) {
         std::string material =
-            member.node >= 0 ? in_.member_of[static_cast<std::size_t>(member.node)] : std::string();
+            member.node >= 0 ? in_.member_materials[static_cast<std::size_t>(member.node)] : std::string();
         if (material == "gasket") {
             gasket_ = true;
             return material;

@@ -17,8 +17,8 @@ struct DraftInput {
     std::string schema;               // value of "$schema"
     Vec3 low{0.0}, high{0.0};         // of the whole assembly, m
     const JointSearchResult* search = nullptr;
-    std::vector<std::string> member_of;  // material of clamped parts, by tree node; empty: unknown
-    std::vector<bool> stainless;         // by tree node: the part is of stainless steel
+    std::vector<std::string> member_materials;  // material of clamped parts, by tree node; empty: unknown
+    std::vector<bool> stainless;                // by tree node: the part is of stainless steel
 };
 
 struct Draft {

@@ -341,8 +341,9 @@ class Importer {
         input.search = &search_;
         for (const TreeNode& node : tree_.nodes) {
             const int material = node.shape >= 0 ? main_material(node.shape) : -1;
-            input.member_of.push_back(material >= 0 ? picker_->member(material) : std::string());
-            input.stainless.push_back(input.member_of.back() == "stainless_steel");
+            input.member_materials.push_back(material >= 0 ? picker_->member_material(material)
+                                                           : std::string());
+            input.stainless.push_back(input.member_materials.back() == "stainless_steel");
         }
         std::error_code ignored;
         const fs::path whole = fs::absolute(options_.folder / "assembly.json", ignored).lexically_normal();

@@ -23,7 +23,7 @@ struct JointCandidate {
     Vec3 axis{0.0, 1.0, 0.0};  // from the members to the nut or the screw's head
     int bolt = -1, nut = -1;   // nodes; a screw has no nut
     int tapped = -1;           // node of the part that a screw is screwed into; −1 with a nut
-    double engagement = 0.0;   // m of a screw in that part; 0: its whole end
+    double engagement = 0.0;   // m of the screw's length in that part; 0: all beyond members and washer
     std::vector<int> head_washers, nut_washers;
     std::vector<ClampedMember> members;  // from head to nut or tapped part
     int group = -1;                      // node joint_ID

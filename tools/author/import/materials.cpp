@@ -174,7 +174,7 @@ TableMaterial read_material(MaterialObjectReader& in, const std::string& name) {
                      "sRGB as in \"#2F5D62\"");
     }
     in.texts("names", material.patterns);
-    in.text("member", material.member);
+    in.text("member", material.member_material);
     in.flag("tint", material.tint);
     read_pbr(in, material.pbr);
     in.reject_unknown_keys();
@@ -278,11 +278,11 @@ assets::Material make_material(const Colour& colour, std::string name, float met
 
 }  // namespace
 
-int MaterialPicker::add(assets::Material material, std::string member) {
+int MaterialPicker::add(assets::Material material, std::string member_material) {
     const auto [known, fresh] = index_.emplace(material.name, static_cast<int>(materials_.size()));
     if (fresh) {
         materials_.push_back(std::move(material));
-        members_.push_back(std::move(member));
+        member_materials_.push_back(std::move(member_material));
     }
     return known->second;
 }
@@ -321,7 +321,7 @@ int MaterialPicker::tinted(const TableMaterial& material, const Colour& colour) 
     pbr.name = fmt::format("{}_{}", material.name, hex(colour).substr(1));
     pbr.base_color = {linear(colour), static_cast<float>(colour.alpha)};
     if (colour.alpha < 1.0) pbr.alpha_mode = assets::AlphaMode::blend;
-    return add(std::move(pbr), material.member);
+    return add(std::move(pbr), material.member_material);
 }
 
 int MaterialPicker::guess(const std::optional<Colour>& colour) {
@@ -353,10 +353,11 @@ int MaterialPicker::guess(const std::optional<Colour>& colour) {
 
 int MaterialPicker::pick(const FaceAppearance& appearance) {
     if (appearance.colour)
-        if (const TableMaterial* found = by_colour(*appearance.colour)) return add(found->pbr, found->member);
+        if (const TableMaterial* found = by_colour(*appearance.colour))
+            return add(found->pbr, found->member_material);
     if (const TableMaterial* found = by_name(appearance))
         return found->tint && appearance.colour ? tinted(*found, *appearance.colour)
-                                                : add(found->pbr, found->member);
+                                                : add(found->pbr, found->member_material);
     return guess(appearance.colour);
 }
 

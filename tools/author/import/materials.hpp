@@ -37,7 +37,7 @@ struct TableMaterial {
     std::string name;
     std::vector<std::string> colours;   // "#2F5D62", upper case
     std::vector<std::string> patterns;  // "*gasket*", for names of materials, faces and parts
-    std::string member;                 // material of a clamped part: "cast_iron"; empty: unknown
+    std::string member_material;        // material of a clamped part: "cast_iron"; empty: unknown
     bool tint = false;                  // paint or dye: the colour of the CAD file replaces base_color
     assets::Material pbr;
 };
@@ -77,8 +77,8 @@ class MaterialPicker {
 
     [[nodiscard]] const std::vector<assets::Material>& materials() const { return materials_; }
     // Material of a clamped part with the material `index` of materials(); empty: unknown.
-    [[nodiscard]] const std::string& member(int index) const {
-        return members_[static_cast<std::size_t>(index)];
+    [[nodiscard]] const std::string& member_material(int index) const {
+        return member_materials_[static_cast<std::size_t>(index)];
     }
     // The reason for each guessed material, by its name.
     [[nodiscard]] const std::map<std::string, std::string>& guesses() const { return guesses_; }
@@ -86,11 +86,11 @@ class MaterialPicker {
   private:
     const MaterialTable& table_;
     std::vector<assets::Material> materials_;
-    std::vector<std::string> members_;
+    std::vector<std::string> member_materials_;
     std::map<std::string, int> index_;
     std::map<std::string, std::string> guesses_;
 
-    int add(assets::Material material, std::string member);
+    int add(assets::Material material, std::string member_material);
     const TableMaterial* by_colour(const Colour& colour) const;
     const TableMaterial* by_name(const FaceAppearance& appearance) const;
     int tinted(const TableMaterial& material, const Colour& colour);

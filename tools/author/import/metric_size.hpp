@@ -14,8 +14,8 @@ inline constexpr double flats_slack = 0.5 * mm;  // tolerance of the width acros
 // by DIN 931; null if there is none.
 const joint::FastenerSize* size_of(double diameter, double across_flats);
 
-// Explains why size_of() returns null for a bolt of this diameter: what is expected, and the inch thread that
-// has it.
+// Explains why size_of() returns null for a bolt of this diameter: what is expected, and the inch thread of
+// this diameter, if there is one.
 std::string explain_size(double diameter);
 
 // Returns the name of the thread. `hole`: diameter of the hole of the nut or tapped part, m, which reveals a
