@@ -28,7 +28,11 @@ std::size_t tool_index(const Assembly& assembly, std::string_view name) {
 }
 
 std::size_t tool_index_of(const Assembly& assembly, const AssemblyJoint& joint) {
-    return tool_index(assembly, joint.tool.empty() ? assembly.tool : joint.tool);
+    if (!joint.tool.empty()) return tool_index(assembly, joint.tool);
+    const std::size_t chosen = tool_index(assembly, assembly.tool);
+    if (chosen >= assembly.tools.size()) return chosen;
+    const auto other = assembly.tools[chosen].instead.find(joint.design.id);
+    return other == assembly.tools[chosen].instead.end() ? chosen : tool_index(assembly, other->second);
 }
 
 }  // namespace

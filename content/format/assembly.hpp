@@ -102,6 +102,8 @@ struct Tool {
     std::string name;
     std::map<std::string, std::string> title;  // by language; may be empty
     WrenchDesign wrench;
+    // Joints that it does not reach: by id, the name of the tool that turns them instead.
+    std::map<std::string, std::string> instead = {};
 };
 
 // Paths of an assembly's .glb files; empty if the file gives none.
@@ -187,7 +189,7 @@ LessonTools lesson_tools(const Assembly& assembly);
 // Their designs, in this order.
 std::vector<const WrenchDesign*> designs_of(const Assembly& assembly, const LessonTools& lesson);
 
-// The tool that turns a joint: its own one, or the chosen one.
+// The tool that turns a joint: its own one, or the chosen one, or the one that the latter names instead.
 const WrenchDesign& tool_of(const Assembly& assembly, const AssemblyJoint& joint);
 
 // Creates a new assembly from the template: makes `folder` (fails if it exists and is not empty) and writes a

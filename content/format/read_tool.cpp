@@ -203,8 +203,7 @@ std::vector<AssemblyJoint> joints_of(std::string_view tool, const std::vector<As
 void check_names(JsonReader& reader, const std::vector<Tool>& tools) {
     std::vector<std::string> names;
     for (const Tool& tool : tools) names.push_back(tool.name);
-    const auto check = [&](const JsonNode& type) {
-        const JsonNode node = reader.member(type, "tool");
+    const auto check_name = [&](const JsonNode& node) {
         const auto name = reader.text(node);
         if (!name || std::find(names.begin(), names.end(), *name) != names.end()) return;
         const std::string near = nearest_name(*name, names);
@@ -212,6 +211,11 @@ void check_names(JsonReader& reader, const std::vector<Tool>& tools) {
                       near.empty() ? fmt::format("{}", fmt::join(names, ", "))
                                    : fmt::format("did you mean {}?", in_quotes(near)));
     };
+    const auto check = [&](const JsonNode& type) { check_name(reader.member(type, "tool")); };
+    for (const JsonNode& tool : reader.items(reader.member(reader.root(), "more_tools")))
+        for (const JsonNode& other : reader.items(reader.member(tool, "instead"))) check_name(other);
+    for (const JsonNode& other : reader.items(reader.member(reader.member(reader.root(), "tool"), "instead")))
+        check_name(other);
     for (const JsonNode& type : reader.items(reader.member(reader.root(), "joint_types"))) check(type);
     for (const JsonNode& joint : reader.items(reader.member(reader.root(), "joints")))
         check(reader.member(joint, "override"));
@@ -219,6 +223,25 @@ void check_names(JsonReader& reader, const std::vector<Tool>& tools) {
         check(reader.member(variant, "every_joint_type"));
         for (const JsonNode& patch : reader.items(reader.member(variant, "joint_types"))) check(patch);
     }
+}
+
+// Reports each joint of an "instead" that the file lacks.
+void check_instead(JsonReader& reader, const std::vector<AssemblyJoint>& joints) {
+    std::vector<std::string> ids;
+    for (const AssemblyJoint& joint : joints) ids.push_back(joint.design.id);
+    if (ids.empty() || std::find(ids.begin(), ids.end(), "") != ids.end()) return;  // reported already
+    std::vector<JsonNode> tools = reader.items(reader.member(reader.root(), "more_tools"));
+    tools.push_back(reader.member(reader.root(), "tool"));
+    for (const JsonNode& tool : tools)
+        for (const JsonNode& other : reader.items(reader.member(tool, "instead"))) {
+            const std::string id = last_token(other.pointer);
+            if (std::find(ids.begin(), ids.end(), id) != ids.end()) continue;
+            const std::string near = nearest_name(id, ids);
+            reader.report(
+                other.pointer, fmt::format("there is no joint {}", in_quotes(id)),
+                near.empty() ? "the id of a joint" : fmt::format("did you mean {}?", in_quotes(near)),
+                JsonPart::key);
+        }
 }
 
 }  // namespace
@@ -231,6 +254,8 @@ std::vector<Tool> read_tools(JsonReader& reader, const std::vector<AssemblyJoint
         Tool tool{std::move(name), read_texts(reader, reader.member(node, "title")),
                   read_tool(reader, node, turned)};
         tool.wrench.model = read_tool_model(reader, node, folders);
+        for (const JsonNode& other : reader.items(reader.member(node, "instead")))
+            tool.instead[last_token(other.pointer)] = reader.text(other).value_or("");
         tools.push_back(std::move(tool));
     };
     read(std::string(default_tool_name), reader.member(reader.root(), "tool"));
@@ -242,6 +267,7 @@ std::vector<Tool> read_tools(JsonReader& reader, const std::vector<AssemblyJoint
         read(name, node);
     }
     check_names(reader, tools);
+    check_instead(reader, joints);
     return tools;
 }
 

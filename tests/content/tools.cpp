@@ -140,6 +140,30 @@ TEST_CASE("Tools: a joint type names the only tool that turns it") {
     CHECK(wrong[0].find("/tool: there is no tool \"rign\"; did you mean \"ring\"?") != std::string::npos);
 }
 
+TEST_CASE("Tools: a tool can name another one for joints that it does not reach") {
+    const std::string ring = R"("ring": { "kind": "ring_wrench", "size_mm": 13, "handle_length_mm": 150 })";
+    const std::string ratchet =
+        R"("ratchet": { "kind": "ratchet", "size_mm": 13, "handle_length_mm": 150, "instead": { "B2": "ring" } })";
+    content::LoadedAssembly loaded = content::parse_assembly(with(ring + ", " + ratchet), "f");
+    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+    content::Assembly& a = loaded.assembly;
+    CHECK(content::lesson_tools(a).tools.size() == 1);
+    REQUIRE(content::choose_tool(a, "ratchet"));
+    for (const content::AssemblyJoint& joint : a.joints)
+        CHECK(content::tool_of(a, joint).head ==
+              (joint.design.id == "B2" ? content::ToolHead::ring : content::ToolHead::socket));
+    CHECK(content::lesson_tools(a).tools.size() == 2);
+
+    const auto refused = [&](const char* instead, const char* message) {
+        const std::vector<std::string> all =
+            messages(with(ring + ", " + edited(ratchet, R"({ "B2": "ring" })", instead)));
+        REQUIRE(all.size() == 1);
+        CHECK(all[0].find(message) != std::string::npos);
+    };
+    refused(R"({ "B2": "rang" })", R"(/instead/B2: there is no tool "rang"; did you mean "ring"?)");
+    refused(R"({ "C2": "ring" })", R"(/instead/C2: there is no joint "C2"; did you mean "B2"?)");
+}
+
 TEST_CASE("Tools: a tool has to fit only the joints that name it") {
     // The key turns no hexagon, and no joint names it, so its size is not checked against these nuts.
     const std::string key = R"("key": { "kind": "hex_key", "size_mm": 5, "handle_length_mm": 90 })";
