@@ -67,7 +67,8 @@ struct TestWorkplace {
         REQUIRE(models.missing.empty());
         gpu_models->workpiece = without_buffers(models.workpiece.model);
         gpu_models->workshop = without_buffers(models.workshop);
-        gpu_models->wrench = without_buffers(models.wrench);
+        for (const scene::ToolModel& tool : models.tools)
+            gpu_models->tools.push_back(without_buffers(tool.model));
         gpu_models->hand = without_buffers(models.hand);
         scene::SceneWorld world;
         world::add_haptics(world, at.state);
