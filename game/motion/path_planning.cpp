@@ -19,11 +19,11 @@ constexpr double swing_step = to_radians(5.0);
 constexpr double swing_margin = to_radians(3.0);  // between handle and obstacles
 constexpr double max_ahead = 4e-3;                // m by which the hand may be ahead of the wrench
 constexpr double max_turn_lead = to_radians(4.0);
-constexpr double clearance = 0.012;                          // m between wrench and obstacles along a path
-constexpr std::array rises{0.05, 0.1, 0.15, 0.2, 0.3, 0.4};  // m
-constexpr std::array lifts{0.06, 0.12, 0.2, 0.35};           // m, straight up before moving across
-constexpr std::array heights{0.03, 0.08, 0.15};              // m above a nut, checked for the approach
-constexpr double min_height = 0.015, height_step = 2e-3;     // m
+constexpr double clearance = 0.012;  // m between wrench and obstacles along a path
+constexpr std::array arc_bulges{0.05, 0.1, 0.15, 0.2, 0.3, 0.4};  // m, of the middle of a curved path
+constexpr std::array lifts{0.06, 0.12, 0.2, 0.35};                // m, straight up before moving across
+constexpr std::array approach_heights{0.03, 0.08, 0.15};          // m above a nut, checked for the approach
+constexpr double min_hover_height = 0.015, hover_height_step = 2e-3;  // m, of the hand that waits above a nut
 constexpr double squeeze_cost = 2.0;  // rad, cost of an angle with an obstructed approach
 
 // Collision queries for a wrench among the obstacles, by line-of-sight tests between points of its outline.
@@ -165,7 +165,7 @@ ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contac
                      const Pose& to, const Vec3& up, double min_bulge) {
     const FreeSpace space(setup, contact);
     if (space.path_is_free(from, to, min_bulge * up)) return {min_bulge * up, {}};
-    for (const double rise : rises)
+    for (const double rise : arc_bulges)
         if (rise > min_bulge && space.path_is_free(from, to, rise * up)) return {rise * up, {}};
     const Vec3 helper = std::abs(up.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
     const Vec3 e1 = glm::normalize(helper - up * glm::dot(helper, up)), e2 = glm::cross(up, e1);
@@ -220,7 +220,7 @@ GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* conta
             double swing = stroke, penalty = 0.0;
             if (space) {
                 swing = space->free_swing(joint, nut_angle, candidate, sign, stroke);
-                for (const double above : heights)
+                for (const double above : approach_heights)
                     if (!space->handle_is_free(joint, nut_angle, candidate, above)) penalty = squeeze_cost;
             }
             // Room for the pull has more weight than the preferred angle.
@@ -238,9 +238,9 @@ double hover_height(const servo::Setup& setup, const servo::ToolContact& contact
     const FreeSpace space(setup, contact);
     const servo::NutGeometry& nut = setup.nuts[joint];
     const Quat held = tool_orientation(nut, grip.handle, grip.flipped);
-    for (double above = max_height; above > min_height; above -= height_step) {
+    for (double above = max_height; above > min_hover_height; above -= hover_height_step) {
         const Pose pose{servo::nut_centre(nut, nut_angle) + above * nut.axis, held};
-        if (space.step_is_free(pose, pose, 0.5 * height_step)) return above;
+        if (space.step_is_free(pose, pose, 0.5 * hover_height_step)) return above;
     }
     return max_height;
 }

@@ -36,11 +36,11 @@ Shell open_end_shell(const OpenEndHead& head, double edge, Detail detail);
 
 // A handle in the plane y = 0 as a row of cross-sections with rounded edges.
 struct HandleSection {
-    double x = 0.0, z = 0.0;          // middle of the section
-    double slope = 0.0;               // rad, of the handle above +X
-    double half = 0.0, high = 0.0;    // half of the width and of the height
-    double edge = 0.0;                // radius of the edges
-    double end_angle = 0.0;           // of the outline's normal from the side to the end, at a round end
+    double x = 0.0, z = 0.0;        // middle of the section
+    double slope = 0.0;             // rad, of the handle above +X
+    double half = 0.0, high = 0.0;  // half the width and half the height
+    double edge = 0.0;              // radius of the edges
+    double end_angle = 0.0;  // at a round end: of the outline's normal, from 0 at the side to 90° at the tip
     double hollow = 0.0, deep = 0.0;  // half of the width and the depth of the hollows on both sides
 };
 Shell handle_shell(const std::vector<HandleSection>& sections, Detail detail);
@@ -49,7 +49,7 @@ Shell handle_shell(const std::vector<HandleSection>& sections, Detail detail);
 void add_round_end(std::vector<HandleSection>& sections, const HandleSection& last, int steps);
 
 struct RingHead {
-    double opening = 0.0, outside = 0.0, thickness = 0.0;  // widths
+    double opening = 0.0, outside = 0.0, thickness = 0.0;  // across flats; diameter; along the bolt
 };
 RingHead ring_head(const ToolParameters& p);
 Shell ring_shell(const RingHead& ring, Detail detail);

@@ -134,7 +134,7 @@ Setup make_setup(const SetupDescription& d) {
     if (d.limits.force <= 0.0) setup.hold_stiffness = 0.0;
     const double handle_length = d.tool.handle_length;
     setup.torque_rendering = force::make_torque_rendering(d.limits, d.max_torque, handle_length);
-    setup.guiding.max_force = std::min(3.0, 0.2 * d.limits.force);
+    setup.guiding.max_force = std::min(setup.guiding.max_force, 0.2 * d.limits.force);
     setup.guiding.stiffness = std::min(setup.guiding.stiffness, d.limits.stiffness);
     // Without torque output the aligning torque is a force at the end of the wrench.
     setup.guiding.max_torque =

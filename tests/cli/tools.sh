@@ -113,4 +113,24 @@ expect 0 'all as they were recorded' "$bin/boltwright" replay with-wrench/sessio
 cp "$sources/content/assemblies/cover-m8/assembly.json" bare/
 expect 0 'all as they were recorded' "$bin/boltwright" replay with-wrench/session.boltwright
 
+# A lesson whose joints need different tools: a ring, a ratchet and a torque wrench with a socket, and the tool of the file.
+mkdir several && cp "$sources/content/assemblies/cover-m8/"* several/
+python3 - several/assembly.json <<'END'
+import json, sys
+assembly = json.load(open(sys.argv[1]))
+assembly["more_tools"]["key"] = {"kind": "hex_key", "size_mm": 6, "handle_length_mm": 90}
+for joint, tool in zip(assembly["joints"], ["ring", "ratchet", "socket_torque_wrench"]):
+    joint.setdefault("override", {})["tool"] = tool
+json.dump(assembly, open(sys.argv[1], "w"))
+END
+expect 0 'no mistakes' "$author" validate several
+expect 0 'score 100' "$bin/boltwright" train several --headless --no-pictures --operator expert --seed 2 --obstacles --out with-several
+expect 0 'all as they were recorded' "$bin/boltwright" replay with-several/session.boltwright
+for tool in 'ring: size 13' 'socket: size 13' 'torque_wrench: size 13 mm, .* socket'; do
+    check "the session names the generated $tool" grep -aq "generated $tool" with-several/session.boltwright
+done
+sed -i 's/"tool": "ratchet"/"tool": "key"/' several/assembly.json
+expect 3 'joint B2 has a hexagon, which the tool "key" cannot turn; expected an open end, ring or socket of 13 mm' \
+    "$bin/boltwright" train several --headless --no-pictures --operator expert --out never
+
 finish_checks
