@@ -118,7 +118,12 @@ mkdir several && cp "$sources/content/assemblies/cover-m8/"* several/
 python3 - several/assembly.json <<'END'
 import json, sys
 assembly = json.load(open(sys.argv[1]))
-assembly["more_tools"]["key"] = {"kind": "hex_key", "size_mm": 6, "handle_length_mm": 90}
+assembly["more_tools"] = {
+    "key": {"kind": "hex_key", "size_mm": 6, "handle_length_mm": 90},
+    "ring": {"kind": "ring_wrench", "size_mm": 13, "handle_length_mm": 140},
+    "ratchet": {"kind": "ratchet", "size_mm": 13, "handle_length_mm": 150},
+    "socket_torque_wrench": {"kind": "click_torque_wrench", "head": "socket", "size_mm": 13, "handle_length_mm": 250},
+}
 for joint, tool in zip(assembly["joints"], ["ring", "ratchet", "socket_torque_wrench"]):
     joint.setdefault("override", {})["tool"] = tool
 json.dump(assembly, open(sys.argv[1], "w"))
