@@ -104,13 +104,19 @@ TEST_CASE("Forms: a head that is too deep, too high or no hexagon is an error") 
           std::string::npos);
 }
 
-TEST_CASE("Forms: a socket head gives a note, because lessons have no hexagon key yet") {
-    const CheckOutput output = check(turned_at_head(), [](std::string& text) {
-        replace(text, R"("size": "M8",)", R"("size": "M8", "turned": "head", "head": "socket",)");
-    });
-    CHECK(all(output.errors) == "");
-    CHECK(all(output.notes).find(R"("B1_bolt" has a socket head, and a lesson has no hexagon key yet)") !=
-          std::string::npos);
+TEST_CASE("Forms: a socket head is turned with a key or a bit of its size") {
+    const auto errors_with = [](const char* tool) {
+        return all(check(turned_at_head(), [&](std::string& text) {
+                       replace(text, R"("size": "M8",)",
+                               R"("size": "M8", "turned": "head", "head": "socket",)");
+                       replace(text, R"("kind": "open_end_wrench", "jaw_mm": 13.2)", tool);
+                   }).errors);
+    };
+    CHECK(errors_with(R"("kind": "hex_key", "size_mm": 6)") == "");
+    CHECK(errors_with(R"("kind": "ratchet", "head": "hex_bit", "size_mm": 6)") == "");
+    CHECK(
+        errors_with(R"("kind": "open_end_wrench", "jaw_mm": 13.2)") ==
+        R"(16:5: /joints/0: the wrench is an open end of 13 mm and does not fit the head of "B1", a hexagonal socket of 6 mm; expected a hexagon key of 6 mm, or a hexagon bit of 6 mm)");
 }
 
 TEST_CASE(

@@ -275,8 +275,8 @@ void replace(std::string& text, std::string_view from, std::string_view to) {
     text.replace(at, from.size(), to);
 }
 
-geometry::WrenchShape plain_wrench(const content::WrenchDesign& design) {
-    geometry::WrenchShape wrench;
+geometry::ToolShape plain_wrench(const content::WrenchDesign& design) {
+    geometry::ToolShape wrench;
     const double s = design.jaw, radius = 0.5 * head_width_ratio * s, depth = jaw_depth_ratio * s;
     wrench.head_angle = design.head_angle;
     wrench.head_size = radius;
@@ -303,7 +303,7 @@ geometry::WrenchShape plain_wrench(const content::WrenchDesign& design) {
     return wrench;
 }
 
-assets::Model model_of(const geometry::WrenchShape& wrench, double shift_mm, double scale, bool lies) {
+assets::Model model_of(const geometry::ToolShape& wrench, double shift_mm, double scale, bool lies) {
     PrismMesh shape;
     for (const geometry::Triangle& t : wrench.triangles) {
         const auto base = static_cast<std::uint32_t>(shape.points.size());
@@ -344,7 +344,8 @@ CheckOutput check_with(const Machine& machine, const Edit& edit, const Machine* 
     auto loaded = content::load_assembly(world.folder);
     for (const Error& error : loaded.errors) FAIL(error.message());
     for (content::Tool& other : loaded.assembly.tools) {
-        if (generated || !other.wrench.model.empty()) continue;
+        if (generated || !other.wrench.model.empty() || other.wrench.head != content::ToolHead::open_end)
+            continue;
         const fs::path file = world.root / "tools" / (other.name + ".glb");
         REQUIRE(assets::write_glb(file, model_of(plain_wrench(other.wrench))));
         other.wrench.model = file.string();

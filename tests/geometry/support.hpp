@@ -13,7 +13,7 @@
 #include "engine/base/math.hpp"
 #include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/check.hpp"
-#include "tools/author/geometry/wrench.hpp"
+#include "tools/author/geometry/tool_shape.hpp"
 
 namespace geometry_test {
 
@@ -67,10 +67,10 @@ inline constexpr double jaw_depth_ratio = 0.6;  // middle of the jaw to its thro
 inline constexpr double handle_beyond_grip = 1.12;
 
 // A wrench whose swing between walls has a closed form: a disc with a slot, and a straight handle.
-bolt::geometry::WrenchShape plain_wrench(const bolt::content::WrenchDesign& design);
+bolt::geometry::ToolShape plain_wrench(const bolt::content::WrenchDesign& design);
 
 // The wrench's triangles as a model; millimetres are multiplied by `scale`.
-bolt::assets::Model model_of(const bolt::geometry::WrenchShape& wrench, double shift_mm = 0.0,
+bolt::assets::Model model_of(const bolt::geometry::ToolShape& wrench, double shift_mm = 0.0,
                              double scale = 1.0, bool lies = false);
 
 // Output of bolt-author validate.
@@ -81,7 +81,8 @@ struct CheckOutput {
 std::string all(const std::vector<std::string>& messages);  // one line each
 using Edit = std::function<void(std::string&)>;
 // Writes the machine and its file into a temporary folder, loads and checks them. `edit` changes the text of
-// assembly.json before it is written. Tools without a model get that of plain_wrench().
+// assembly.json before it is written. Open ends without a model get that of plain_wrench(); other tools
+// are generated.
 CheckOutput check(const Machine& machine, const Edit& edit = {}, const Machine* far = nullptr,
                   const bolt::assets::Model* contact = nullptr, const bolt::assets::Model* tool = nullptr);
 // The same with generated tools.

@@ -8,7 +8,8 @@
 #include "engine/base/random.hpp"
 #include "support.hpp"
 #include "tools/author/geometry/bvh.hpp"
-#include "tools/author/geometry/wrench.hpp"
+#include "tools/author/geometry/free_swing.hpp"
+#include "tools/author/geometry/tool_shape.hpp"
 
 namespace geometry_wrench_test {
 
@@ -47,7 +48,7 @@ TEST_CASE(
     CHECK(
         all(few.errors) ==
         at_joint(
-            R"(the wrench has 29.0 degrees of free swing on the nut: between "wall_right" and "wall_left"; expected 30 degrees or more both ways up, or 60 one way up)"));
+            R"(the wrench has 29.0 degrees of free swing on the nut: between "wall_right" and "wall_left"; expected 30 degrees or more both ways up, or 60 one way up, or a ring of 13 mm with a handle of 140 mm, which fits)"));
     const CheckOutput flip = check(walled(31.0, 0.0, 10.0));
     CHECK(all(flip.errors) == "");
     CHECK(
@@ -63,12 +64,13 @@ TEST_CASE(
 }
 
 TEST_CASE("Geometry: the free swing agrees with the closed form within 0.025 degrees") {
-    const geometry::WrenchShape wrench = plain_wrench(design);
+    const geometry::ToolShape wrench = plain_wrench(design);
     for (const double swing : {5.0, 17.3, 29.0, 31.0, 100.0, 200.0}) {
         const double half = half_opening(swing);
         const geometry::Bvh walls(triangles_of(sector(inner, outer, half, 360.0 - half, 0.0, 10.0)));
         for (const bool over : {false, true}) {
-            const auto found = geometry::find_free_swing(walls, geometry::place_on_nut(wrench, over), 0.005);
+            const auto found =
+                geometry::find_free_swing(walls, geometry::place_on_joint(wrench, over), 0.005);
             CAPTURE(swing);
             REQUIRE(found.arcs.size() == 1);
             CHECK(std::abs(to_degrees(found.arcs[0].width()) - swing) < 0.025);
@@ -76,9 +78,10 @@ TEST_CASE("Geometry: the free swing agrees with the closed form within 0.025 deg
     }
     // The wrench is free above the walls and blocked between them.
     const geometry::Bvh walls(triangles_of(sector(inner, outer, 0.0, 350.0, 0.0, 10.0)));
-    CHECK(geometry::find_free_swing(walls, geometry::place_on_nut(wrench, false), 0.0135).widest()->width() ==
-          2.0 * pi);
-    CHECK(geometry::find_free_swing(walls, geometry::place_on_nut(wrench, false), 0.005).arcs.empty());
+    CHECK(
+        geometry::find_free_swing(walls, geometry::place_on_joint(wrench, false), 0.0135).widest()->width() ==
+        2.0 * pi);
+    CHECK(geometry::find_free_swing(walls, geometry::place_on_joint(wrench, false), 0.005).arcs.empty());
 }
 
 TEST_CASE(
@@ -111,16 +114,16 @@ TEST_CASE("Geometry: the swing is also checked at the start height of the nut") 
     CHECK(
         all(check(walled(29.0, 10.5, 20.0)).errors) ==
         at_joint(
-            R"(the wrench has 29.0 degrees of free swing on the nut where it starts, 8.92 mm above its seat: between "wall_right" and "wall_left"; expected 30 degrees or more both ways up, or 60 one way up)"));
+            R"(the wrench has 29.0 degrees of free swing on the nut where it starts, 8.92 mm above its seat: between "wall_right" and "wall_left"; expected 30 degrees or more both ways up, or 60 one way up, or a ring of 13 mm with a handle of 140 mm, which fits)"));
 }
 
-TEST_CASE("Geometry: a nut that no wrench fits is an error") {
+TEST_CASE("Geometry: a nut that no open end fits is an error, which names a socket that does") {
     Machine machine;
     machine.add("pipe", sector(12.0, 30.0, 0.0, 360.0, 0.0, 10.0));
     CHECK(
         all(check(machine).errors) ==
         at_joint(
-            R"(the wrench has 0.0 degrees of free swing on the nut: "pipe" is in its way; expected 30 degrees or more both ways up, or 60 one way up)"));
+            R"(the wrench has 0.0 degrees of free swing on the nut: "pipe" is in its way; expected 30 degrees or more both ways up, or 60 one way up, or a socket of 13 mm with a handle of 150 mm, which fits)"));
 }
 
 TEST_CASE("Geometry: a neighbouring nut too close to the head of the wrench is an error") {
@@ -222,8 +225,9 @@ TEST_CASE("Geometry: a straight head gains nothing from turning the wrench over"
     };
     CHECK(
         all(check(walled(45.0, 0.0, 10.0), straight).errors)
-            .ends_with(
-                R"(between "wall_right" and "wall_left"; expected 60 degrees: turning the wrench over gains nothing here)"));
+            .find(
+                R"(between "wall_right" and "wall_left"; expected 60 degrees: turning the wrench over gains nothing here)") !=
+        std::string::npos);
     CHECK(all(check(walled(45.0, 0.0, 10.0)).errors) == "");
     CHECK(all(check(walled(61.0, 0.0, 10.0), straight).errors) == "");
 }
@@ -342,7 +346,7 @@ TEST_CASE(
     CHECK(to_degrees(blocked + arc->width()) == doctest::Approx(360.0).epsilon(0.01));
     // A flat of the turned hexagon is at right angles to the jaw. The model's hexagon has a flat at 30
     // degrees.
-    const double jaw = room.handle + (room.turned_over ? -1.0 : 1.0) * output.rooms->wrench.head_angle;
+    const double jaw = room.handle + (room.turned_over ? -1.0 : 1.0) * output.rooms->tools.front().head_angle;
     const double flat = to_radians(30.0) + room.turn;
     CHECK(std::abs(wrap(flat - jaw - 0.5 * pi, pi / 3.0)) < 1e-6);
 }

@@ -9,6 +9,7 @@
 #include "engine/assets/gltf.hpp"
 #include "game/tool_models/tool_model.hpp"
 #include "tools/author/geometry/check_model.hpp"
+#include "tools/author/geometry/joint_tools.hpp"
 #include "tools/author/geometry/wrench_room.hpp"
 
 namespace bolt::geometry {
@@ -32,45 +33,37 @@ std::optional<FlattenedModel> read_scene(const std::string& path, std::string_vi
     return scene;
 }
 
-// The wrench that the trainer generates for a tool without a model.
-WrenchShape generated_wrench(const content::WrenchDesign& design, const std::string& pointer,
-                             const Messages& messages) {
-    content::WrenchDesign bare = design;
-    bare.model.clear();
-    auto wrench = wrench_from_model(flatten(tool_models::contact_model(tool_models::parameters_of(bare))),
-                                    bare, ModelFrame::tool);
-    if (!wrench) {
-        messages.error(pointer, wrench.error().what, wrench.error().expected);
+// Loads the author's tool, or generates one. Reports the errors of a model and replaces it by a generated
+// tool. `pointer`: of the tool.
+ToolShape load_tool(const content::WrenchDesign& design, const std::string& pointer,
+                    const Messages& messages) {
+    const std::string model = pointer + "/model";
+    if (const auto scene = read_scene(design.model, model, messages)) {
+        auto tool = tool_from_model(*scene, design);
+        if (tool) return std::move(*tool);
+        messages.error(model, tool.error().what, tool.error().expected);
+    }
+    auto tool = generated_tool(design);
+    if (!tool) {
+        messages.error(pointer, tool.error().what, tool.error().expected);
         return {};
     }
     if (design.model.empty())
         messages.note(pointer, fmt::format("no model is named, so the tool is generated: {}",
-                                           tool_models::description(tool_models::parameters_of(bare))));
-    return std::move(*wrench);
+                                           tool_models::description(tool_models::parameters_of(design))));
+    return std::move(*tool);
 }
 
-// Loads the author's wrench. Reports its errors and replaces it by a generated one. `pointer`: of the tool.
-WrenchShape load_wrench(const content::WrenchDesign& design, const std::string& pointer,
-                        const Messages& messages) {
-    const std::string model = pointer + "/model";
-    if (const auto scene = read_scene(design.model, model, messages)) {
-        auto wrench = wrench_from_model(*scene, design);
-        if (wrench) return std::move(*wrench);
-        messages.error(model, wrench.error().what, wrench.error().expected);
+// In the order of the assembly: the default tool, then those of "more_tools".
+std::vector<ToolShape> load_tools(const content::Assembly& assembly, const Messages& messages) {
+    std::vector<ToolShape> shapes;
+    for (std::size_t i = 0; i < assembly.tools.size(); ++i) {
+        const content::Tool& tool = assembly.tools[i];
+        const std::string at = i == 0 ? "/tool" : "/more_tools/" + content::pointer_token(tool.name);
+        shapes.push_back(load_tool(tool.wrench, at, messages));
+        shapes.back().name = name_of_tool(assembly, i);
     }
-    return generated_wrench(design, pointer, messages);
-}
-
-// The default wrench first, then those of "more_tools".
-std::vector<WrenchShape> load_wrenches(const content::Assembly& assembly, const Messages& messages) {
-    std::vector<WrenchShape> wrenches;
-    for (const content::Tool& tool : assembly.tools) {
-        const bool is_default = wrenches.empty();
-        const std::string at = is_default ? "/tool" : "/more_tools/" + content::pointer_token(tool.name);
-        wrenches.push_back(load_wrench(tool.wrench, at, messages));
-        if (!is_default) wrenches.back().name = "the tool " + content::in_quotes(tool.name);
-    }
-    return wrenches;
+    return shapes;
 }
 
 Bvh build_bvh(const FlattenedModel& scene) {
@@ -91,24 +84,39 @@ WrenchRoom describe_joint(std::size_t index, const JointParts& parts) {
     return room;
 }
 
+// The open ends among the tools of a joint.
+std::vector<Jaw> jaws_of(const content::Assembly& assembly, const std::vector<std::size_t>& tools) {
+    std::vector<Jaw> jaws;
+    for (const std::size_t i : tools) {
+        const content::Tool& tool = assembly.tools[i];
+        if (tool.wrench.head != content::ToolHead::open_end) continue;
+        jaws.push_back(
+            {i == 0 ? "" : fmt::format(" (the tool {})", content::in_quotes(tool.name)), tool.wrench.jaw});
+    }
+    return jaws;
+}
+
 WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scene, const Messages& messages) {
     check_triangles(scene, near_budget, "/model", messages);
-    std::vector<WrenchShape> wrenches = load_wrenches(assembly, messages);
+    ToolSet set(assembly, load_tools(assembly, messages));
     const std::vector<int> nodes = check_nodes(assembly, scene, messages);
     WrenchRooms rooms;
     rooms.everything = build_bvh(scene);
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
         if (nodes[i] < 0) continue;
         const content::AssemblyJoint& joint = assembly.joints[i];
+        const std::vector<std::size_t> tools = tools_of_joint(assembly, i);
         const JointParts parts = find_joint_parts(scene, nodes[i], joint.design);
         WrenchRoom room = describe_joint(i, parts);
-        if (check_fasteners_and_members(joint, i, parts, scene, rooms.everything, assembly.tools, messages))
-            for (const WrenchShape& wrench : wrenches)
-                check_wrench(joint, i, parts, scene, wrench, messages,
-                             &wrench == wrenches.data() ? &room : nullptr);
+        room.tool = tools.front();
+        if (check_fasteners_and_members(joint, i, parts, scene, rooms.everything, jaws_of(assembly, tools),
+                                        messages)) {
+            JointSurroundings surroundings(joint, parts, scene, set.longest_reach());
+            check_tool_room(surroundings, i, tools, set, messages, room);
+        }
         rooms.joints.push_back(std::move(room));
     }
-    rooms.wrench = std::move(wrenches.front());
+    rooms.tools = std::move(set.shapes());
     rooms.scene = std::move(scene);
     return rooms;
 }
@@ -120,6 +128,7 @@ Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchR
     const auto document = content::JsonDocument::parse(assembly.text, assembly.file, findings.errors);
     if (!document) return findings;
     const Messages messages{*document, findings};
+    check_tools(assembly, messages);
     auto model = read_scene(assembly.models.model, "/model", messages);
     const auto far = read_scene(assembly.models.far_level, "/model_far", messages);
     const auto contact = read_scene(assembly.models.contact, "/contact_model", messages);

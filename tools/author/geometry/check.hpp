@@ -1,5 +1,5 @@
-// Checks that an assembly file agrees with its models and that the wrench can do the work: nodes, sizes,
-// overlaps, room for the wrench, levels of detail.
+// Checks that an assembly file agrees with its models and that the tools can do the work: nodes, sizes,
+// overlaps, kind, strength and room of the tools, levels of detail.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,9 @@ struct Findings {
     std::vector<Error> notes;   // not errors, but useful to the author
 };
 
-// `assembly` must have loaded without errors, and its model files must exist. An assembly without a model has
-// no findings. `rooms`: receives the room for the default wrench on each joint, if there is a model.
+// `assembly` must have loaded without errors, and its model files must exist. Without a model only kind, size
+// and strength of the tools are checked. `rooms`: receives the room for the tool of each joint, if there is a
+// model.
 Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchRooms>* rooms = nullptr);
 
 }  // namespace bolt::geometry

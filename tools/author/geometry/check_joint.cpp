@@ -35,35 +35,27 @@ void check_presence(const JointCheck& s, const Fastener& fastener, bool wanted) 
 }
 
 // Reports a jaw that is too small or too wide for the nut. `flats`: measured width across flats, m.
-void check_jaw(const JointCheck& s, const content::Tool& tool, bool is_default, double flats) {
-    const std::string owner =
-        is_default ? std::string{} : fmt::format(" (the tool {})", content::in_quotes(tool.name));
+void check_jaw(const JointCheck& s, const Jaw& jaw, double flats) {
     const std::string name = content::in_quotes(s.parts.turned.name);
-    const double jaw = tool.wrench.jaw;
     const auto report = [&](const char* how) {
-        s.error(fmt::format("a jaw of {:g} mm{} is too {} for {}, {:.2f} mm across flats", jaw / mm, owner,
-                            how, name, flats / mm),
+        s.error(fmt::format("a jaw of {:g} mm{} is too {} for {}, {:.2f} mm across flats", jaw.opening / mm,
+                            jaw.owner, how, name, flats / mm),
                 fmt::format("jaw_mm from {:.2f} to {:.2f}", flats / mm, (flats + jaw_play) / mm));
     };
-    if (jaw < flats - 1e-6)
+    if (jaw.opening < flats - 1e-6)
         report("small");
-    else if (jaw > flats + jaw_play + 1e-6)
+    else if (jaw.opening > flats + jaw_play + 1e-6)
         report("wide");
 }
 
-// Checks the hexagon of the nut or of the head that is turned, and that the jaws fit it. Returns false if a
-// wrench cannot grip it.
-bool check_turned_hexagon(const JointCheck& s, std::span<const content::Tool> tools) {
+// Checks the hexagon of the nut or of the head that is turned, and that the jaws fit it. Returns false if no
+// tool can grip it.
+bool check_turned_hexagon(const JointCheck& s, std::span<const Jaw> jaws) {
     const joint::TurnedPartSize size = joint::turned_part_size(s.joint.design);
-    if (size.depth > 0.0) {
-        s.messages.note(joint_pointer(s.index),
-                        fmt::format("{} has a socket head, and a lesson has no hexagon key yet",
-                                    content::in_quotes(s.parts.turned.name)));
-        return false;
-    }
+    if (size.depth > 0.0) return true;  // a key has the size of the socket
     const auto flats = check_hexagon(s, s.parts.turned, size.across_flats, s.turned_name());
     if (!flats) return false;
-    for (const content::Tool& tool : tools) check_jaw(s, tool, &tool == tools.data(), *flats);
+    for (const Jaw& jaw : jaws) check_jaw(s, jaw, *flats);
     return true;
 }
 
@@ -187,7 +179,7 @@ void check_overlaps(const JointCheck& s, const Fastener& fastener, const std::se
 
 bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_t index,
                                  const JointParts& parts, const FlattenedModel& scene, const Bvh& everything,
-                                 std::span<const content::Tool> tools, const Messages& messages) {
+                                 std::span<const Jaw> jaws, const Messages& messages) {
     const JointCheck s{joint, index, parts, scene, everything, messages};
     check_presence(s, parts.bolt, true);
     check_presence(s, parts.washer_head, joint.design.washer_under_head);
@@ -199,7 +191,7 @@ bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_
         check_members(s);
     const std::set<std::uint32_t> tight = check_hole(s);
     const std::set<std::uint32_t> tapped = check_far_end(s);
-    const bool gripped = parts.turned.exists() && check_turned_hexagon(s, tools);
+    const bool gripped = parts.turned.exists() && check_turned_hexagon(s, jaws);
     const Fastener& washer = parts.turned_washer;
     const std::string member = fmt::format("the member under the {}", s.turned_name());
     if (washer.exists()) {

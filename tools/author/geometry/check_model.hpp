@@ -1,6 +1,6 @@
 // Checks of the model files as a whole (the nodes that joints name, systematic errors of units, axes or
 // origin, closed surfaces, node names at every level, triangle and byte budgets) and of each joint against
-// its model (sizes, contact and overlap of the fasteners and members, room for the wrench).
+// its model (sizes, contact and overlap of the fasteners and members, room for its tools).
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@
 #include "engine/base/math.hpp"
 #include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/messages.hpp"
+#include "tools/author/geometry/other_tools.hpp"
 #include "tools/author/geometry/scene.hpp"
-#include "tools/author/geometry/wrench.hpp"
 #include "tools/author/geometry/wrench_room.hpp"
 
 namespace bolt::geometry {
@@ -61,19 +61,25 @@ void check_triangles(const FlattenedModel& scene, std::size_t budget, std::strin
 void check_names(const FlattenedModel& near, const FlattenedModel& far, const Messages& messages);
 void check_contact(const FlattenedModel& contact, const FlattenedModel& near, const Messages& messages);
 
+// An open end in messages, and its opening, m.
+struct Jaw {
+    std::string owner;  // empty, or " (the tool "torque_wrench")"
+    double opening = 0.0;
+};
+
 // The checks of one joint are implemented in check_joint.cpp.
 //
-// Returns false if the joint has no nut that a wrench can grip. `index`: of the joint in the file.
-// `everything`: all parts, in the assembly's frame. `tools`: all tools of the assembly, the default one
-// first; the jaw of each must fit the nut.
+// Returns false if the joint has no part that a tool can grip. `index`: of the joint in the file.
+// `everything`: all parts, in the assembly's frame. `jaws`: the tools of the joint that are open ends; the
+// jaw of each must fit the nut.
 bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_t index,
                                  const JointParts& parts, const FlattenedModel& scene, const Bvh& everything,
-                                 std::span<const content::Tool> tools, const Messages& messages);
+                                 std::span<const Jaw> jaws, const Messages& messages);
 
-// Checks that the wrench can be brought onto the nut and swings far enough on it. `room`: receives what was
-// measured; null: nothing.
-void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const JointParts& parts,
-                  const FlattenedModel& scene, const WrenchShape& wrench, const Messages& messages,
-                  WrenchRoom* room);
+// Checks that each tool can be brought onto the turned part and swings far enough on it. `tools`: of
+// tools_of_joint(). `room`: receives what was measured for the first one. Implemented in check_reach.cpp.
+void check_tool_room(JointSurroundings& surroundings, std::size_t joint,
+                     const std::vector<std::size_t>& tools, ToolSet& set, const Messages& messages,
+                     WrenchRoom& room);
 
 }  // namespace bolt::geometry

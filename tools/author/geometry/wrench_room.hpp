@@ -1,34 +1,37 @@
-// The room for an assembly's default wrench on each of its joints, as check_geometry() measures it.
+// The room for a tool on each joint of an assembly, as check_geometry() measures it.
 #pragma once
 
 #include <set>
 #include <vector>
 
 #include "tools/author/geometry/bvh.hpp"
+#include "tools/author/geometry/free_swing.hpp"
 #include "tools/author/geometry/scene.hpp"
-#include "tools/author/geometry/wrench.hpp"
+#include "tools/author/geometry/tool_shape.hpp"
 
 namespace bolt::geometry {
 
-// One joint, tightened. Heights and angles are in the joint's frame; an angle about +Y runs from +X.
+// One joint, tightened, with its own tool or the default one. Heights and angles are in the joint's frame; an
+// angle about +Y runs from +X.
 struct WrenchRoom {
     std::size_t joint = 0;  // index into Assembly::joints
     glm::dmat4 to_assembly{1.0};
     Aabb turned;                    // the nut or head that is turned; empty if the model has none
     std::set<std::uint32_t> parts;  // the joint's fasteners, as indices into FlattenedModel::parts
-    // The following need a hexagon; `gripped` is false without one.
+    std::size_t tool = 0;           // index into Assembly::tools and WrenchRooms::tools
+    // The following need a part that the tool grips; `gripped` is false without one.
     bool gripped = false;
-    FreeSwing swing;           // of the wrench with the face up that has more room
+    FreeSwing swing;           // of the tool; of an open end with the face up that has more room
     bool turned_over = false;  // that face is the other one
     double handle = 0.0;       // rad, the middle of the widest free arc; 0 without an arc
-    double height = 0.0;       // m, of the wrench
-    double turn = 0.0;         // rad by which the hexagon has to turn to lie in the jaw at `handle`
+    double height = 0.0;       // m, of the tool's origin
+    double turn = 0.0;         // rad by which the hexagon has to turn to fit the head at `handle`
 };
 
 struct WrenchRooms {
     FlattenedModel scene;
-    Bvh everything;  // all parts, in the assembly's frame
-    WrenchShape wrench;
+    Bvh everything;                  // all parts, in the assembly's frame
+    std::vector<ToolShape> tools;    // in the order of the assembly
     std::vector<WrenchRoom> joints;  // those whose node the model has
 };
 

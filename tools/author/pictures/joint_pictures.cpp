@@ -54,10 +54,11 @@ struct Blocker {
 std::uint32_t foremost_part(const WrenchRooms& rooms, const WrenchRoom& room,
                             const geometry::BlockedArc& arc) {
     const double angle = 0.5 * (arc.from + arc.to);
-    const Vec3 from(room.to_assembly * glm::dvec4(0.0, room.height, 0.0, 1.0));
+    const geometry::ToolShape& tool = rooms.tools[room.tool];
+    const Vec3 from(room.to_assembly * glm::dvec4(0.0, room.height + tool.handle_height, 0.0, 1.0));
     const Vec3 out = glm::normalize(Vec3(room.to_assembly * glm::dvec4(fan_point(angle, 1.0, 0.0), 0.0)));
     const auto hit_of = [&](const geometry::SkipPart& skip) {
-        return geometry::first_hit(rooms.everything, from, out, rooms.wrench.reach, skip);
+        return geometry::first_hit(rooms.everything, from, out, tool.reach, skip);
     };
     const auto foremost = hit_of([&](std::uint32_t part) { return room.parts.contains(part); });
     const auto blocking = hit_of([&](std::uint32_t part) { return part != arc.part; });
@@ -86,7 +87,7 @@ std::vector<Blocker> blockers_of(const WrenchRooms& rooms, const WrenchRoom& roo
 
 std::string description(const WrenchRoom& room, const std::vector<Blocker>& blockers) {
     if (room.turned.empty()) return "the model has no part that is turned";
-    if (!room.gripped) return "the wrench cannot grip the part that is turned";
+    if (!room.gripped) return "the tool cannot grip the part that is turned";
     const geometry::Arc* arc = room.swing.widest();
     std::string text =
         fmt::format("{:.1f} degrees of free swing", arc == nullptr ? 0.0 : to_degrees(arc->width()));
@@ -109,28 +110,28 @@ std::string file_name(std::string id) {
     return id + ".png";
 }
 
-// The pose of the wrench's tool frame in the assembly's frame: on the turned part, at the handle's angle.
-glm::dmat4 wrench_pose(const WrenchRoom& room) {
+// The pose of the tool's frame in the assembly's frame: on the turned part, at the handle's angle.
+glm::dmat4 tool_pose(const WrenchRoom& room) {
     const double side = room.turned_over ? -1.0 : 1.0;
-    // The same axes as geometry::place_on_nut().
-    const glm::dmat4 on_nut(glm::dvec4(1.0, 0.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, -side, 0.0),
-                            glm::dvec4(0.0, side, 0.0, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
+    // The same axes as geometry::place_on_joint().
+    const glm::dmat4 on_joint(glm::dvec4(1.0, 0.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, -side, 0.0),
+                              glm::dvec4(0.0, side, 0.0, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
     return glm::rotate(glm::translate(room.to_assembly, Vec3(0.0, room.height, 0.0)), room.handle,
                        Vec3(0.0, 1.0, 0.0)) *
-           on_nut;
+           on_joint;
 }
 
-struct WrenchModel {
+struct DrawnTool {
     assets::Model model;
     glm::dmat4 from_model{1.0};  // to the tool's frame
 };
 
-Result<WrenchModel> load_wrench_model(const content::WrenchDesign& design) {
+Result<DrawnTool> load_drawn_tool(const content::WrenchDesign& design) {
     if (design.model.empty())
-        return WrenchModel{tool_models::drawn_model(tool_models::parameters_of(design)), glm::dmat4(1.0)};
+        return DrawnTool{tool_models::drawn_model(tool_models::parameters_of(design)), glm::dmat4(1.0)};
     BOLT_TRY_ASSIGN(auto model, assets::read_gltf(design.model));
     BOLT_TRY_ASSIGN(const auto turn, session::wrench_rotation(design));
-    return WrenchModel{std::move(model), glm::mat4_cast(turn)};
+    return DrawnTool{std::move(model), glm::mat4_cast(turn)};
 }
 
 // Draws one picture after the other.
@@ -162,13 +163,13 @@ class JointPainter {
     const WrenchRooms& rooms_;
     text::Fonts fonts_;
     view::LoadedModel model_;
-    WrenchModel wrench_;
+    std::map<std::size_t, DrawnTool> tools_;  // by index in Assembly::tools, those that a joint needs
     // Each of these depends on those above it.
     std::optional<gpu::Instance> instance_;
     view::GpuContext gpu_context_;
     render::EnvironmentLight light_;
     std::unique_ptr<view::ShownModel> shown_;
-    render::GpuModel gpu_wrench_;
+    std::map<std::size_t, render::GpuModel> gpu_tools_;
 };
 
 Result<std::unique_ptr<JointPainter>> JointPainter::create(const content::Assembly& assembly,
@@ -177,7 +178,10 @@ Result<std::unique_ptr<JointPainter>> JointPainter::create(const content::Assemb
     view::ModelLoadResult loaded = view::load_model(assembly.file);
     if (!loaded.ok()) return fail(loaded.errors.front());
     painter->model_ = std::move(loaded.model);
-    BOLT_TRY_ASSIGN(painter->wrench_, load_wrench_model(assembly.wrench));
+    for (const WrenchRoom& room : rooms.joints) {
+        if (painter->tools_.contains(room.tool)) continue;
+        BOLT_TRY_ASSIGN(painter->tools_[room.tool], load_drawn_tool(assembly.tools[room.tool].wrench));
+    }
     BOLT_TRY_ASSIGN(painter->fonts_, text::load_fonts());
     BOLT_TRY_ASSIGN(const auto radiance, view::load_light("studio"));
     BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create({}));
@@ -189,11 +193,13 @@ Result<std::unique_ptr<JointPainter>> JointPainter::create(const content::Assemb
     BOLT_TRY_ASSIGN(painter->light_, render::upload_environment(device, radiance));
     BOLT_TRY_ASSIGN(painter->shown_,
                     view::show_model(device, painter->model_, painter->light_, {true, true}));
-    BOLT_TRY_ASSIGN(painter->gpu_wrench_, render::upload_model(device, painter->wrench_.model));
+    for (const auto& [tool, drawn] : painter->tools_) {
+        BOLT_TRY_ASSIGN(painter->gpu_tools_[tool], render::upload_model(device, drawn.model));
+    }
     return painter;
 }
 
-// Outlines the part that is turned, turns its hexagon into the jaw, and lets what hides it fade.
+// Outlines the part that is turned, turns its hexagon to fit the tool, and lets what hides it fade.
 Status JointPainter::show_turned_part(const WrenchRoom& room, render::Scene& scene) const {
     const content::AssemblyJoint& joint = assembly_.joints[room.joint];
     std::set<int> turned, own;
@@ -217,8 +223,9 @@ Status JointPainter::show_turned_part(const WrenchRoom& room, render::Scene& sce
 }
 
 FanRing JointPainter::ring_of(const WrenchRoom& room) const {
-    return {1.1 * std::hypot(room.turned.half().x, room.turned.half().z), fan_reach * rooms_.wrench.reach,
-            room.height};
+    const geometry::ToolShape& tool = rooms_.tools[room.tool];
+    return {1.1 * std::hypot(room.turned.half().x, room.turned.half().z), fan_reach * tool.reach,
+            room.height + tool.handle_height};
 }
 
 PictureContents JointPainter::contents_of(const WrenchRoom& room, const FanRing& ring) const {
@@ -235,9 +242,10 @@ PictureContents JointPainter::contents_of(const WrenchRoom& room, const FanRing&
                 in_assembly(fan_point(angle, (room.gripped ? 1.5 : 6.0) * radius, height)));
     }
     if (!room.gripped) return contents;
-    const double top = room.height + rooms_.wrench.half_thickness + 0.1 * mm;
+    const geometry::ToolShape& tool = rooms_.tools[room.tool];
+    const double top = room.height + tool.top + 0.1 * mm;
     for (int i = 1; i <= 8; ++i)
-        contents.visible.push_back(in_assembly(fan_point(room.handle, i / 8.0 * rooms_.wrench.reach, top)));
+        contents.visible.push_back(in_assembly(fan_point(room.handle, i / 8.0 * tool.reach, top)));
     const auto add_arc = [&](double from, double to, bool is_free) {
         for (int i = 0; i <= 24; ++i) {
             const double angle = from + (to - from) * i / 24.0;
@@ -249,8 +257,8 @@ PictureContents JointPainter::contents_of(const WrenchRoom& room, const FanRing&
     };
     for (const geometry::Arc& arc : room.swing.arcs) add_arc(arc.from, arc.to, true);
     for (const geometry::BlockedArc& arc : room.swing.blocked) add_arc(arc.from, arc.to, false);
-    const glm::dmat4 pose = wrench_pose(room);
-    for (const geometry::Triangle& t : rooms_.wrench.triangles)
+    const glm::dmat4 pose = tool_pose(room);
+    for (const geometry::Triangle& t : tool.triangles)
         contents.framed.emplace_back(pose * glm::dvec4(t.a, 1.0));
     return contents;
 }
@@ -281,8 +289,9 @@ Result<std::string> JointPainter::draw(const WrenchRoom& room, const std::vector
     const FanRing ring = ring_of(room);
     render::GpuModel gpu_fan;
     if (room.gripped) {
-        render::add_model(scene, wrench_.model, gpu_wrench_,
-                          glm::mat4(wrench_pose(room) * wrench_.from_model));
+        const DrawnTool& tool = tools_.at(room.tool);
+        render::add_model(scene, tool.model, gpu_tools_.at(room.tool),
+                          glm::mat4(tool_pose(room) * tool.from_model));
         const assets::Model fan = make_swing_fan(room.swing, ring);
         BOLT_TRY_ASSIGN(gpu_fan, render::upload_model(device, fan));
         const std::size_t first = scene.objects.size();

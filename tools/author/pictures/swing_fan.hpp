@@ -1,10 +1,10 @@
-// The free and the blocked directions of a wrench as flat sectors around a nut.
+// The free and the blocked directions of a tool as flat sectors around a nut.
 #pragma once
 
 #include <vector>
 
 #include "engine/assets/model.hpp"
-#include "tools/author/geometry/wrench.hpp"
+#include "tools/author/geometry/free_swing.hpp"
 
 namespace bolt::author {
 

@@ -1,0 +1,227 @@
+#include "tools/author/geometry/joint_tools.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "game/tool_models/tool_model.hpp"
+
+namespace bolt::geometry {
+
+namespace {
+
+constexpr double size_tolerance = 0.02 * mm;
+constexpr double most_jaw_play = 0.6 * mm;  // a jaw may be wider than the nut by this
+constexpr double beyond_grip = 50.0 * mm;   // from the middle of the grip to the end of the handle
+constexpr double much_torque = 0.8;         // of the test torque, beyond which there is a note
+
+bool is_key(content::ToolHead head) {
+    return head == content::ToolHead::hex_key || head == content::ToolHead::hex_bit;
+}
+
+}  // namespace
+
+std::vector<std::size_t> tools_of_joint(const content::Assembly& assembly, std::size_t joint) {
+    const auto index_of = [&](const std::string& name) {
+        const auto found = std::find_if(assembly.tools.begin(), assembly.tools.end(),
+                                        [&](const content::Tool& tool) { return tool.name == name; });
+        return static_cast<std::size_t>(found - assembly.tools.begin());
+    };
+    const content::AssemblyJoint& own = assembly.joints[joint];
+    if (!own.tool.empty()) return {index_of(own.tool)};
+    std::vector<std::size_t> tools;
+    for (std::size_t i = 0; i < assembly.tools.size(); ++i) {
+        const content::Tool& tool = assembly.tools[i];
+        const bool is_named =
+            std::any_of(assembly.joints.begin(), assembly.joints.end(),
+                        [&](const content::AssemblyJoint& other) { return other.tool == tool.name; });
+        if (i > 0 && is_named) continue;
+        const auto other = tool.instead.find(own.design.id);
+        const std::size_t used = other == tool.instead.end() ? i : index_of(other->second);
+        if (std::find(tools.begin(), tools.end(), used) == tools.end()) tools.push_back(used);
+    }
+    return tools;
+}
+
+collision::TurnedShape shape_of(const joint::JointDesign& design) {
+    const joint::TurnedPartSize part = joint::turned_part_size(design);
+    if (part.depth > 0.0)
+        return collision::HexagonSocket{part.across_flats, part.depth, part.height, part.outside};
+    return collision::HexagonPrism{part.across_flats, part.height, part.bearing};
+}
+
+double nominal_size(const content::WrenchDesign& design) {
+    return design.head == content::ToolHead::open_end ? design.jaw : design.size;
+}
+
+std::string title_of(const content::WrenchDesign& design) {
+    const double size = nominal_size(design) / mm;
+    switch (design.head) {
+        case content::ToolHead::open_end:
+            return fmt::format("an open end of {:g} mm", tool_models::parameters_of(design).size / mm);
+        case content::ToolHead::ring:
+            return fmt::format("a ring of {:g} mm", size);
+        case content::ToolHead::socket:
+            return fmt::format("a socket of {:g} mm", size);
+        case content::ToolHead::hex_key:
+            return fmt::format("a hexagon key of {:g} mm", size);
+        case content::ToolHead::hex_bit:
+            break;
+    }
+    return fmt::format("a hexagon bit of {:g} mm", size);
+}
+
+std::string name_of_tool(const content::Assembly& assembly, std::size_t tool) {
+    return tool == 0 ? "the wrench" : "the tool " + content::in_quotes(assembly.tools[tool].name);
+}
+
+std::vector<content::WrenchDesign> usual_tools(const joint::JointDesign& design) {
+    using content::ToolHead;
+    using content::ToolKind;
+    const joint::TurnedPartSize part = joint::turned_part_size(design);
+    std::vector<std::pair<ToolKind, ToolHead>> kinds{{ToolKind::ring_wrench, ToolHead::ring},
+                                                     {ToolKind::ratchet, ToolHead::socket},
+                                                     {ToolKind::open_end_wrench, ToolHead::open_end}};
+    if (part.depth > 0.0)
+        kinds = {{ToolKind::hex_key, ToolHead::hex_key}, {ToolKind::ratchet, ToolHead::hex_bit}};
+    std::vector<content::WrenchDesign> tools;
+    for (const auto& [kind, head] : kinds) {
+        content::WrenchDesign tool;
+        tool.kind = kind;
+        tool.head = head;
+        if (head == ToolHead::open_end) {
+            tool.jaw = part.across_flats + tool_models::standard_play;
+            tool.head_angle = to_radians(15.0);
+        } else {
+            tool.size = part.across_flats;
+        }
+        tool_models::ToolParameters usual = tool_models::parameters_of(tool);
+        usual.length = 0.0;
+        const auto whole = tool_models::completed(usual);
+        if (!whole) continue;  // no such tool has this size
+        tool.teeth = whole->teeth;
+        tool.handle_length = whole->length - beyond_grip;
+        tools.push_back(tool);
+    }
+    return tools;
+}
+
+bool suits(const content::WrenchDesign& design, const joint::JointDesign& joint) {
+    const joint::TurnedPartSize part = joint::turned_part_size(joint);
+    const double over = nominal_size(design) - part.across_flats;
+    const double play = design.head == content::ToolHead::open_end ? most_jaw_play : 0.0;
+    return is_key(design.head) == (part.depth > 0.0) && over > -size_tolerance &&
+           over < play + size_tolerance;
+}
+
+ToolStrength strength_of(const content::WrenchDesign& design) {
+    using namespace tool_models;
+    const ToolParameters p = parameters_of(design);
+    const auto kind_of_head = [&] {
+        switch (design.head) {
+            case content::ToolHead::ring:
+                return ToolKind::ring;
+            case content::ToolHead::socket:
+                return ToolKind::socket;
+            case content::ToolHead::hex_key:
+                return ToolKind::hex_key;
+            case content::ToolHead::hex_bit:
+                return ToolKind::hex_bit;
+            default:
+                return ToolKind::open_end;
+        }
+    };
+    ToolStrength strength{test_torque(kind_of_head(), p.size), false, 0.0};
+    if (!has_ratchet(p)) return strength;
+    const ToolParameters whole = completed(p).value_or(p);
+    const TestTorque drive = test_torque(ToolKind::extension_bar, whole.drive);
+    const bool is_weaker =
+        strength.limit.source == TorqueSource::none || drive.torque < strength.limit.torque;
+    if (drive.source != TorqueSource::none && is_weaker) strength = {drive, true, whole.drive};
+    return strength;
+}
+
+namespace {
+
+// The tools that can turn a joint, for messages: those of the file, otherwise kinds and sizes.
+std::string suitable_tools(const content::Assembly& assembly, const joint::JointDesign& design) {
+    std::string names;
+    for (const content::Tool& tool : assembly.tools)
+        if (suits(tool.wrench, design))
+            names += fmt::format("{}{}", names.empty() ? "" : " or ", content::in_quotes(tool.name));
+    if (!names.empty()) return fmt::format("{} as \"tool\" of its joint type", names);
+    for (const content::WrenchDesign& usual : usual_tools(design))
+        names += fmt::format("{}{}", names.empty() ? "" : ", or ", title_of(usual));
+    return names;
+}
+
+// The kinds of tools that bear a torque (N·m) on the part of a joint.
+std::string strong_tools(const joint::JointDesign& design, double torque) {
+    std::string names;
+    for (const content::WrenchDesign& usual : usual_tools(design)) {
+        const tool_models::TestTorque limit = strength_of(usual).limit;
+        if (limit.source == tool_models::TorqueSource::none || limit.torque < torque) continue;
+        names += fmt::format("{}{} ({:.0f} N·m)", names.empty() ? "" : " or ", title_of(usual), limit.torque);
+    }
+    return names.empty() ? "a lower target torque: no tool of this size bears it" : names;
+}
+
+std::string origin_of(const ToolStrength& strength) {
+    switch (strength.limit.source) {
+        case tool_models::TorqueSource::read:
+            return "ISO 1711-1, from a catalogue";
+        case tool_models::TorqueSource::interpolated:
+            return "interpolated between sizes of ISO 1711-1";
+        default:
+            return strength.of_drive ? "an estimate for its square drive"
+                                     : "an estimate beyond the sizes of ISO 1711-1 that are known";
+    }
+}
+
+void check_torque(const content::AssemblyJoint& joint, const content::WrenchDesign& design,
+                  const std::string& name, const std::string& pointer, const Messages& messages) {
+    const ToolStrength strength = strength_of(design);
+    const double torque = joint.spec.torque.high, limit = strength.limit.torque;
+    if (strength.limit.source == tool_models::TorqueSource::none || torque <= much_torque * limit) return;
+    const std::string part =
+        strength.of_drive ? fmt::format(" on a square drive of {:g} mm", strength.drive / mm) : "";
+    const std::string what = fmt::format(
+        "{} is {}{}, which is tested with {:.0f} N·m ({}), and the target torque of {} reaches {:.0f} N·m",
+        name, title_of(design), part, limit, origin_of(strength), content::in_quotes(joint.type), torque);
+    if (torque > limit)
+        messages.error(pointer, what, strong_tools(joint.design, torque));
+    else
+        messages.note(pointer, fmt::format("{}, {:.0f} % of it", what, 100.0 * torque / limit));
+}
+
+}  // namespace
+
+void check_tools(const content::Assembly& assembly, const Messages& messages) {
+    std::set<std::tuple<std::string, std::size_t, double, double>> checked;
+    for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+        const content::AssemblyJoint& joint = assembly.joints[i];
+        const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
+        for (const std::size_t tool : tools_of_joint(assembly, i)) {
+            if (!checked.emplace(joint.type, tool, part.across_flats, joint.spec.torque.high).second)
+                continue;
+            const content::WrenchDesign& design = assembly.tools[tool].wrench;
+            const std::string name = name_of_tool(assembly, tool);
+            if (suits(design, joint.design))
+                check_torque(joint, design, name, joint_pointer(i), messages);
+            else
+                messages.error(joint_pointer(i),
+                               fmt::format("{} is {} and does not fit the {} of {}, {} of {:g} mm", name,
+                                           title_of(design),
+                                           joint.design.turned == joint::TurnedPart::head ? "head" : "nut",
+                                           content::in_quotes(joint.design.id),
+                                           part.depth > 0.0 ? "a hexagonal socket" : "a hexagon",
+                                           part.across_flats / mm),
+                               suitable_tools(assembly, joint.design));
+        }
+    }
+}
+
+}  // namespace bolt::geometry

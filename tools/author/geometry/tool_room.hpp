@@ -1,0 +1,77 @@
+// The room for one tool on one joint: its free swing where the joint is seated and where its thread starts,
+// and a free path onto it.
+#pragma once
+
+#include <optional>
+
+#include "content/format/assembly.hpp"
+#include "tools/author/geometry/free_swing.hpp"
+#include "tools/author/geometry/scene.hpp"
+#include "tools/author/geometry/tool_shape.hpp"
+
+namespace bolt::geometry {
+
+// The swing of a tool as it is and turned over; only an open end can be turned over.
+struct SwingPair {
+    FreeSwing plain, turned_over;
+    bool reversible = true;
+
+    [[nodiscard]] double most() const { return std::max(plain.width(), turned_over.width()); }
+    [[nodiscard]] double least() const { return std::min(plain.width(), turned_over.width()); }
+    [[nodiscard]] bool is_wider_turned_over() const { return turned_over.width() > plain.width(); }
+    [[nodiscard]] const FreeSwing& wider() const { return is_wider_turned_over() ? turned_over : plain; }
+};
+
+// The swing that a tool needs, rad. `least`: in one arc. `period`: between two fitting angles of its head.
+struct SwingRule {
+    double least = 0.0, period = 0.0;
+};
+SwingRule swing_rule(const ToolShape& tool);
+
+// Returns true if the tool can grip the part in each of its orientations, and can therefore turn it without
+// limit. `one_way_up`: without turning an open end over.
+bool can_turn_fully(const SwingPair& swings, const ToolShape& tool, bool one_way_up);
+
+// Returns true if the swing is enough to turn the part without limit.
+bool is_enough(const SwingPair& swings, const ToolShape& tool);
+
+struct ToolRoom {
+    double height = 0.0;  // m, of the tool's origin above the joint's, on the tightened joint
+    SwingPair seated;
+    std::optional<SwingPair> at_start;    // if the thread starts more than 1 mm above the seat
+    std::uint32_t obstruction = no_part;  // a part in the path onto the tightened joint
+    bool enough = false;                  // swing and path
+};
+
+// A joint and the obstacles around it.
+class JointSurroundings {
+  public:
+    // `longest_reach`: m, of the tools to come; a longer one makes the obstacles be collected again.
+    JointSurroundings(const content::AssemblyJoint& joint, const JointParts& parts,
+                      const FlattenedModel& scene, double longest_reach);
+
+    // The joint must have a part that the tool grips.
+    [[nodiscard]] ToolRoom room_for(const ToolShape& tool);
+
+    [[nodiscard]] const content::AssemblyJoint& joint() const { return joint_; }
+    [[nodiscard]] const JointParts& parts() const { return parts_; }
+    [[nodiscard]] const FlattenedModel& scene() const { return scene_; }
+    [[nodiscard]] std::string name_of(std::uint32_t part) const {
+        return part < scene_.parts.size() ? content::in_quotes(scene_.parts[part].name) : "no part";
+    }
+
+  private:
+    // The obstacles within `radius` m of the axis and above the height `floor`, and perhaps others.
+    const Bvh& obstacles(double radius, double floor);
+    [[nodiscard]] double height_of(const ToolShape& tool) const;
+    [[nodiscard]] std::uint32_t find_path(const ToolShape& tool, const ToolRoom& room, const Bvh& plain,
+                                          const Bvh& over);
+
+    const content::AssemblyJoint& joint_;
+    const JointParts& parts_;
+    const FlattenedModel& scene_;
+    std::optional<Bvh> obstacles_;
+    double radius_, floor_;  // m, of `obstacles_`
+};
+
+}  // namespace bolt::geometry
