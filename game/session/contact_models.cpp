@@ -18,7 +18,10 @@
 namespace bolt::session {
 
 namespace {
-constexpr double beyond_socket = 0.6;  // widths across flats, beyond the corners of a hexagonal socket
+// Distance of the corners of a hexagonal socket from the axis, in widths across flats: 1/√3 and up to 0.3 mm
+// of play. Points at other distances belong to the drilled end of the socket or to its countersink.
+constexpr double least_socket_corner = 0.56, most_socket_corner = 0.60;
+constexpr double above_shank = 0.1e-3;  // m above the bearing face, beyond the shank and its fillet
 }  // namespace
 
 HexagonPose find_hexagon(const servo::NutGeometry& nut, std::span<const glm::dvec3> points) {
@@ -29,7 +32,9 @@ HexagonPose find_hexagon(const servo::NutGeometry& nut, std::span<const glm::dve
         const Vec3 q(glm::dot(d, nut.e1), glm::dot(d, nut.e2), glm::dot(d, nut.axis));
         if (!nut.is_head) low = std::min(low, q.z);
         const double out = std::hypot(q.x, q.y) / nut.across_flats;
-        if (nut.socket_depth > 0.0 && out > beyond_socket) continue;  // outside of the head
+        if (nut.socket_depth > 0.0 &&
+            (q.z < above_shank || out < least_socket_corner || out > most_socket_corner))
+            continue;
         sixfold += std::pow(out, 24.0) * std::polar(1.0, 6.0 * std::atan2(q.y, q.x));
     }
     return {glm::angleAxis(-std::arg(sixfold) / 6.0, Vec3(0, 0, 1)), low};

@@ -21,8 +21,10 @@ struct HexagonPose {
     double low = 0.0;                     // m, height of the bearing face above the seat
 };
 
-// Locates the six corners as the outermost points of the mesh, of a head with a socket those of the socket;
-// and the bearing face of a nut as its lowest points. `points`: in the assembly's frame.
+// Locates the six corners as the outermost points of the mesh, of a head with a socket as the points above
+// its bearing face that are as far from the axis as the corners of the socket; and the bearing face of a nut
+// as its lowest points. A head that is drawn without its socket is not rotated. `points`: in the assembly's
+// frame.
 HexagonPose find_hexagon(const servo::NutGeometry& nut, std::span<const glm::dvec3> points);
 
 // Transforms from the assembly's frame to the nut's own; servo::nut_pose transforms back.

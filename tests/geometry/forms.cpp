@@ -51,6 +51,39 @@ Machine turned_at_head(double sunk = 0.0, const HeldNut& held = {}) {
     return machine;
 }
 
+void with_key(std::string& text) {
+    replace(text, R"("size": "M8",)", R"("size": "M8", "turned": "head", "head": "socket",)");
+    replace(text, R"("kind": "open_end_wrench", "jaw_mm": 13.2)", R"("kind": "hex_key", "size_mm": 6)");
+}
+
+// A socket head, mm: the socket's width (0: none), depth and distance from the axis, and the head's height.
+struct SocketSizes {
+    double across_flats = 6.0, depth = 4.0, height = 8.0, beside = 0.0;
+};
+
+// The same joint with a cap screw.
+Machine socket_head(const SocketSizes& sizes) {
+    Machine machine = turned_at_head();
+    const double face = 1.6, top = face + sizes.height, bottom = top - sizes.depth;
+    std::vector<PrismMesh> shapes = {prism(circle(4.0), face - 30.0, face)};
+    if (sizes.across_flats > 0.0) {
+        std::vector<glm::dvec2> hole = hexagon(sizes.across_flats);
+        PrismMesh rim;
+        std::vector<glm::dvec2> outside;
+        for (glm::dvec2& corner : hole) {
+            outside.push_back(corner * (6.5 / glm::length(corner)));
+            corner.x += sizes.beside;
+        }
+        rim.between(hole, outside, bottom, top);
+        shapes.push_back(rim);
+        shapes.push_back(prism(circle(6.5), face, bottom));
+    } else {
+        shapes.push_back(prism(circle(6.5), face, top));
+    }
+    reshape(machine, "B1_bolt", shapes);
+    return machine;
+}
+
 void at_head(std::string& text) { replace(text, R"("size": "M8",)", R"("size": "M8", "turned": "head",)"); }
 
 // A stud and the housing that it is screwed into, mm: the diameter of the hole, the depth of its bottom
@@ -106,7 +139,7 @@ TEST_CASE("Forms: a head that is too deep, too high or no hexagon is an error") 
 
 TEST_CASE("Forms: a socket head is turned with a key or a bit of its size") {
     const auto errors_with = [](const char* tool) {
-        return all(check(turned_at_head(), [&](std::string& text) {
+        return all(check(socket_head({}), [&](std::string& text) {
                        replace(text, R"("size": "M8",)",
                                R"("size": "M8", "turned": "head", "head": "socket",)");
                        replace(text, R"("kind": "open_end_wrench", "jaw_mm": 13.2)", tool);
@@ -117,6 +150,27 @@ TEST_CASE("Forms: a socket head is turned with a key or a bit of its size") {
     CHECK(
         errors_with(R"("kind": "open_end_wrench", "jaw_mm": 13.2)") ==
         R"(16:5: /joints/0: the wrench is an open end of 13 mm and does not fit the head of "B1", a hexagonal socket of 6 mm; expected a hexagon key of 6 mm, or a hexagon bit of 6 mm)");
+}
+
+TEST_CASE(
+    "Forms: a correct socket head has no findings, and one that a key of its size does not fit is an error") {
+    const auto errors_with = [](const SocketSizes& sizes) {
+        return all(check_generated(socket_head(sizes), with_key).errors);
+    };
+    CHECK(errors_with({}) == "");
+    CHECK(errors_with({.across_flats = 6.1}) == "");
+    CHECK(errors_with({.across_flats = 5.0}) ==
+          R"(16:5: /joints/0: the socket of "B1_bolt" measures 5.00 mm across flats; expected 6 mm for M8)");
+    CHECK(
+        errors_with({.beside = 0.05}) ==
+        R"(16:5: /joints/0: the socket of "B1_bolt" is 0.05 mm beside the joint's axis; expected at most 0.01 mm)");
+    CHECK(errors_with({.depth = 3.0}) ==
+          R"(16:5: /joints/0: the socket of "B1_bolt" is 3.00 mm deep; expected at least 4 mm for M8)");
+    CHECK(errors_with({.height = 5.0}) ==
+          R"(16:5: /joints/0: the head of "B1_bolt" is 5.00 mm high; expected 8 mm for M8 (ISO 4762))");
+    CHECK(
+        errors_with({.across_flats = 0.0}) ==
+        R"(16:5: /joints/0: "B1_bolt" has no hexagonal socket about the joint's axis; expected a socket of 6 mm)");
 }
 
 TEST_CASE(

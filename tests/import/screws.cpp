@@ -1,13 +1,11 @@
 // Hexagon screws in tapped holes: found by their geometry, drafted with their engagement, and accepted by the
 // checks of the model.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <gp_Ax2.hxx>
 #include <nlohmann/json.hpp>
@@ -151,14 +149,8 @@ TEST_CASE("Screws: a screw that no metric size describes, or that ends in a clea
 TEST_CASE("Screws: the programs make a lesson of the file, in which a simulated trainee tightens the screw") {
     const Folder folder;
     write_cover({}, folder / "pump.step");
-    const auto bin = std::filesystem::read_symlink("/proc/self/exe").parent_path();
     const auto run = [&](const std::string& program, const std::string& arguments) {
-        const std::string command = "cd '" + folder.path().string() + "' && '" + (bin / program).string() +
-                                    "' " + arguments + " > log 2>&1";
-        const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe): one thread
-        INFO(bytes(folder / "log"));
-        CHECK(WIFEXITED(status));
-        CHECK(WEXITSTATUS(status) == 0);
+        run_program(folder, program, arguments);
     };
     run("bolt-author", "import-step pump.step -o pump");
     run("bolt-author", "validate pump --pictures pictures");

@@ -1,6 +1,7 @@
 #include "support.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/wait.h>
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
@@ -25,6 +26,7 @@
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_MaterialTool.hxx>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -149,6 +151,14 @@ TopoDS_Shape hexagon_bolt(double d, double flats, double head, double length) {
         .Shape();
 }
 
+TopoDS_Shape cap_screw(double d, double head, double height, double socket, double depth, double length) {
+    const gp_Ax2 top(gp_Pnt(0.0, 0.0, -height), gp_Dir(0.0, 0.0, 1.0));
+    const TopoDS_Shape solid = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(top, 0.5 * head, height).Shape(),
+                                                BRepPrimAPI_MakeCylinder(0.5 * d, length).Shape())
+                                   .Shape();
+    return BRepAlgoAPI_Cut(solid, hexagon(socket, -height, depth)).Shape();
+}
+
 TopoDS_Shape hexagon_nut(double flats, double height, double hole) {
     return BRepAlgoAPI_Cut(hexagon(flats, 0.0, height), BRepPrimAPI_MakeCylinder(0.5 * hole, height).Shape())
         .Shape();
@@ -208,6 +218,16 @@ std::string bytes(const fs::path& file) {
     std::ostringstream all;
     all << in.rdbuf();
     return all.str();
+}
+
+void run_program(const Folder& folder, const std::string& program, const std::string& arguments) {
+    const auto bin = fs::read_symlink("/proc/self/exe").parent_path();
+    const std::string command = "cd '" + folder.path().string() + "' && '" + (bin / program).string() + "' " +
+                                arguments + " > log 2>&1";
+    const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe): one thread
+    INFO(bytes(folder / "log"));
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
 }
 
 }  // namespace import_test

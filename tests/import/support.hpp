@@ -48,6 +48,8 @@ TopoDS_Shape face_towards(const TopoDS_Shape& shape, double x, double y, double 
 // Fasteners without threads, along +Z, mm. The head is below z = 0, the shank extends from 0 to `length`; nut
 // and washer extend from 0 upwards.
 TopoDS_Shape hexagon_bolt(double d, double flats, double head, double length);
+// A cap screw: diameters of thread and head, height of the head, width and depth of its socket.
+TopoDS_Shape cap_screw(double d, double head, double height, double socket, double depth, double length);
 TopoDS_Shape hexagon_nut(double flats, double height, double hole);
 TopoDS_Shape ring(double outer, double inner, double height);
 
@@ -59,5 +61,9 @@ int node_named(const assets::Model& model, const std::string& name);  // index; 
 glm::dmat4 world(const assets::Model& model, int node);
 double volume(const assets::Mesh& mesh);  // m³, of a closed mesh
 std::string bytes(const std::filesystem::path& file);
+
+// Runs a program of this build in the folder; its output goes to the file "log" there. Fails the test unless
+// it succeeds.
+void run_program(const Folder& folder, const std::string& program, const std::string& arguments);
 
 }  // namespace import_test

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "tools/author/geometry/joint_check.hpp"
 
@@ -48,11 +49,14 @@ void check_jaw(const JointCheck& s, const Jaw& jaw, double flats) {
         report("wide");
 }
 
-// Checks the hexagon of the nut or of the head that is turned, and that the jaws fit it. Returns false if no
-// tool can grip it.
+// Checks the hexagon of the nut or of the head that is turned, and that the jaws fit it, or the socket of the
+// head. Returns false if no tool can grip it.
 bool check_turned_hexagon(const JointCheck& s, std::span<const Jaw> jaws) {
     const joint::TurnedPartSize size = joint::turned_part_size(s.joint.design);
-    if (size.depth > 0.0) return true;  // a key has the size of the socket
+    if (size.depth > 0.0) {
+        check_socket(s, size);
+        return true;
+    }
     const auto flats = check_hexagon(s, s.parts.turned, size.across_flats, s.turned_name());
     if (!flats) return false;
     for (const Jaw& jaw : jaws) check_jaw(s, jaw, *flats);
@@ -153,17 +157,30 @@ void check_tapped_members(const JointCheck& s) {
                 "both within 0.1 mm");
 }
 
+// The lower and upper end of the part of a fastener that has the height `y`: head and shank of a bolt shrink
+// separately, so that the bearing face under the head leaves the member.
+std::pair<double, double> section_around(const JointCheck& s, const Fastener& fastener, double y) {
+    const double low = fastener.box.low.y, high = fastener.box.high.y;
+    if (&fastener != &s.parts.bolt || s.joint.design.form == joint::JointForm::stud) return {low, high};
+    const bool head_up = s.joint.design.turned == joint::TurnedPart::head;
+    const Fastener& washer = s.parts.washer_head;
+    const double face = head_up ? s.parts.turned.box.low.y : washer.exists() ? washer.box.low.y : -s.grip();
+    if (head_up ? y > face - contact_tolerance : y > face + contact_tolerance) return {face, high};
+    return {low, face};
+}
+
 // Reports a part outside the joint that crosses the fastener after shrinking it by the contact tolerance.
 // `reported`: parts that already have an error.
 void check_overlaps(const JointCheck& s, const Fastener& fastener, const std::set<std::uint32_t>& reported) {
     if (!fastener.exists()) return;
     std::vector<Triangle> smaller = fastener.triangles;
-    const double middle = fastener.box.middle().y;
     for (Triangle& t : smaller)
         for (Vec3* p : {&t.a, &t.b, &t.c}) {
             const double radius = std::hypot(p->x, p->z);
             const double in = radius > contact_tolerance ? 1.0 - contact_tolerance / radius : 0.0;
-            const double y = p->y - std::clamp(p->y - middle, -contact_tolerance, contact_tolerance);
+            const auto [low, high] = section_around(s, fastener, p->y);
+            const double y =
+                p->y - std::clamp(p->y - 0.5 * (low + high), -contact_tolerance, contact_tolerance);
             *p = Vec3(s.parts.to_assembly * glm::dvec4(p->x * in, y, p->z * in, 1.0));
         }
     const auto hit =

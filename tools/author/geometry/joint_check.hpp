@@ -53,6 +53,10 @@ struct JointCheck {
 std::optional<double> check_hexagon(const JointCheck& s, const Fastener& fastener, double across_flats,
                                     const char* noun);
 
+// Reports a socket head that is drawn with another socket or another height than ISO 4762 has, because the
+// key takes its place in the lesson from the standard. Implemented in check_socket.cpp.
+void check_socket(const JointCheck& s, const joint::TurnedPartSize& size);
+
 // Reports a gap or a penetration between the part `upper`, which begins at the height `bottom`, and the part
 // `lower`, which ends at the height `level`.
 void check_seat(const JointCheck& s, const std::string& upper, double bottom, const std::string& lower,

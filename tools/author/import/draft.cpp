@@ -12,6 +12,7 @@
 
 #include "haptics/joint/design.hpp"
 #include "haptics/joint/fastener.hpp"
+#include "tools/author/import/draft_tools.hpp"
 
 namespace bolt::step_import {
 
@@ -52,6 +53,8 @@ std::string axis_text(const Vec3& a) {
 // Joints with equal keys have the same joint type.
 struct JointTypeKey {
     std::string size, property_class;
+    joint::HeadShape head = joint::HeadShape::hexagon;
+    bool turns_head = false;
     double length = 0.0;  // mm
     bool washer_head = false, washer_nut = false;
     std::vector<std::pair<double, std::string>> members;  // mm, material
@@ -63,8 +66,14 @@ struct JointTypeKey {
 struct DraftJointType {
     std::string name;
     JointTypeKey type;
-    double torque = 0.0;  // N·m
+    double torque = 0.0;              // N·m
+    std::size_t tool = 0;             // index into the tools of the draft
+    std::vector<std::string> joints;  // ids
 };
+
+const joint::SocketHead* socket_of(const JointTypeKey& type, const joint::ThreadSize& size) {
+    return type.head == joint::HeadShape::socket ? joint::socket_head(size.size.name) : nullptr;
+}
 
 // The tapped material for a material of members.
 std::string_view tapped_material_of(std::string_view member) {
@@ -97,8 +106,11 @@ double target_torque(const JointTypeKey& type) {
     const auto bolt = joint::property_class(type.property_class, thread->size.d);
     if (!bolt) return 0.0;
     const bool screw = !type.tapped.empty();
-    const double bearing = joint::bearing_mean_diameter(
-        screw ? thread->size.head_bearing : thread->size.nut_bearing, thread->size.hole);
+    const joint::SocketHead* const socket = socket_of(type, *thread);
+    const double face = socket            ? socket->bearing
+                        : type.turns_head ? thread->size.head_bearing
+                                          : thread->size.nut_bearing;
+    const double bearing = joint::bearing_mean_diameter(face, thread->size.hole);
     double torque =
         torque_share *
         joint::assembly_preload(thread->thread, *bolt, friction, friction, bearing, utilisation).torque;
@@ -117,6 +129,7 @@ class DraftWriter {
         if (joints_.empty()) return std::move(draft_);
         for (const JointCandidate* joint : joints_) type_of_.push_back(type_index(*joint));
         draft_.joints = joints_.size();
+        describe();
         write();
         return std::move(draft_);
     }
@@ -127,35 +140,42 @@ class DraftWriter {
     std::vector<const JointCandidate*> joints_;
     std::vector<std::size_t> type_of_;
     std::vector<DraftJointType> types_;
-    double flats_ = 0.0;  // m, width across flats of the chosen nuts
+    std::vector<DraftTool> tools_;
     bool gasket_ = false;
     std::size_t unknown_members_ = 0;
 
-    // Keeps the joints with the most frequent width across flats, because an assembly has one wrench.
+    static ToolNeed need_of(const JointCandidate& joint) {
+        const auto thread = joint::parse_thread(joint.size);
+        if (!thread) return {};
+        const joint::SocketHead* const socket =
+            joint.head == joint::HeadShape::socket ? joint::socket_head(thread->size.name) : nullptr;
+        if (socket) return {joint.head, socket->across_flats, thread->size.d};
+        // An open end fits all threads with heads of this width.
+        return {joint::HeadShape::hexagon, thread->size.across_flats, 0.0};
+    }
+
+    // Index into tools_; their number if an assembly has too few tools for this joint.
+    std::size_t tool_index(const JointCandidate& joint) const {
+        const auto found = std::find_if(tools_.begin(), tools_.end(),
+                                        [&](const DraftTool& tool) { return tool.need == need_of(joint); });
+        return static_cast<std::size_t>(found - tools_.begin());
+    }
+
     void choose_joints() {
-        std::map<double, std::size_t> widths;
-        const auto width = [](const JointCandidate& joint) {
-            const auto thread = joint::parse_thread(joint.size);
-            return thread ? thread->size.across_flats : 0.0;
-        };
-        for (const JointCandidate& joint : in_.search->joints) ++widths[width(joint)];
-        std::size_t most = 0;
-        for (const auto& [flats, count] : widths)
-            if (count > most) {
-                most = count;
-                flats_ = flats;
-            }
+        std::vector<ToolNeed> needs;
+        for (const JointCandidate& joint : in_.search->joints) needs.push_back(need_of(joint));
+        tools_ = draft_tools(needs);
         std::map<std::string, std::size_t> left_out;
         for (const JointCandidate& joint : in_.search->joints) {
-            if (width(joint) == flats_)
+            if (tool_index(joint) < tools_.size())
                 joints_.push_back(&joint);
             else
                 ++left_out[joint.size];
         }
         for (const auto& [size, count] : left_out)
             draft_.remarks.push_back(
-                fmt::format("{} joints {} are not in the draft: an assembly has one wrench, here {} mm",
-                            count, size, in_mm(flats_)));
+                fmt::format("{} joints {} are not in the draft: an assembly has at most {} tools", count,
+                            size, tools_.size()));
     }
 
     std::string member_material(const ClampedMember& member) {
@@ -173,6 +193,8 @@ class DraftWriter {
     std::size_t type_index(const JointCandidate& joint) {
         JointTypeKey type;
         type.size = joint.size;
+        type.head = joint.head;
+        type.turns_head = joint.turns_head();
         type.property_class = in_.stainless[static_cast<std::size_t>(joint.bolt)] ? "A2-70" : "8.8";
         type.length = rounded(joint.bolt_length / mm, 0.1);
         type.washer_head = !joint.head_washers.empty();
@@ -189,13 +211,17 @@ class DraftWriter {
             type.engagement = std::floor(joint.engagement / mm * 10.0) / 10.0;
         }
         for (std::size_t i = 0; i < types_.size(); ++i)
-            if (types_[i].type == type) return i;
-        std::string name = fmt::format("{}x{}", type.size, in_mm(type.length * mm));
+            if (types_[i].type == type) {
+                types_[i].joints.push_back(joint.id);
+                return i;
+            }
+        std::string name = fmt::format("{}x{}{}", type.size, in_mm(type.length * mm),
+                                       type.head == joint::HeadShape::socket ? " socket head" : "");
         const auto same = std::count_if(types_.begin(), types_.end(), [&](const DraftJointType& one) {
-            return one.type.size == type.size && one.type.length == type.length;
+            return one.type.size == type.size && one.type.length == type.length && one.type.head == type.head;
         });
         if (same > 0) name += fmt::format(" ({})", same + 1);
-        types_.push_back({name, type, target_torque(type)});
+        types_.push_back({name, type, target_torque(type), tool_index(joint), {joint.id}});
         return types_.size() - 1;
     }
 
@@ -231,14 +257,18 @@ class DraftWriter {
         return order;
     }
 
-    // A bolt whose standard thread would end in the grip is threaded up to its head, as ISO 4017.
+    // A bolt whose standard thread would end in the grip is threaded up to its head, as ISO 4017 and short
+    // screws of ISO 4762 are.
     static std::string thread_text(const JointTypeKey& type) {
         const auto thread = joint::parse_thread(type.size);
         if (!thread) return {};
         double grip = 0.0;
         for (const auto& [thickness, material] : type.members) grip += thickness * mm;
         const double length = type.length * mm;
-        if (length - joint::thread_length(thread->size.d, length) <= grip) return {};
+        const double threaded = type.head == joint::HeadShape::socket
+                                    ? joint::socket_screw_thread_length(thread->size.d, length)
+                                    : joint::thread_length(thread->size.d, length);
+        if (length - threaded <= grip) return {};
         return fmt::format("\n      \"bolt_thread_length_mm\": {},", in_mm(length));
     }
 
@@ -249,11 +279,15 @@ class DraftWriter {
             members.push_back(fmt::format(R"(        {{ "thickness_mm": {}, "material": {} }})",
                                           in_mm(thickness * mm), quoted(material)));
         std::string form;
+        if (const std::string& tool = tools_[named.tool].name; !tool.empty())
+            form = fmt::format("\n      \"tool\": {},", quoted(tool));
+        if (type.head == joint::HeadShape::socket) form += "\n      \"head\": \"socket\",";
+        if (type.tapped.empty() && type.turns_head) form += "\n      \"turned\": \"head\",";
         if (!type.tapped.empty()) {
             const std::string engagement =
                 type.engagement > 0.0 ? fmt::format(", \"engagement_mm\": {}", in_mm(type.engagement * mm))
                                       : std::string();
-            form = fmt::format(
+            form += fmt::format(
                 "\n      \"form\": \"tapped_hole\",\n      \"tapped_hole\": {{ \"material\": {}{} }},",
                 quoted(type.tapped), engagement);
         }
@@ -285,6 +319,33 @@ class DraftWriter {
                            upright ? "" : fmt::format(R"(, "axis": {})", axis_text(joint.axis)));
     }
 
+    std::string more_tools() const {
+        std::vector<std::string> lines;
+        for (const DraftTool& tool : tools_)
+            if (!tool.name.empty()) lines.push_back(fmt::format("    {}: {}", quoted(tool.name), tool.json));
+        return fmt::format("{}", fmt::join(lines, ",\n"));
+    }
+
+    // Puts tools and joint types in words, with what the geometry does not contain.
+    void describe() {
+        for (const DraftTool& tool : tools_)
+            draft_.tools.push_back(fmt::format("{}{}, generated from these numbers",
+                                               tool.name.empty() ? "" : tool.name + ", ", tool.words));
+        for (const DraftJointType& named : types_) {
+            const JointTypeKey& type = named.type;
+            const bool cap = type.head == joint::HeadShape::socket;
+            const std::string& tool = tools_[named.tool].name;
+            draft_.joint_types.push_back(fmt::format(
+                "{}: {}, {}, turned with {}; assumed: class {}, friction {:g}, target {:g} N·m{}", named.name,
+                named.joints.size() == 1 ? "joint " + named.joints.front()
+                                         : fmt::format("{} joints", named.joints.size()),
+                type.tapped.empty() ? (cap ? "cap screw with a nut" : "bolt with a nut")
+                                    : (cap ? "cap screw in a tapped hole" : "screw in a tapped hole"),
+                tool.empty() ? "the first tool" : tool, type.property_class, friction, named.torque,
+                type.tapped.empty() ? "" : ", thread in " + type.tapped));
+        }
+    }
+
     bool has_screws() const {
         return std::any_of(joints_.begin(), joints_.end(),
                            [](const JointCandidate* joint) { return joint->is_screw(); });
@@ -292,7 +353,7 @@ class DraftWriter {
 
     const char* turned_parts() const {
         const auto screws = static_cast<std::size_t>(std::count_if(
-            joints_.begin(), joints_.end(), [](const JointCandidate* joint) { return joint->is_screw(); }));
+            joints_.begin(), joints_.end(), [](const JointCandidate* joint) { return joint->turns_head(); }));
         return screws == 0 ? "nuts" : screws == joints_.size() ? "screws" : "nuts and screws";
     }
 
@@ -325,7 +386,7 @@ class DraftWriter {
             "2230 class "
             "B), strategy torque with {:g} % of the torque at {:g} % of yield, tolerance 10 %, risk class C, "
             "the "
-            "wrench, the order and the passes{}.",
+            "tools, the order and the passes{}.",
             in_.source,
             unknown_members_ > 0 ? fmt::format(" (unknown for {}: steel is assumed)", unknown_members_) : "",
             friction, 100.0 * torque_share, 100.0 * utilisation,
@@ -347,7 +408,7 @@ class DraftWriter {
                 joints_.size() == 1
                     ? fmt::format("Assemble {}: run the {} down by hand, then tighten it in rounds to 30, 70 "
                                   "and 100 % of the target torque, and check it again.",
-                                  in_.title, has_screws() ? "screw" : "nut")
+                                  in_.title, joints_.front()->turns_head() ? "screw" : "nut")
                     : fmt::format(
                           "Assemble {}: run all {} {} down by hand, then tighten them in rounds to 30, "
                           "70 and 100 % of the target torque, and check every one again.",
@@ -356,14 +417,8 @@ class DraftWriter {
         for (const auto& [key, file] : {std::pair{"model", &in_.model}, std::pair{"model_far", &in_.far},
                                         std::pair{"contact_model", &in_.contact}})
             if (!file->empty()) out += fmt::format("  \"{}\": {},\n", key, quoted(*file));
-        const double handle = rounded(8.2 * flats_ + 33.0 * mm, 10.0 * mm);
-        out += fmt::format(
-            "  \"tool\": {{ \"kind\": \"open_end_wrench\", \"jaw_mm\": {}, \"head_angle_deg\": 15, "
-            "\"handle_length_mm\": {} }},\n",
-            in_mm(flats_ + 0.2 * mm), in_mm(handle));
-        draft_.tool = fmt::format(
-            "an open-end wrench of {} mm, {} mm from the jaw to the grip, generated from these numbers",
-            in_mm(flats_), in_mm(handle));
+        out += fmt::format("  \"tool\": {},\n", tools_.front().json);
+        if (tools_.size() > 1) out += fmt::format("  \"more_tools\": {{\n{}\n  }},\n", more_tools());
         if (gasket_) out += "  \"materials\": { \"gasket\": { \"E_GPa\": 1 } },\n";
         std::vector<std::string> types, joints, ids;
         for (const DraftJointType& type : types_) types.push_back(type_text(type));

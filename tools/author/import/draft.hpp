@@ -24,7 +24,7 @@ struct DraftInput {
 struct Draft {
     std::string text;  // empty without a joint
     std::size_t joints = 0;
-    std::string tool;  // the wrench of the draft in words
+    std::vector<std::string> tools, joint_types;  // in words, with what was assumed
     std::vector<std::string> remarks;
 };
 

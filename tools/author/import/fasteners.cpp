@@ -10,10 +10,10 @@
 #include <array>
 #include <cmath>
 #include <gp_Cylinder.hxx>
-#include <gp_Pln.hxx>
 #include <limits>
 #include <optional>
 
+#include "tools/author/import/hexagons.hpp"
 #include "tools/author/import/step_document.hpp"
 
 namespace bolt::step_import {
@@ -21,117 +21,13 @@ namespace bolt::step_import {
 namespace {
 
 constexpr std::size_t max_flats = 400;  // more than any fastener has; skips castings
-constexpr double parallel = 1e-6;       // 1 − cos of 0.08°
-constexpr double slack = 0.02 * mm;     // tolerance of the flats
 constexpr double largest_width = 1.3;   // largest radius of a fastener / width across flats
-
-struct PlaneFace {
-    Vec3 normal;            // outward
-    double distance = 0.0;  // m, of the origin along the normal
-    std::size_t face = 0;
-};
-
-std::vector<PlaneFace> find_flats(const FaceMap& faces) {
-    std::vector<PlaneFace> flats;
-    for (int f = 1; f <= faces.Extent(); ++f) {
-        const TopoDS_Face face = TopoDS::Face(faces(f));
-        const BRepAdaptor_Surface surface(face, false);
-        if (surface.GetType() != GeomAbs_Plane) continue;
-        const gp_Pln plane = surface.Plane();
-        gp_XYZ normal = plane.Axis().Direction().XYZ();
-        if (!plane.Direct()) normal.Reverse();
-        if (face.Orientation() == TopAbs_REVERSED) normal.Reverse();
-        PlaneFace flat;
-        flat.normal = direction_to_scene(normal);
-        flat.distance = glm::dot(flat.normal, point_to_scene(plane.Location().XYZ()));
-        flat.face = static_cast<std::size_t>(f - 1);
-        flats.push_back(flat);
-    }
-    return flats;
-}
-
-struct Interval {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
-    void add(double x) {
-        low = std::min(low, x);
-        high = std::max(high, x);
-    }
-};
-
-struct AxisLine {
-    Vec3 origin, direction;
-    [[nodiscard]] double height(const Vec3& p) const { return glm::dot(p - origin, direction); }
-    [[nodiscard]] double radius(const Vec3& p) const {
-        return glm::length(glm::cross(p - origin, direction));
-    }
-};
-
-struct HexagonShape {
-    AxisLine axis;
-    double across_flats = 0.0;
-    Interval height;
-};
+constexpr double largest_cap = 1.9;     // the same of a screw with a socket; a countersunk one has 1.87
 
 // Accepted widths across flats, m.
-struct WidthRange {
-    double low, high;
-};
 constexpr WidthRange fastener_widths{5.0 * mm, 65.0 * mm};
+constexpr WidthRange socket_widths{1.9 * mm, 33.0 * mm};
 constexpr WidthRange all_widths{0.05 * mm, 5000.0 * mm};  // a width out of range indicates a wrong unit
-
-// Two parallel flats that face away from each other.
-struct FlatPair {
-    std::size_t a, b;
-    double width;
-};
-
-std::vector<FlatPair> find_pairs(const std::vector<PlaneFace>& flats, const WidthRange& widths) {
-    std::vector<FlatPair> pairs;
-    for (std::size_t a = 0; a < flats.size(); ++a)
-        for (std::size_t b = a + 1; b < flats.size(); ++b) {
-            const double width = flats[a].distance + flats[b].distance;
-            if (glm::dot(flats[a].normal, flats[b].normal) < -1.0 + parallel && width > widths.low &&
-                width < widths.high)
-                pairs.push_back({a, b, width});
-        }
-    return pairs;
-}
-
-std::optional<HexagonShape> find_hexagon(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
-                                         const WidthRange& widths = fastener_widths) {
-    const std::vector<FlatPair> pairs = find_pairs(flats, widths);
-    const auto same_width_at_60 = [&](const FlatPair& p, const FlatPair& q) {
-        return std::abs(std::abs(glm::dot(flats[p.a].normal, flats[q.a].normal)) - 0.5) < 1e-4 &&
-               std::abs(p.width - q.width) < slack;
-    };
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        for (std::size_t k = i + 1; k < pairs.size(); ++k) {
-            const FlatPair &p = pairs[i], &q = pairs[k];
-            if (!same_width_at_60(p, q)) continue;
-            const Vec3 u = flats[p.a].normal, v = flats[q.a].normal;
-            const Vec3 axis = glm::normalize(glm::cross(u, v));
-            const auto middle = [&](const FlatPair& pair) {
-                return 0.5 * (flats[pair.a].distance - flats[pair.b].distance);
-            };
-            const double uv = glm::dot(u, v), mu = middle(p), mv = middle(q);
-            const double det = 1.0 - uv * uv;
-            const Vec3 centre = u * ((mu - uv * mv) / det) + v * ((mv - uv * mu) / det);
-            for (std::size_t l = k + 1; l < pairs.size(); ++l) {
-                const FlatPair& r = pairs[l];
-                if (!same_width_at_60(p, r) || !same_width_at_60(q, r)) continue;
-                const Vec3 w = flats[r.a].normal;
-                if (std::abs(glm::dot(w, axis)) > 1e-3 || std::abs(glm::dot(w, centre) - middle(r)) > slack)
-                    continue;
-                HexagonShape hexagon{{centre, axis}, p.width, {}};
-                for (const std::size_t flat : {p.a, p.b, q.a, q.b, r.a, r.b})
-                    for (const std::uint32_t point : mesh.faces[flats[flat].face].points)
-                        hexagon.height.add(hexagon.axis.height(mesh.points[point]));
-                return hexagon;
-            }
-        }
-    return std::nullopt;
-}
 
 // Point-in-mesh test by the solid angle of all triangles (van Oosterom and Strackee 1983).
 bool inside(const PartMesh& mesh, const Vec3& p) {
@@ -146,13 +42,6 @@ bool inside(const PartMesh& mesh, const Vec3& p) {
                               la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
         }
     return std::abs(2.0 * sum) > 2.0 * pi;
-}
-
-double face_radius(const PartMesh& mesh, std::size_t face, const AxisLine& line) {
-    double radius = 0.0;
-    for (const std::uint32_t point : mesh.faces[face].points)
-        radius = std::max(radius, line.radius(mesh.points[point]));
-    return radius;
 }
 
 FastenerShape classify_nut(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
@@ -192,6 +81,16 @@ FastenerShape classify_nut(const std::vector<PlaneFace>& flats, const PartMesh& 
     return nut;
 }
 
+// Diameter of a bolt over the crests of its thread, m, beyond the fillet under its head.
+double crest_diameter(const PartMesh& mesh, const FastenerShape& bolt) {
+    const AxisLine line{bolt.origin, bolt.axis};
+    double crest = 0.0;
+    for (const Vec3& point : mesh.points)
+        if (line.height(point) > bolt.low + 0.15 * (bolt.high - bolt.low))
+            crest = std::max(crest, line.radius(point));
+    return 2.0 * crest;
+}
+
 FastenerShape classify_bolt(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
                             const HexagonShape& hexagon, Interval whole) {
     FastenerShape bolt;
@@ -212,16 +111,13 @@ FastenerShape classify_bolt(const std::vector<PlaneFace>& flats, const PartMesh&
     for (const PlaneFace& flat : flats) {
         if (glm::dot(flat.normal, bolt.axis) < 1.0 - parallel) continue;
         const double height = line.height(flat.normal * flat.distance);
-        if (height < head.high - slack || height > head.high + 0.2 * bolt.across_flats) continue;
+        if (height < head.high - flat_slack || height > head.high + 0.2 * bolt.across_flats) continue;
         if (face_radius(mesh, flat.face, line) < 0.4 * bolt.across_flats) continue;
         best = std::max(best, height);
     }
     if (std::isfinite(best)) bolt.low = best;
     const double length = bolt.high - bolt.low;
-    double crest = 0.0;
-    for (const Vec3& point : mesh.points)
-        if (line.height(point) > bolt.low + 0.15 * length) crest = std::max(crest, line.radius(point));
-    bolt.diameter = 2.0 * crest;
+    bolt.diameter = crest_diameter(mesh, bolt);
     const bool shank = bolt.diameter > 0.4 * bolt.across_flats && bolt.diameter < 0.85 * bolt.across_flats;
     if (shank && length > 0.5 * bolt.diameter)
         bolt.kind = FastenerKind::bolt;
@@ -233,6 +129,60 @@ FastenerShape classify_bolt(const std::vector<PlaneFace>& flats, const PartMesh&
             bolt.across_flats / mm, bolt.diameter / mm, std::max(length, 0.0) / mm,
             0.4 * bolt.across_flats / mm, 0.85 * bolt.across_flats / mm);
     return bolt;
+}
+
+// The bearing face of a cap screw's head, as a height along the screw's axis: the plane that looks towards
+// the end of the screw and is nearly as wide as the head; nullopt without one.
+std::optional<double> cap_bearing_face(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+                                       const AxisLine& line, double head_radius) {
+    std::optional<double> bearing;
+    for (const PlaneFace& flat : flats) {
+        if (glm::dot(flat.normal, line.direction) < 1.0 - parallel) continue;
+        if (face_radius(mesh, flat.face, line) < 0.8 * head_radius) continue;
+        const double height = line.height(flat.normal * flat.distance);
+        if (!bearing || height > *bearing) bearing = height;
+    }
+    return bearing;
+}
+
+// Classifies a part with a hexagonal socket.
+FastenerShape classify_cap_screw(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+                                 const HexagonShape& hexagon, Interval whole) {
+    FastenerShape screw;
+    screw.origin = hexagon.axis.origin;
+    screw.axis = hexagon.axis.direction;
+    screw.across_flats = hexagon.across_flats;
+    Interval socket = hexagon.height;
+    if (socket.low - whole.low > whole.high - socket.high) {  // the socket opens at the other end
+        screw.axis = -screw.axis;
+        socket = {-hexagon.height.high, -hexagon.height.low};
+        whole = {-whole.high, -whole.low};
+    }
+    const AxisLine line{screw.origin, screw.axis};
+    const double head_radius = largest_radius(mesh, line);
+    const auto bearing = cap_bearing_face(flats, mesh, line, head_radius);
+    const std::string found = fmt::format("has a hexagonal socket of {:.2f} mm", screw.across_flats / mm);
+    if (!bearing || *bearing - whole.low < 0.2 * screw.across_flats || *bearing > whole.high - flat_slack) {
+        screw.rejection = found +
+                          ", but no flat bearing face under a head; expected a cylindrical head with a "
+                          "flat face towards the shank";
+        return screw;
+    }
+    screw.low = *bearing;
+    screw.high = whole.high;
+    screw.diameter = crest_diameter(mesh, screw);
+    screw.cap = CapHead{2.0 * head_radius, screw.low - whole.low, socket.high - whole.low};
+    const double length = screw.high - screw.low;
+    const bool shank = screw.diameter > screw.across_flats && screw.diameter < 1.7 * head_radius;
+    if (shank && length > 0.5 * screw.diameter)
+        screw.kind = FastenerKind::bolt;
+    else
+        screw.rejection = fmt::format(
+            "{}, but its shank is {:.2f} mm wide and {:.2f} mm long under the head; expected a shank {:.2f} "
+            "to {:.2f} mm wide and longer than half its width",
+            found, screw.diameter / mm, std::max(length, 0.0) / mm, screw.across_flats / mm,
+            1.7 * head_radius / mm);
+    return screw;
 }
 
 // Returns a washer if the part is a flat ring between two radii and two parallel faces.
@@ -252,7 +202,7 @@ FastenerShape classify_washer(const TopoDS_Shape& shape, const std::vector<Plane
         faces.add(line.height(flat.normal * flat.distance));
     }
     const double thickness = heights.high - heights.low;
-    const bool flat = faces.low < heights.low + slack && faces.high > heights.high - slack;
+    const bool flat = faces.low < heights.low + flat_slack && faces.high > heights.high - flat_slack;
     const bool ring = radii.low > 0.25 * radii.high && radii.low < 0.85 * radii.high;
     if (!flat || !ring || thickness > 0.35 * radii.high || thickness < 0.1 * mm) return washer;
     washer.kind = FastenerKind::washer;
@@ -264,12 +214,6 @@ FastenerShape classify_washer(const TopoDS_Shape& shape, const std::vector<Plane
     return washer;
 }
 
-double largest_radius(const PartMesh& mesh, const AxisLine& line) {
-    double radius = 0.0;
-    for (const Vec3& point : mesh.points) radius = std::max(radius, line.radius(point));
-    return radius;
-}
-
 int count_solids(const TopoDS_Shape& shape) {
     int solids = 0;
     for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next()) ++solids;
@@ -278,7 +222,7 @@ int count_solids(const TopoDS_Shape& shape) {
 
 void explain_missing_hexagon(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
                              FastenerShape& rejected) {
-    const auto hexagon = find_hexagon(flats, mesh, all_widths);
+    const auto hexagon = find_hexagon(flats, mesh, HexagonSide::outside, all_widths);
     if (hexagon && largest_radius(mesh, hexagon->axis) <= largest_width * hexagon->across_flats)
         rejected.rejection = fmt::format(
             "has a hexagon {:.3f} mm across flats; expected {:g} to {:g} mm: is the unit of the file right?",
@@ -288,7 +232,7 @@ void explain_missing_hexagon(const std::vector<PlaneFace>& flats, const PartMesh
             "none of its {} plane faces form a hexagon; expected three pairs of opposite faces at 60 "
             "degrees, {:g} to "
             "{:g} mm apart and equal within {:g} mm",
-            flats.size(), fastener_widths.low / mm, fastener_widths.high / mm, slack / mm);
+            flats.size(), fastener_widths.low / mm, fastener_widths.high / mm, flat_slack / mm);
 }
 
 }  // namespace
@@ -297,14 +241,21 @@ FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh
     const FaceMap faces = faces_of(shape);
     const std::vector<PlaneFace> flats = find_flats(faces);
     if (flats.size() > max_flats || mesh.points.empty()) return {};
-    const auto hexagon = find_hexagon(flats, mesh);
+    const auto whole_along = [&](const AxisLine& line) {
+        Interval heights;
+        for (const Vec3& point : mesh.points) heights.add(line.height(point));
+        return heights;
+    };
+    const auto socket = find_hexagon(flats, mesh, HexagonSide::socket, socket_widths);
+    if (socket && largest_radius(mesh, socket->axis) <= largest_cap * socket->across_flats)
+        return classify_cap_screw(flats, mesh, *socket, whole_along(socket->axis));
+    const auto hexagon = find_hexagon(flats, mesh, HexagonSide::outside, fastener_widths);
     if (!hexagon) {
         FastenerShape washer = classify_washer(shape, flats, mesh);
         if (washer.kind == FastenerKind::none) explain_missing_hexagon(flats, mesh, washer);
         return washer;
     }
-    Interval whole;
-    for (const Vec3& point : mesh.points) whole.add(hexagon->axis.height(point));
+    const Interval whole = whole_along(hexagon->axis);
     const double widest = largest_radius(mesh, hexagon->axis);
     if (widest > largest_width * hexagon->across_flats) {
         FastenerShape other;

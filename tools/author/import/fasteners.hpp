@@ -1,11 +1,14 @@
-// Recognises bolts, nuts and washers by their shape alone (a hexagon of six flats, a ring), and finds holes.
+// Recognises bolts, nuts and washers by their shape alone (a hexagon of six flats, a cylindrical head with a
+// hexagonal socket, a ring), and finds holes.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/math.hpp"
+#include "tools/author/import/metric_size.hpp"
 #include "tools/author/import/tessellate.hpp"
 
 namespace bolt::step_import {
@@ -16,15 +19,16 @@ enum class FastenerKind { none, bolt, nut, washer };
 struct FastenerShape {
     FastenerKind kind = FastenerKind::none;
     Vec3 origin{0.0}, axis{0.0, 1.0, 0.0};  // of a bolt: from the head to the end
-    double across_flats = 0.0;
-    double low = 0.0;       // bearing face under a bolt's head; lower face of a nut or washer
-    double high = 0.0;      // end of a bolt; upper face of a nut or washer
+    double across_flats = 0.0;              // of the hexagon; of a cap screw that of its socket
+    double low = 0.0;                       // bearing face under a bolt's head; lower face of a nut or washer
+    double high = 0.0;                      // end of a bolt; upper face of a nut or washer
     double diameter = 0.0;  // of a bolt's thread over the crests; of the hole of a nut or washer
     // Why a part that resembles a fastener was not recognised as one: "<what was found>; expected <what>".
     // Empty for a fastener and for a part that does not resemble one.
     std::string rejection;
     // The same for a part without a hexagon; reported only if the name is that of a fastener.
     std::string without_hexagon;
+    std::optional<CapHead> cap = {};  // the head of a cap screw
 };
 
 FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh);

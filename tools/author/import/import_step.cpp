@@ -353,7 +353,8 @@ class Importer {
         input.schema = shipped ? fmt::format("../../schema/{}", schema) : schema;
         const Draft draft = make_draft(input);
         report().joints_drafted = draft.joints;
-        report().tool = draft.tool;
+        report().tools = draft.tools;
+        report().joint_types = draft.joint_types;
         report().remarks.insert(report().remarks.end(), draft.remarks.begin(), draft.remarks.end());
         if (draft.text.empty()) return true;
         for (const Error& error : content::parse_assembly(draft.text, "the draft").errors)

@@ -44,7 +44,7 @@ struct ImportReport {
     std::size_t instances = 0, triangles = 0, far_triangles = 0;  // counting instances
     std::vector<std::string> materials;
     std::size_t joints = 0, joints_drafted = 0;
-    std::string tool;  // the wrench of the draft in words; empty without a draft
+    std::vector<std::string> tools, joint_types;  // of the draft in words
     double deflection_mm = 0.0, contact_deflection_mm = 0.0, far_deflection_mm = 0.0, far_error_mm = 0.0;
     std::size_t renamed = 0;  // nodes with a duplicate name
     std::vector<FileReport> files;

@@ -22,17 +22,47 @@ struct PlacedFastener {
     int node = -1;
     Vec3 origin, axis;
     double across_flats = 0.0, low = 0.0, high = 0.0, diameter = 0.0;  // m, as in FastenerShape
+    std::optional<CapHead> cap;
 };
 
 PlacedFastener place(int node, const FastenerShape& shape, const ScaledPose& pose) {
     const double scale = std::abs(pose.scale);
+    std::optional<CapHead> cap = shape.cap;
+    if (cap) cap = CapHead{cap->width * scale, cap->height * scale, cap->depth * scale};
     return {node,
             pose.point(shape.origin),
             pose.direction(shape.axis),
             shape.across_flats * scale,
             shape.low * scale,
             shape.high * scale,
-            shape.diameter * scale};
+            shape.diameter * scale,
+            cap};
+}
+
+const joint::FastenerSize* metric_size_of(const PlacedFastener& bolt) {
+    return bolt.cap ? size_of(bolt.diameter, bolt.across_flats, *bolt.cap)
+                    : size_of(bolt.diameter, bolt.across_flats);
+}
+
+std::string explain_metric_size(const PlacedFastener& bolt) {
+    return bolt.cap ? explain_size(bolt.diameter, bolt.across_flats, *bolt.cap) : explain_size(bolt.diameter);
+}
+
+// Returns true if the nut has the width of one for this bolt.
+bool nut_fits(const PlacedFastener& bolt, const PlacedFastener& nut) {
+    return bolt.cap ? size_of(bolt.diameter, nut.across_flats) != nullptr
+                    : std::abs(nut.across_flats - bolt.across_flats) <= flats_slack;
+}
+
+std::string describe(const PlacedFastener& bolt) {
+    if (!bolt.cap)
+        return fmt::format("looks like a bolt (cylinder {:.2f} mm, hexagon {:.2f} mm across flats)",
+                           bolt.diameter / mm, bolt.across_flats / mm);
+    return fmt::format(
+        "looks like a cap screw (cylinder {:.2f} mm, socket {:.2f} mm across flats and {:.2f} mm deep, head "
+        "{:.2f} mm wide and {:.2f} mm high)",
+        bolt.diameter / mm, bolt.across_flats / mm, bolt.cap->depth / mm, bolt.cap->width / mm,
+        bolt.cap->height / mm);
 }
 
 // Lower and upper face of a nut or washer as heights along the line from `origin`, m.
@@ -74,7 +104,7 @@ class JointFinder {
         for (const PlacedFastener& bolt : of_kind_[FastenerKind::bolt]) {
             BoltEnd end{nut_on(bolt), {}};
             if (!end.nut) end.tapped = tapped_part_of(bolt);
-            const joint::FastenerSize* size = end ? size_of(bolt.diameter, bolt.across_flats) : nullptr;
+            const joint::FastenerSize* size = end ? metric_size_of(bolt) : nullptr;
             if (size == nullptr) {
                 unused_bolts_.push_back({bolt, std::move(end)});
                 continue;
@@ -112,7 +142,7 @@ class JointFinder {
         for (const PlacedFastener& nut : placed_of(FastenerKind::nut)) {
             if (bolt_of_nut_.contains(nut.node) || !coaxial(bolt.origin, bolt.axis, nut.origin, nut.axis))
                 continue;
-            if (std::abs(nut.across_flats - bolt.across_flats) > flats_slack) continue;
+            if (!nut_fits(bolt, nut)) continue;
             const auto [seat, top] = along(nut, bolt.origin, bolt.axis);
             if (seat < bolt.low || seat > bolt.high) continue;
             if (!best || seat < nearest) {  // of two locked nuts, the one at the members
@@ -137,10 +167,9 @@ class JointFinder {
         std::set<int> explained;  // nuts
         for (const UnusedBolt& unused : unused_bolts_) {
             const PlacedFastener& bolt = unused.bolt;
-            search_.remarks.push_back(fmt::format(
-                "{}: looks like a bolt (cylinder {:.2f} mm, hexagon {:.2f} mm across flats), but {}",
-                name_of(bolt.node), bolt.diameter / mm, bolt.across_flats / mm,
-                unused.end ? explain_size(bolt.diameter) : explain_missing_nut(bolt)));
+            search_.remarks.push_back(
+                fmt::format("{}: {}, but {}", name_of(bolt.node), describe(bolt),
+                            unused.end ? explain_metric_size(bolt) : explain_missing_nut(bolt)));
             if (unused.end.nut) explained.insert(unused.end.nut->node);
         }
         for (const PlacedFastener& nut : placed_of(FastenerKind::nut))
@@ -152,8 +181,8 @@ class JointFinder {
         if (search_.joints.empty() && search_.remarks.size() == before)
             search_.remarks.push_back(
                 "no part resembles a bolt or a nut; expected parts with a hexagon 5 to 65 mm across flats, "
-                "each bolt "
-                "and nut a part of its own");
+                "or "
+                "a head with a hexagonal socket, each bolt and nut a part of its own");
         else if (search_.remarks.size() > before)
             search_.remarks.push_back(
                 "correct the parts above in CAD and import again, or write their joints into assembly.json "
@@ -172,8 +201,8 @@ class JointFinder {
         }
         if (nearest == nullptr)
             return "the file has no part with the shape of a nut, and no part has a tapped hole around its "
-                   "end; "
-                   "expected a nut on its axis, a hexagon with a hole, or a hole as wide as its thread or "
+                   "end; expected a nut on its axis, a hexagon with a hole, or a hole as wide as its thread "
+                   "or "
                    "core";
         const std::string& name = name_of(nearest->node);
         const double cosine = std::min(std::abs(glm::dot(bolt.axis, nearest->axis)), 1.0);
@@ -187,7 +216,11 @@ class JointFinder {
             return fmt::format(
                 "the nut on its axis, {}, is already that of the bolt {}; expected a nut of its own", name,
                 name_of(used->second));
-        if (std::abs(nearest->across_flats - bolt.across_flats) > flats_slack)
+        if (!nut_fits(bolt, *nearest) && bolt.cap)
+            return fmt::format(
+                "the nut on its axis, {}, is {:.2f} mm across flats; expected a nut for its thread", name,
+                nearest->across_flats / mm);
+        if (!nut_fits(bolt, *nearest))
             return fmt::format(
                 "the nut on its axis, {}, is {:.2f} mm across flats; expected the bolt's width within {:g} "
                 "mm",
@@ -212,12 +245,10 @@ class JointFinder {
         }
         if (nearest == nullptr)
             return "the file has no part with the shape of a bolt; expected a bolt on its axis, a hexagon "
-                   "with a "
-                   "cylinder";
+                   "or a head with a socket, and a cylinder";
         return fmt::format(
             "no bolt is paired with it: the nearest one, {}, has its axis {:.2f} mm away; expected a bolt of "
-            "the same "
-            "width across flats within {:g} mm of its axis",
+            "the same width across flats, or a cap screw of its thread, within {:g} mm of its axis",
             name_of(nearest->node), distance / mm, coaxial_distance / mm);
     }
 
@@ -263,24 +294,24 @@ class JointFinder {
                                        const joint::FastenerSize& size) {
         JointCandidate joint;
         joint.bolt = bolt.node;
+        joint.head = bolt.cap ? joint::HeadShape::socket : joint::HeadShape::hexagon;
         joint.bolt_length = bolt.high - bolt.low;
         double head = bolt.low;
         double far = end.nut ? along(*end.nut, bolt.origin, bolt.axis).first : end.tapped->face;
         joint.head_washers = washers_from(bolt, head, 1.0);
         if (end.nut) {
             joint.nut = end.nut->node;
-            joint.axis = bolt.axis;
             joint.size = thread_name(size, end.nut->diameter);
             joint.nut_washers = washers_from(bolt, far, -1.0);
         } else {
             joint.tapped = end.tapped->node;
-            joint.axis = -bolt.axis;
             joint.size = thread_name(size, end.tapped->hole);
             // A screw that does not reach through the part engages with its whole end.
             if (bolt.high > end.tapped->bottom) joint.engagement = end.tapped->bottom - end.tapped->face;
         }
         joint.grip = far - head;
-        joint.seat = bolt.origin + (end.nut ? far : head) * bolt.axis;
+        joint.axis = joint.turns_head() ? -bolt.axis : bolt.axis;
+        joint.seat = bolt.origin + (joint.turns_head() ? head : far) * bolt.axis;
         if (joint.grip < least_grip) {
             add_remark(
                 joint,

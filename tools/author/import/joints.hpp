@@ -1,11 +1,12 @@
-// Finds joints by their geometry: a hexagon bolt with a nut on its axis, or screwed into a part, and the
-// washers and parts between.
+// Finds joints by their geometry: a hexagon bolt or a cap screw with a nut on its axis, or screwed into a
+// part, and the washers and parts between.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "haptics/joint/design.hpp"
 #include "tools/author/import/clamped_members.hpp"
 #include "tools/author/import/tree.hpp"
 
@@ -16,11 +17,12 @@ inline constexpr std::string_view joint_prefix = "joint_";  // of a node's name
 // Scene frame.
 struct JointCandidate {
     std::string id;
-    std::string size;          // "M16", "M16x1.5"
+    std::string size;  // "M16", "M16x1.5"
+    joint::HeadShape head = joint::HeadShape::hexagon;
     double bolt_length = 0.0;  // m, under the head
     double grip = 0.0;         // m, distance between head and nut or tapped part without washers
-    Vec3 seat{0.0};  // m, centre of the hole on the face of the member under the nut or the screw's head
-    Vec3 axis{0.0, 1.0, 0.0};  // from the members to the nut or the screw's head
+    Vec3 seat{0.0};  // m, centre of the hole on the face of the member under the nut or head that is turned
+    Vec3 axis{0.0, 1.0, 0.0};  // from the members to that nut or head
     int bolt = -1, nut = -1;   // nodes; a screw has no nut
     int tapped = -1;           // node of the part that a screw is screwed into; −1 with a nut
     double engagement = 0.0;   // m of the screw's length in that part; 0: all beyond members and washer
@@ -29,6 +31,8 @@ struct JointCandidate {
     int group = -1;                      // node joint_ID
 
     [[nodiscard]] bool is_screw() const { return tapped >= 0; }
+    // A key turns a cap screw, also one with a nut.
+    [[nodiscard]] bool turns_head() const { return is_screw() || head == joint::HeadShape::socket; }
 };
 
 struct JointSearchResult {

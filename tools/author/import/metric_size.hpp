@@ -1,6 +1,7 @@
 // The metric size of a bolt from its measured dimensions, in metres.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "engine/base/math.hpp"
@@ -10,13 +11,27 @@ namespace bolt::step_import {
 
 inline constexpr double flats_slack = 0.5 * mm;  // tolerance of the width across flats
 
+// The cylindrical head of a screw with a hexagonal socket, m.
+struct CapHead {
+    double width = 0.0;   // diameter
+    double height = 0.0;  // above the bearing face
+    double depth = 0.0;   // from the top of the head to the end of the socket's walls
+};
+
 // Returns the metric size that has this diameter over the crests and this width across flats, by ISO 272 or
 // by DIN 931; null if there is none.
 const joint::FastenerSize* size_of(double diameter, double across_flats);
 
+// The same for a cap screw of ISO 4762. `across_flats`: of its socket. The socket may be deeper than the
+// standard demands.
+const joint::FastenerSize* size_of(double diameter, double across_flats, const CapHead& head);
+
 // Explains why size_of() returns null for a bolt of this diameter: what is expected, and the inch thread of
 // this diameter, if there is one.
 std::string explain_size(double diameter);
+
+// The same for a cap screw. Names the standard of a low head.
+std::string explain_size(double diameter, double across_flats, const CapHead& head);
 
 // Returns the name of the thread. `hole`: diameter of the hole of the nut or tapped part, m, which reveals a
 // fine pitch by D1 = d − 1.0825 P (ISO 68-1). Without a match the pitch is coarse.

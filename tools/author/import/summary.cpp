@@ -60,7 +60,8 @@ std::string summary(const ImportReport& report) {
                             report.far_error_mm);
     text += fmt::format("\nmaterials: {}\n", fmt::join(report.materials, ", "));
     text += fmt::format("joints: {} found, {} in the draft\n", report.joints, report.joints_drafted);
-    if (!report.tool.empty()) text += fmt::format("tool: {}\n", report.tool);
+    for (const std::string& tool : report.tools) text += fmt::format("tool: {}\n", tool);
+    for (const std::string& type : report.joint_types) text += fmt::format("joint type {}\n", type);
     text += open == 0 ? "contact model: watertight\n"
                       : fmt::format("contact model: {} open edges, NOT watertight:\n", open);
     for (const PartReport& part : report.parts) {

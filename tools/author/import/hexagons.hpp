@@ -1,0 +1,66 @@
+// The plane faces of a part, and six of them that form a hexagon: the outside of a head or a nut, or the
+// walls of a socket. Scene frame, metres, relative to the part.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "engine/base/math.hpp"
+#include "tools/author/import/step_document.hpp"
+#include "tools/author/import/tessellate.hpp"
+
+namespace bolt::step_import {
+
+inline constexpr double parallel = 1e-6;         // 1 − cos of 0.08°
+inline constexpr double flat_slack = 0.02 * mm;  // tolerance of the flats
+
+struct PlaneFace {
+    Vec3 normal;            // outward
+    double distance = 0.0;  // m, of the origin along the normal
+    std::size_t face = 0;
+};
+
+std::vector<PlaneFace> find_flats(const FaceMap& faces);
+
+struct Interval {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+    void add(double x) {
+        low = std::min(low, x);
+        high = std::max(high, x);
+    }
+};
+
+struct AxisLine {
+    Vec3 origin, direction;
+    [[nodiscard]] double height(const Vec3& p) const { return glm::dot(p - origin, direction); }
+    [[nodiscard]] double radius(const Vec3& p) const {
+        return glm::length(glm::cross(p - origin, direction));
+    }
+};
+
+struct HexagonShape {
+    AxisLine axis;
+    double across_flats = 0.0;
+    Interval height;  // of the six faces along the axis
+};
+
+// Accepted widths across flats, m.
+struct WidthRange {
+    double low, high;
+};
+
+enum class HexagonSide { outside, socket };  // its faces look away from the axis, or towards it
+
+// Three pairs of parallel faces at 60°, equally far apart, around one axis; nullopt without one.
+std::optional<HexagonShape> find_hexagon(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+                                         HexagonSide side, const WidthRange& widths);
+
+// Largest distance of the part, or of one of its faces, from the axis, m.
+double largest_radius(const PartMesh& mesh, const AxisLine& line);
+double face_radius(const PartMesh& mesh, std::size_t face, const AxisLine& line);
+
+}  // namespace bolt::step_import
