@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <ctime>
 
 #include "game/tool_models/parameters.hpp"
 #include "support.hpp"
+#include "tests/support/sanitized.hpp"
+#include "tests/support/skip.hpp"
 #include "tools/author/geometry/joint_tools.hpp"
 
 namespace geometry_tools_test {
@@ -220,6 +223,33 @@ TEST_CASE("Tools: a target torque above the test torque is an error, above 80 % 
     CHECK(all(much.errors) == "");
     CHECK(contains(much.notes, "reaches 58 N·m, 90 % of it"));
     CHECK_FALSE(contains(with_torque(48.0, open_end).notes, "tested"));
+}
+
+TEST_CASE("Tools: 100 joints with five tools are checked in less than a minute of processor time") {
+    if (test::sanitized) return test::skip_rest("under a sanitizer the time is that of the sanitizer");
+    const auto four_more = with_more(fmt::format(
+        R"("ring": {{ {} }}, "ratchet": {{ {} }}, "torque_wrench": {{ {} }}, "socket_wrench": {{ {} }})",
+        ring, ratchet, R"("kind": "click_torque_wrench", "jaw_mm": 13.2, "handle_length_mm": 250)",
+        R"("kind": "click_torque_wrench", "head": "socket", "size_mm": 13, "handle_length_mm": 250)"));
+    NutAndBolt sizes;
+    sizes.side = 60.0;
+    // In one row all tools fit. In ten rows the handles meet the neighbours, so that other
+    // tools are tried too.
+    for (const int rows : {1, 10}) {
+        const int columns = 100 / rows;
+        std::vector<Vec3> positions;
+        for (int i = 0; i < 100; ++i) positions.emplace_back(60.0 * (i % columns), 0.0, 60.0 * (i / columns));
+        const Machine machine(positions, sizes);
+        const std::clock_t begin = std::clock();
+        const CheckOutput output = check_generated(machine, four_more);
+        const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+        CAPTURE(rows);
+        CHECK(output.rooms->joints.size() == 100);
+        // So many triangles are an error.
+        CHECK(output.errors.front().find("expected at most 250000") != std::string::npos);
+        CHECK((output.errors.size() == 1) == (rows == 1));
+        CHECK(seconds < 60.0);
+    }
 }
 
 TEST_CASE("Tools: the strength of a ratchet is that of its weaker part") {

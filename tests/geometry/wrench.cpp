@@ -271,8 +271,8 @@ TEST_CASE("Geometry: the tree finds the same crossings as all pairs of triangles
     int crossings = 0;
     for (int round = 0; round < 200; ++round) {
         const auto still = cloud(40, 0.1), moving = cloud(30, 0.1);
-        const auto pose = geometry::TurnAboutY::turned(random.uniform(-4.0, 4.0),
-                                                       Vec3{random.uniform(-1.0, 1.0), 0.1, 0.2});
+        const auto pose = geometry::RigidMotion::about_y(random.uniform(-4.0, 4.0),
+                                                         Vec3{random.uniform(-1.0, 1.0), 0.1, 0.2});
         bool any = false;
         for (const auto& m : moving)
             for (const auto& s : still)

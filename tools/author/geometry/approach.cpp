@@ -16,20 +16,36 @@ constexpr double jaw_to_tip = 1.7;              // travel that frees the jaw fro
 
 // Moves the tool along a straight line at a fixed handle angle and tests it for collisions.
 struct PathProbe {
-    const Bvh& surroundings;
+    const Obstacles& surroundings;
     const Bvh& tool;
     double angle;
     std::uint32_t hit = no_part;  // the part that blocks the path
 
     bool free(const Vec3& from, const Vec3& direction, double distance) {
-        for (double travelled = 0.0; travelled < distance + step; travelled += step) {
-            const Vec3 shift = from + std::min(travelled, distance) * direction;
-            const auto found = first_crossing(surroundings, tool, TurnAboutY::turned(angle, shift));
-            if (!found) continue;
-            hit = surroundings.triangles()[*found].part;
-            return false;
+        const int last = static_cast<int>(std::ceil(distance / step));
+        return free_between({from, direction, distance}, 0, last);
+    }
+
+  private:
+    struct Line {
+        Vec3 from, direction;
+        double length;
+
+        [[nodiscard]] Vec3 at(int sample) const { return from + std::min(sample * step, length) * direction; }
+    };
+    // Tests the samples from `first` to `last`, in this order, except where all are surely free.
+    bool free_between(const Line& line, int first, int last) {
+        const Vec3 low = line.at(first), high = line.at(last);
+        const auto turned = [&](const Vec3& at) { return RigidMotion::about_y(angle, at); };
+        if (first == last) {
+            const std::uint32_t found = surroundings.first_hit_by(tool, turned(low));
+            if (found != no_part) hit = found;
+            return found == no_part;
         }
-        return true;
+        if (!surroundings.may_be_hit(tool, turned(0.5 * (low + high)), {0.0, 0.5 * (high - low)}))
+            return true;
+        const int middle = first + (last - first) / 2;
+        return free_between(line, first, middle) && free_between(line, middle + 1, last);
     }
 };
 
@@ -42,15 +58,15 @@ std::vector<double> tried_angles(const Arc& arc) {
 }
 
 // m from `height` to above all obstacles.
-double lift_beyond(const Bvh& surroundings, double height) {
-    return std::clamp(surroundings.box().high.y - height, 0.0, max_lift) + 2.0 * step;
+double lift_beyond(const Obstacles& surroundings, double height) {
+    return std::clamp(surroundings.top() - height, 0.0, max_lift) + 2.0 * step;
 }
 
 }  // namespace
 
-std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& tool, const FreeSwing& swing,
+std::uint32_t find_obstruction(const Obstacles& surroundings, const Bvh& tool, const FreeSwing& swing,
                                const ExitPaths& paths) {
-    if (surroundings.nodes().empty()) return no_part;
+    if (surroundings.empty()) return no_part;
     const Vec3 start{0.0, paths.height, 0.0}, up{0.0, 1.0, 0.0};
     const double lift = lift_beyond(surroundings, paths.height);
     std::uint32_t hit = swing.blocking;
@@ -72,9 +88,9 @@ std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& tool, const F
     return hit;
 }
 
-std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& tool, const FreeSwing& swing,
+std::uint32_t find_obstruction(const Obstacles& surroundings, const Bvh& tool, const FreeSwing& swing,
                                const AxialExit& exit) {
-    if (surroundings.nodes().empty()) return no_part;
+    if (surroundings.empty()) return no_part;
     const Vec3 start{0.0, exit.height, 0.0}, up{0.0, 1.0, 0.0}, lifted = start + exit.lift * up;
     const double lift = lift_beyond(surroundings, lifted.y);
     std::uint32_t hit = swing.blocking;

@@ -3,6 +3,7 @@
 
 #include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/free_swing.hpp"
+#include "tools/author/geometry/obstacles.hpp"
 
 namespace bolt::geometry {
 
@@ -15,7 +16,7 @@ struct ExitPaths {
 };
 
 // Returns no_part if at least one path is free, otherwise a part that blocks a path.
-std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& tool, const FreeSwing& swing,
+std::uint32_t find_obstruction(const Obstacles& surroundings, const Bvh& tool, const FreeSwing& swing,
                                const ExitPaths& paths);
 
 // The path by which a ring, a socket or a key leaves: `lift` along the bolt, then up or to any side.
@@ -26,7 +27,7 @@ struct AxialExit {
 };
 
 // Returns no_part if the path is free at some angle of the swing, otherwise a part that blocks it.
-std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& tool, const FreeSwing& swing,
+std::uint32_t find_obstruction(const Obstacles& surroundings, const Bvh& tool, const FreeSwing& swing,
                                const AxialExit& exit);
 
 }  // namespace bolt::geometry

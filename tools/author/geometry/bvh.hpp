@@ -1,11 +1,13 @@
-// A tree of axis-aligned boxes over triangles, in double precision: ray queries, and a test for crossings of
-// two triangle sets. Metres in every interface.
+// A tree of axis-aligned boxes over triangles, in double precision: ray queries, and tests for crossings of
+// two triangle sets, one of which may move. Metres in every interface.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -70,17 +72,24 @@ struct RayHit {
 std::optional<RayHit> first_hit(const Bvh& bvh, const Vec3& origin, const Vec3& direction, double reach,
                                 const SkipPart& skip = {});
 
-// Rotation about +Y, then translation.
-struct TurnAboutY {
-    double cosine = 1.0, sine = 0.0;
+// Rotation, then translation.
+struct RigidMotion {
+    glm::dmat3 turn{1.0};
     Vec3 shift{0.0};
 
-    static TurnAboutY turned(double angle, const Vec3& shift) {
-        return {std::cos(angle), std::sin(angle), shift};
+    // `angle`: rad about +Y.
+    static RigidMotion about_y(double angle, const Vec3& shift) {
+        const double c = std::cos(angle), s = std::sin(angle);
+        return {glm::dmat3(c, 0.0, -s, 0.0, 1.0, 0.0, s, 0.0, c), shift};
     }
-    [[nodiscard]] Vec3 operator()(const Vec3& p) const {
-        return Vec3{p.x * cosine + p.z * sine, p.y, p.z * cosine - p.x * sine} + shift;
-    }
+    [[nodiscard]] Vec3 operator()(const Vec3& p) const { return turn * p + shift; }
+};
+
+// The motions in the neighbourhood of one: the moving triangles are first rotated about their own +Y by at
+// most `turn` rad to either side, and at last shifted by at most `slide` m forwards or backwards.
+struct Sweep {
+    double turn = 0.0;
+    Vec3 slide{0.0};
 };
 
 // Returns true if an edge of one triangle passes through the other. Triangles that only touch do not cross.
@@ -88,7 +97,15 @@ bool triangles_cross(const Triangle& s, const Triangle& t);
 
 // Returns the index of a triangle of `still` that crosses a triangle of `moving` placed by `pose`; nullopt if
 // there is none.
-std::optional<std::uint32_t> first_crossing(const Bvh& still, const Bvh& moving, const TurnAboutY& pose,
+std::optional<std::uint32_t> first_crossing(const Bvh& still, const Bvh& moving, const RigidMotion& pose,
                                             const SkipPart& skip = {});
+
+// Returns false only if no triangles cross in any motion of the sweep about `pose`. Compares boxes.
+bool may_cross(const Bvh& still, const Bvh& moving, const RigidMotion& pose, const Sweep& sweep);
+
+// Returns false only if no triangles cross when `moving` stands `height` m above the origin of a frame and is
+// turned about the frame's +Y by any angle. `to_still`: from that frame to that of `still`. Compares the
+// distances from the axis.
+bool may_cross_at_any_angle(const Bvh& still, const Bvh& moving, const RigidMotion& to_still, double height);
 
 }  // namespace bolt::geometry

@@ -102,6 +102,7 @@ WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scen
     const std::vector<int> nodes = check_nodes(assembly, scene, messages);
     WrenchRooms rooms;
     rooms.everything = build_bvh(scene);
+    const std::vector<Bvh> trees = build_part_trees(scene);
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
         if (nodes[i] < 0) continue;
         const content::AssemblyJoint& joint = assembly.joints[i];
@@ -111,7 +112,7 @@ WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scen
         room.tool = tools.front();
         if (check_fasteners_and_members(joint, i, parts, scene, rooms.everything, jaws_of(assembly, tools),
                                         messages)) {
-            JointSurroundings surroundings(joint, parts, scene, set.longest_reach());
+            const JointSurroundings surroundings(joint, parts, scene, trees);
             check_tool_room(surroundings, i, tools, set, messages, room);
         }
         rooms.joints.push_back(std::move(room));

@@ -184,7 +184,7 @@ void check_overlaps(const JointCheck& s, const Fastener& fastener, const std::se
             *p = Vec3(s.parts.to_assembly * glm::dvec4(p->x * in, y, p->z * in, 1.0));
         }
     const auto hit =
-        first_crossing(s.everything, Bvh(std::move(smaller)), TurnAboutY{},
+        first_crossing(s.everything, Bvh(std::move(smaller)), RigidMotion{},
                        [&](std::uint32_t part) { return s.parts.owns(part) || reported.contains(part); });
     if (hit)
         s.error(fmt::format("{} overlaps {}", content::in_quotes(fastener.name),

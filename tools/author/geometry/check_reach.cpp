@@ -34,7 +34,7 @@ std::string in_degrees(const SwingPair& swings) {
 
 // The checks of one tool on one joint.
 struct ToolCheck {
-    JointSurroundings& space;
+    const JointSurroundings& space;
     JointRooms& rooms;
     std::size_t joint, tool;  // indices
     const ToolShape& shape;
@@ -145,7 +145,7 @@ void fill_in(WrenchRoom& out, const JointSurroundings& space, const ToolShape& t
 
 }  // namespace
 
-void check_tool_room(JointSurroundings& space, std::size_t joint, const std::vector<std::size_t>& tools,
+void check_tool_room(const JointSurroundings& space, std::size_t joint, const std::vector<std::size_t>& tools,
                      ToolSet& set, const Messages& messages, WrenchRoom& room) {
     JointRooms rooms(space, set);
     const content::AssemblyJoint& checked = space.joint();

@@ -11,17 +11,36 @@ namespace {
 constexpr double resolution = to_radians(0.01);
 
 struct SwingProbe {
-    const Bvh& surroundings;
+    const Obstacles& surroundings;
     const Bvh& tool;
     double height;
 
     // Returns the part that the tool collides with at this handle angle, or no_part.
     [[nodiscard]] std::uint32_t operator()(double angle) const {
-        const auto hit =
-            first_crossing(surroundings, tool, TurnAboutY::turned(angle, Vec3{0.0, height, 0.0}));
-        return hit ? surroundings.triangles()[*hit].part : no_part;
+        return surroundings.first_hit_by(tool, at(angle));
+    }
+    // Returns true only if the tool is free at all angles up to `half` from `angle`.
+    [[nodiscard]] bool surely_free(double angle, double half) const {
+        return !surroundings.may_be_hit(tool, at(angle), {half, Vec3{0.0}});
+    }
+    [[nodiscard]] RigidMotion at(double angle) const {
+        return RigidMotion::about_y(angle, Vec3{0.0, height, 0.0});
     }
 };
+
+// Probes the samples from `first` to `last`, `step` rad apart, that are not surely free. `hits` is no_part
+// before.
+void probe_samples(const SwingProbe& probe, double step, int first, int last,
+                   std::vector<std::uint32_t>& hits) {
+    if (first == last) {
+        hits[static_cast<std::size_t>(first)] = probe(first * step);
+        return;
+    }
+    if (probe.surely_free(0.5 * (first + last) * step, 0.5 * (last - first) * step)) return;
+    const int middle = first + (last - first) / 2;
+    probe_samples(probe, step, first, middle, hits);
+    probe_samples(probe, step, middle + 1, last, hits);
+}
 
 // Samples of one revolution: one per degree, more for a long tool. Between two samples the end of the
 // handle moves by at most the thickness of the tool, so that no obstacle is skipped.
@@ -76,16 +95,16 @@ double FreeSwing::width() const {
     return arc != nullptr ? arc->width() : 0.0;
 }
 
-FreeSwing find_free_swing(const Bvh& surroundings, const Bvh& tool, double height) {
-    const SwingProbe probe{surroundings, tool, height};
+FreeSwing find_free_swing(const Obstacles& surroundings, const Bvh& tool, double height) {
+    const Obstacles near = surroundings.in_swing_of(tool, height);
+    const SwingProbe probe{near, tool, height};
     const int samples = sample_count(tool);
     const double step = 2.0 * pi / samples;
-    std::vector<std::uint32_t> hits;
+    std::vector<std::uint32_t> hits(static_cast<std::size_t>(samples), no_part);
+    probe_samples(probe, step, 0, samples - 1, hits);
     std::map<std::uint32_t, int> counts;
-    for (int i = 0; i < samples; ++i) {
-        hits.push_back(probe(i * step));
-        if (hits.back() != no_part) ++counts[hits.back()];
-    }
+    for (const std::uint32_t hit : hits)
+        if (hit != no_part) ++counts[hit];
     FreeSwing swing;
     if (counts.empty()) {
         swing.arcs.push_back({0.0, 2.0 * pi, no_part, no_part});

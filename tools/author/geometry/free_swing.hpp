@@ -1,15 +1,13 @@
 // The angles through which a tool can swing about a bolt without a collision.
 #pragma once
 
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "tools/author/geometry/bvh.hpp"
+#include "tools/author/geometry/obstacles.hpp"
 
 namespace bolt::geometry {
-
-inline constexpr std::uint32_t no_part = std::numeric_limits<std::uint32_t>::max();
 
 // A collision-free range of handle angles about +Y.
 struct Arc {
@@ -36,7 +34,7 @@ struct FreeSwing {
 };
 
 // `tool` as from place_on_joint(), its origin `height` m above the joint's.
-FreeSwing find_free_swing(const Bvh& surroundings, const Bvh& tool, double height);
+FreeSwing find_free_swing(const Obstacles& surroundings, const Bvh& tool, double height);
 
 // Returns true if the intervals [from, to], taken modulo `period`, cover the whole period.
 bool covers_period(std::vector<std::pair<double, double>> intervals, double period);

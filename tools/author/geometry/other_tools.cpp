@@ -21,12 +21,6 @@ bool has_drive(const content::WrenchDesign& design) {
 
 }  // namespace
 
-double ToolSet::longest_reach() const {
-    double longest = 0.0;
-    for (const ToolShape& shape : shapes_) longest = std::max(longest, shape.reach);
-    return longest;
-}
-
 const ToolShape* ToolSet::generate(const content::WrenchDesign& design) {
     const std::string key = tool_models::description(tool_models::parameters_of(design));
     auto found = generated_.find(key);

@@ -20,7 +20,6 @@ class ToolSet {
     [[nodiscard]] const content::Assembly& assembly() const { return assembly_; }
     // In the order of Assembly::tools.
     [[nodiscard]] std::vector<ToolShape>& shapes() { return shapes_; }
-    [[nodiscard]] double longest_reach() const;
     // Returns nullptr if no such tool can be made.
     const ToolShape* generate(const content::WrenchDesign& design);
 
@@ -33,7 +32,7 @@ class ToolSet {
 // The rooms of tools on one joint; each is measured once.
 class JointRooms {
   public:
-    JointRooms(JointSurroundings& surroundings, ToolSet& tools)
+    JointRooms(const JointSurroundings& surroundings, ToolSet& tools)
         : surroundings_(surroundings), tools_(tools) {}
 
     const ToolRoom& room_of(const ToolShape& tool);
@@ -48,7 +47,7 @@ class JointRooms {
     std::string fitting_tool_of_file(std::size_t tool);
     std::string usual_fitting_tool(const content::WrenchDesign& design);
 
-    JointSurroundings& surroundings_;
+    const JointSurroundings& surroundings_;
     ToolSet& tools_;
     std::map<const ToolShape*, ToolRoom> rooms_;
 };

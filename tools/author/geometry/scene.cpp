@@ -144,19 +144,6 @@ Fastener find_fastener(const FlattenedModel& scene, int joint_node, std::string 
     return fastener;
 }
 
-Aabb transform_to(const glm::dmat4& m, const Aabb& box) {
-    const Vec3 middle = transform_to(m, box.middle()), half = box.half();
-    const Vec3 reach =
-        glm::abs(Vec3(m[0])) * half.x + glm::abs(Vec3(m[1])) * half.y + glm::abs(Vec3(m[2])) * half.z;
-    return {middle - reach, middle + reach};
-}
-
-// Returns true if a part of the box may be within the radius of the Y axis and above the floor.
-bool is_near(const Aabb& box, double radius, double floor) {
-    const double x = std::max({box.low.x, -box.high.x, 0.0}), z = std::max({box.low.z, -box.high.z, 0.0});
-    return box.high.y > floor && std::hypot(x, z) < radius;
-}
-
 // The triangles of a bolt above the `face` (m) that its head bears on, or wider than its shank.
 Fastener head_of(const Fastener& bolt, double diameter, double face) {
     constexpr double slack = 0.1e-3;  // m; a gap or a penetration at the face is reported later
@@ -179,6 +166,13 @@ bool JointParts::owns(std::uint32_t part) const {
            nut.parts.contains(part);
 }
 
+Aabb transform_to(const glm::dmat4& m, const Aabb& box) {
+    const Vec3 middle = transform_to(m, box.middle()), half = box.half();
+    const Vec3 reach =
+        glm::abs(Vec3(m[0])) * half.x + glm::abs(Vec3(m[1])) * half.y + glm::abs(Vec3(m[2])) * half.z;
+    return {middle - reach, middle + reach};
+}
+
 JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design) {
     JointParts parts;
     parts.to_assembly = scene.nodes[static_cast<std::size_t>(joint_node)].world;
@@ -195,25 +189,6 @@ JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, const j
     const double face = parts.turned_washer.exists() ? parts.turned_washer.box.high.y : 0.0;
     parts.turned = head ? head_of(parts.bolt, design.thread.size.d, face) : parts.nut;
     return parts;
-}
-
-std::vector<Triangle> nearby_triangles(const FlattenedModel& scene, const glm::dmat4& to_joint, double radius,
-                                       double floor, const std::set<std::uint32_t>& left_out) {
-    std::vector<Triangle> result;
-    for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
-        const ModelPart& part = scene.parts[i];
-        if (left_out.contains(i) || part.triangles.empty() ||
-            !is_near(transform_to(to_joint, part.box), radius, floor))
-            continue;
-        for (const Triangle& t : part.triangles) {
-            const Triangle own{transform_to(to_joint, t.a), transform_to(to_joint, t.b),
-                               transform_to(to_joint, t.c), i};
-            Aabb box;
-            for (const Vec3& p : {own.a, own.b, own.c}) box.add(p);
-            if (is_near(box, radius, floor)) result.push_back(own);
-        }
-    }
-    return result;
 }
 
 namespace {

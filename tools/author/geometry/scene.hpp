@@ -71,10 +71,8 @@ struct JointParts {
 // than its shank.
 JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design);
 
-// Returns the triangles, in the joint's frame, whose bounding box is within `radius` of the joint's axis and
-// reaches above the height `floor`, without those of the parts in `left_out`.
-std::vector<Triangle> nearby_triangles(const FlattenedModel& scene, const glm::dmat4& to_joint, double radius,
-                                       double floor, const std::set<std::uint32_t>& left_out);
+// The axis-aligned box around a transformed box.
+Aabb transform_to(const glm::dmat4& m, const Aabb& box);
 
 // A hexagon about +Y, measured on its mesh.
 struct MeasuredHexagon {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,8 @@ constexpr double least_turned_over = to_radians(30.0);  // for a 15° head that 
 constexpr double min_arc = to_radians(5.0);             // narrower free arcs are ignored
 constexpr double clearance = 0.2 * mm;                  // between an open end and the face under the nut
 constexpr double exit_clearance = 1.0 * mm;             // between a head and the end of the bolt
-constexpr double far_enough = 3.0;                      // radius of the obstacles / reach of the tool
+constexpr double all_heights = std::numeric_limits<double>::infinity();
+constexpr double far_enough = 3.0;  // radius of the obstacles / reach of the tool
 
 // Appends the angles of the head in every free arc. Ignores arcs that are too narrow to bring a tool into.
 void add_head_angles(const FreeSwing& swing, double head_angle,
@@ -54,22 +56,6 @@ bool is_enough(const SwingPair& swings, const ToolShape& tool) {
     return swings.most() >= swing_rule(tool).least && can_turn_fully(swings, tool, false);
 }
 
-JointSurroundings::JointSurroundings(const content::AssemblyJoint& joint, const JointParts& parts,
-                                     const FlattenedModel& scene, double longest_reach)
-    : joint_(joint),
-      parts_(parts),
-      scene_(scene),
-      radius_(far_enough * longest_reach),
-      floor_(parts.turned.box.low.y) {}
-
-const Bvh& JointSurroundings::obstacles(double radius, double floor) {
-    if (obstacles_ && radius <= radius_ && floor >= floor_) return *obstacles_;
-    radius_ = std::max(radius, radius_);
-    floor_ = std::min(floor, floor_);
-    obstacles_ = Bvh(nearby_triangles(scene_, parts_.to_joint, radius_, floor_, parts_.turned.parts));
-    return *obstacles_;
-}
-
 double JointSurroundings::height_of(const ToolShape& tool) const {
     const double low = parts_.turned.box.low.y, high = parts_.turned.box.high.y;
     if (!tool.is_open_end()) return low + collision::grip_height(tool.head, shape_of(joint_.design));
@@ -77,8 +63,10 @@ double JointSurroundings::height_of(const ToolShape& tool) const {
 }
 
 std::uint32_t JointSurroundings::find_path(const ToolShape& tool, const ToolRoom& room, const Bvh& plain,
-                                           const Bvh& over) {
-    const Bvh& around = *obstacles_;
+                                           const Bvh& over) const {
+    const double low = room.height + (tool.is_open_end() ? std::min(plain.box().low.y, over.box().low.y)
+                                                         : plain.box().low.y);
+    const Obstacles around = obstacles_.near_axis(far_enough * tool.reach, low, all_heights);
     if (!tool.is_open_end()) {
         const double end = std::max(parts_.turned.box.high.y, parts_.bolt.box.high.y) + exit_clearance;
         const double lift = std::max(end - room.height - lower_end(tool.head), 0.0);
@@ -90,17 +78,14 @@ std::uint32_t JointSurroundings::find_path(const ToolShape& tool, const ToolRoom
     return blocked == no_part ? no_part : find_obstruction(around, over, room.seated.turned_over, paths);
 }
 
-ToolRoom JointSurroundings::room_for(const ToolShape& tool) {
+ToolRoom JointSurroundings::room_for(const ToolShape& tool) const {
     const bool reversible = tool.is_open_end();
     const Bvh plain = place_on_joint(tool, false), over = reversible ? place_on_joint(tool, true) : Bvh();
     ToolRoom room;
     room.height = height_of(tool);
-    double low = plain.box().low.y;
-    if (reversible) low = std::min(low, over.box().low.y);
-    const Bvh& around = obstacles(far_enough * tool.reach, room.height + low);
     const auto swings_at = [&](double height) {
-        SwingPair swings{find_free_swing(around, plain, height), {}, reversible};
-        if (reversible) swings.turned_over = find_free_swing(around, over, height);
+        SwingPair swings{find_free_swing(obstacles_, plain, height), {}, reversible};
+        if (reversible) swings.turned_over = find_free_swing(obstacles_, over, height);
         return swings;
     };
     const double gap = joint_.design.start_gap;

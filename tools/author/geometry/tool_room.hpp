@@ -46,12 +46,16 @@ struct ToolRoom {
 // A joint and the obstacles around it.
 class JointSurroundings {
   public:
-    // `longest_reach`: m, of the tools to come; a longer one makes the obstacles be collected again.
+    // `trees`: of build_part_trees().
     JointSurroundings(const content::AssemblyJoint& joint, const JointParts& parts,
-                      const FlattenedModel& scene, double longest_reach);
+                      const FlattenedModel& scene, const std::vector<Bvh>& trees)
+        : joint_(joint),
+          parts_(parts),
+          scene_(scene),
+          obstacles_(trees, parts.to_joint, parts.to_assembly, parts.turned.parts) {}
 
     // The joint must have a part that the tool grips.
-    [[nodiscard]] ToolRoom room_for(const ToolShape& tool);
+    [[nodiscard]] ToolRoom room_for(const ToolShape& tool) const;
 
     [[nodiscard]] const content::AssemblyJoint& joint() const { return joint_; }
     [[nodiscard]] const JointParts& parts() const { return parts_; }
@@ -61,17 +65,14 @@ class JointSurroundings {
     }
 
   private:
-    // The obstacles within `radius` m of the axis and above the height `floor`, and perhaps others.
-    const Bvh& obstacles(double radius, double floor);
     [[nodiscard]] double height_of(const ToolShape& tool) const;
     [[nodiscard]] std::uint32_t find_path(const ToolShape& tool, const ToolRoom& room, const Bvh& plain,
-                                          const Bvh& over);
+                                          const Bvh& over) const;
 
     const content::AssemblyJoint& joint_;
     const JointParts& parts_;
     const FlattenedModel& scene_;
-    std::optional<Bvh> obstacles_;
-    double radius_, floor_;  // m, of `obstacles_`
+    Obstacles obstacles_;
 };
 
 }  // namespace bolt::geometry
