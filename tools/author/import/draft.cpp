@@ -8,10 +8,10 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "haptics/joint/design.hpp"
 #include "haptics/joint/fastener.hpp"
+#include "tools/author/import/draft_order.hpp"
 #include "tools/author/import/draft_tools.hpp"
 
 namespace bolt::step_import {
@@ -225,34 +225,18 @@ class DraftWriter {
         return types_.size() - 1;
     }
 
-    // Tightening order. Joints on a circle: a star, where the next joint is the farthest from all earlier
-    // ones and, among equals, the farthest from the last one. Otherwise from the middle outwards.
+    // One tool after the other, so that a pass changes tools as rarely as possible.
     std::vector<std::size_t> order() const {
-        const std::size_t n = joints_.size();
-        const auto apart = [&](std::size_t i, std::size_t k) {
-            return glm::length(joints_[i]->seat - joints_[k]->seat);
-        };
-        Vec3 middle{0.0};
-        for (const JointCandidate* joint : joints_) middle += joint->seat / static_cast<double>(n);
-        std::vector<double> radius(n);
-        for (std::size_t i = 0; i < n; ++i) radius[i] = glm::length(joints_[i]->seat - middle);
-        const auto [least, most] = std::minmax_element(radius.begin(), radius.end());
-        const bool circle = *most - *least < 0.02 * *most;
         std::vector<std::size_t> order;
-        // Rounded to 0.1 mm, so that equal distances compare equal.
-        const auto rank = [&](std::size_t i) {
-            double nearest = circle ? 1e3 : -radius[i];
-            for (const std::size_t k : order) nearest = circle ? std::min(nearest, apart(i, k)) : nearest;
-            const double last = order.empty() ? 0.0 : apart(i, order.back());
-            return std::pair(std::lround(nearest * 1e4), std::lround(last * 1e4));
-        };
-        std::vector<std::size_t> left(n);
-        std::iota(left.begin(), left.end(), std::size_t{0});
-        while (!left.empty()) {
-            const auto next = std::max_element(
-                left.begin(), left.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
-            order.push_back(*next);
-            left.erase(next);
+        for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+            std::vector<std::size_t> turned;
+            std::vector<Vec3> seats;
+            for (std::size_t i = 0; i < joints_.size(); ++i) {
+                if (types_[type_of_[i]].tool != tool) continue;
+                turned.push_back(i);
+                seats.push_back(joints_[i]->seat);
+            }
+            for (const std::size_t i : tightening_order(seats)) order.push_back(turned[i]);
         }
         return order;
     }
