@@ -51,7 +51,7 @@ expect 2 "not empty" "$bin/bolt-author" new pump-cover
 cp -r pump-cover socket
 sed -i 's/"size": "M8",/&\n      "head": "socket", "turned": "head",/' socket/assembly.json
 expect 0 'angle_deg,stage' "$bin/bolt-author" curve socket --joint B1 --csv -
-expect 3 'joint B1 has a socket head, and a lesson has no hexagon key yet; expected "head": "hexagon"' \
+expect 3 'joint B1 has a socket head, which the tool "wrench" cannot turn; expected a hex_key of 6 mm, or a ratchet with a hex_bit' \
     "$bin/boltwright" train socket --headless --out socket-lesson
 mkdir broken && sed 's/"friction_thread": *[0-9.]*/"frction_thread": 0.12/; s/"size": *"M8"/"size": "N8"/' \
     pump-cover/assembly.json > broken/assembly.json
