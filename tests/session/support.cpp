@@ -34,6 +34,7 @@ TickRecord random_tick(Random& random) {
     tick.checkpoint_action = static_cast<std::uint8_t>(random.bits() % (servo::max_checkpoints + 2U));
     if (tick.checkpoint_action > servo::max_checkpoints) tick.checkpoint_action = servo::save_checkpoint;
     tick.set_torque = any();
+    tick.tool = static_cast<std::uint8_t>(random.bits());
     return tick;
 }
 
@@ -57,7 +58,8 @@ bool same(const TickRecord& a, const TickRecord& b) {
         all = all && equal(a.commanded_tool.orientation[i], b.commanded_tool.orientation[i]);
     return all && a.grip == b.grip && a.flags == b.flags && a.guide == b.guide && a.joint == b.joint &&
            a.stage == b.stage && a.contacts == b.contacts && a.touched == b.touched && a.fault == b.fault &&
-           a.checkpoint_action == b.checkpoint_action && equal(a.set_torque, b.set_torque);
+           a.checkpoint_action == b.checkpoint_action && equal(a.set_torque, b.set_torque) &&
+           a.tool == b.tool;
 }
 
 bool same(std::span<const TickRecord> a, std::span<const TickRecord> b) {
