@@ -87,6 +87,11 @@ expect 0 'again/B1.png' "$author" validate bare --pictures again
 check "the same picture of a joint every time" cmp joints/B1.png again/B1.png
 expect 1 'file/joints cannot be created' "$author" validate bare --pictures file/joints
 expect 2 '--pictures draws the joints of one assembly' "$author" validate bare cover-m8 --pictures never
+# The picture of a joint shows its own tool.
+sed 's/"type": *"M8x30"/&, "override": { "tool": "ring" }/; s/"more_tools": *{/&"ring": { "kind": "ring_wrench", "size_mm": 13, "handle_length_mm": 140 }, /' \
+    bare/assembly.json >bare/ring.json
+expect 0 'ring/B1.png: [0-9.]+ degrees of free swing with the tool "ring"; blocked by "filler_plug"' "$author" validate bare/ring.json --pictures ring
+check "another tool gives another picture" bash -c '! cmp -s joints/B1.png ring/B1.png'
 sed 's/"model": *"[^"]*",//; s/"model_far": *"[^"]*",//; s/"contact_model": *"[^"]*",//' bare/assembly.json >bare/flat.json
 expect 0 'no model is named' "$author" validate bare/flat.json --pictures never
 check "nothing is drawn without a model" test ! -e never
@@ -137,5 +142,31 @@ done
 sed -i 's/"tool": "ratchet"/"tool": "key"/' several/assembly.json
 expect 3 'joint B2 has a hexagon, which the tool "key" cannot turn; expected an open end, ring or socket of 13 mm' \
     "$bin/boltwright" train several --headless --no-pictures --operator expert --out never
+
+# validate names the joints that a tool does not reach: a stand is below two nuts of the flange.
+mkdir flange && cp "$sources/content/assemblies/dn200-pn16/"* flange/
+python3 - flange/assembly.json <<'END'
+import json, sys
+assembly = json.load(open(sys.argv[1]))
+for tool in [assembly["tool"], *assembly["more_tools"].values()]:
+    tool.pop("model", None)
+json.dump(assembly, open(sys.argv[1], "w"))
+for tool in assembly["more_tools"].values():
+    tool.pop("instead", None)
+json.dump(assembly, open(sys.argv[1].replace("assembly", "everywhere"), "w"))
+END
+expect 0 'no mistakes' "$author" validate flange
+"$author" validate flange/everywhere.json >/dev/null 2>unreached
+check "four mistakes without \"instead\"" [ "$(grep -c . unreached)" = 4 ]
+for joint in 6 7; do
+    check "the ratchet does not reach B$joint" grep -qF "the tool \"ratchet\" cannot be brought onto \"B$joint\" along the bolt: \"stand_downstream\" is in its way; expected \"instead\": { \"B$joint\": \"wrench\" or \"ring\" }, which fits" unreached
+    check "the torque wrench with a socket does not reach B$joint" grep -qF "the tool \"socket_torque_wrench\" cannot be brought onto \"B$joint\" along the bolt: \"stand_downstream\" is in its way; expected \"instead\": { \"B$joint\": \"torque_wrench\" }, which fits" unreached
+done
+
+# An open end is too weak for a strong bolt, and a ring is not.
+sed 's/"class": *"8.8"/"class": "12.9"/; s/"friction_\(thread\|bearing\)": *0.12/"friction_\1": 0.3/g; s/"target_torque_Nm": *20/"target_torque_Nm": 66/; s/"torque_tolerance_percent": *10/"torque_tolerance_percent": 5/' \
+    before.json >bare/strong.json
+expect 3 'the wrench is an open end of 13 mm, which is tested with 64 N·m \(ISO 1711-1, from a catalogue\), and the target torque of "M8x30" reaches 69 N·m; expected a ring of 13 mm \(107 N·m\) or a socket' \
+    "$author" validate bare/strong.json
 
 finish_checks

@@ -85,12 +85,15 @@ std::vector<Blocker> blockers_of(const WrenchRooms& rooms, const WrenchRoom& roo
     return blockers;
 }
 
-std::string description(const WrenchRoom& room, const std::vector<Blocker>& blockers) {
+// `tool`: name of the tool, if the joint has another one than the default.
+std::string description(const WrenchRoom& room, const std::vector<Blocker>& blockers,
+                        const std::string& tool) {
     if (room.turned.empty()) return "the model has no part that is turned";
     if (!room.gripped) return "the tool cannot grip the part that is turned";
     const geometry::Arc* arc = room.swing.widest();
     std::string text =
         fmt::format("{:.1f} degrees of free swing", arc == nullptr ? 0.0 : to_degrees(arc->width()));
+    if (!tool.empty()) text += fmt::format(" with the tool {}", content::in_quotes(tool));
     if (room.turned_over) text += ", the wrench turned over";
     const char* separator = "; blocked by ";
     for (const Blocker& blocker : blockers) {
@@ -337,7 +340,8 @@ Status draw_joint_pictures(const content::Assembly& assembly, const WrenchRooms&
         BOLT_TRY_ASSIGN(const auto png, painter->draw(room, blockers));
         const fs::path file = folder / file_name(assembly.joints[room.joint].design.id);
         BOLT_TRY(write_file(file, png));
-        BOLT_TRY(print(fmt::format("{}: {}\n", file.string(), description(room, blockers))));
+        const std::string tool = room.tool == 0 ? std::string() : assembly.tools[room.tool].name;
+        BOLT_TRY(print(fmt::format("{}: {}\n", file.string(), description(room, blockers, tool))));
     }
     return {};
 }
