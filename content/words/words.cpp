@@ -44,7 +44,7 @@ std::vector<std::string> split(std::string_view text, char separator) {
     return list;
 }
 
-// What is between the braces of a placeholder: a name, or "fastener: nut|screw".
+// The text between the braces of a placeholder: a name, or "fastener: nut|screw".
 struct Placeholder {
     std::string_view name;
     std::vector<std::string> texts;  // of a choice

@@ -28,7 +28,7 @@ enum class ToolKind : std::uint8_t {
     electronic_torque_wrench
 };
 
-// What the size of a kind measures: the width across flats of the nut or of the socket screw that it turns,
+// The dimension that the size of a kind gives: the width across flats of the nut or of the socket screw,
 // or the width of its square drive.
 enum class SizeMeasure : std::uint8_t { nut, socket_screw, drive };
 
@@ -44,7 +44,7 @@ const KindInfo& info_of(ToolKind kind);
 // Fails if there is no such kind; the error suggests the nearest name.
 Result<ToolKind> kind_named(std::string_view name);
 
-// What a ratchet or a torque wrench turns with; the other kinds have one head of their own.
+// The head of a ratchet or a torque wrench. The other kinds have one head of their own.
 enum class DriveEnd : std::uint8_t { usual, open_end, socket, hex_bit };
 
 // Metres and radians. 0: the standard value.

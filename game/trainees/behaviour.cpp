@@ -138,9 +138,10 @@ Vec3 random_placement_error(TraineeState& t) {
                             ? 1.0
                             : motion::target_visibility(t.visibility, *t.setup, *t.obstacles(), t.plan.joint,
                                                         t.tool_at_nut(t.hover_height), t.next_eye);
-    // A wrench head that touches something beside the nut can hardly turn it, so it is placed higher the next
-    // time.
-    const Vec3 lift = lift_step * std::clamp(t.fruitless_strokes - max_fruitless, 0, max_lift) * t.nut().axis;
+    // An open end that touches something beside the nut can hardly turn it, so it is placed higher the next
+    // time. The other heads go on from above, and a key that is placed higher does not reach its socket.
+    const int steps = std::clamp(t.fruitless_strokes - max_fruitless, 0, max_lift);
+    const Vec3 lift = reversible(t.setup->wrench) ? lift_step * steps * t.nut().axis : Vec3(0.0);
     return lift +
            t.random_offset(motion::placement_noise(t.profile.position_noise, seen, t.consecutive_misses));
 }

@@ -133,7 +133,7 @@ Pose with_fitting_head(const Hold& hold, double tooth_angle, const Pose& tool) {
     return {tool.position, tool.orientation * glm::angleAxis(-off, Vec3(0, 0, 1))};
 }
 
-// Of the two hexagons of a hole with 12 points, the one that is nearest to the nut.
+// A hole with 12 points is two hexagons. Chooses the one that is nearest to the nut.
 void choose_hexagon(Hold& hold, const Pose& tool) {
     if (hold.period == sixth) return;
     const double off = angle_off(tool, 0.0, sixth);

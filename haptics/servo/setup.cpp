@@ -9,7 +9,7 @@ namespace bolt::servo {
 
 namespace {
 
-// Of the pawl of a ratchet, N·m: makers give about 0.1 to 0.5 (memory of catalogues).
+// N·m, the drag of a ratchet's pawl. Makers give about 0.1 to 0.5 (memory of catalogues).
 constexpr double usual_drag = 0.25;
 // m between a socket screw and its key: the middle of the tolerances of ISO 4762 and ISO 2936 at 6 mm.
 constexpr double key_clearance = 0.1e-3;

@@ -118,7 +118,7 @@ TEST_CASE("Tools: a ring stands in the middle of the nut, a socket on its should
           doctest::Approx(1.6 + 3.4));
     // A ring is 0.72 times its size thick, which leaves 0.3 mm to the washer.
     CHECK(height_with(ring) == doctest::Approx(1.6 + 0.3 + 0.36 * 13.0));
-    // Of a socket the lower end is 1 mm below 0.4 times the size.
+    // The lower end of a socket is 1 mm below 0.4 times the size.
     CHECK(height_with(ratchet) == doctest::Approx(1.6 + 0.3 + 0.4 * 13.0 + 1.0));
 }
 

@@ -173,7 +173,7 @@ TEST_CASE("Mixed sizes: the programs make a lesson in which a trainee changes to
     }
     run_program(folder, "bolt-author", "validate mixed");
     run_program(folder, "boltwright",
-                "train mixed --headless --quiet --no-pictures --operator novice --out lesson");
+                "train mixed --headless --quiet --no-pictures --operator expert --out lesson");
     const json summary = json::parse(bytes(folder / "lesson" / "summary.json"));
     CHECK(summary["finished"] == true);
     run_program(folder, "boltwright", "replay lesson/session.boltwright");

@@ -37,8 +37,8 @@ class JointRooms {
 
     const ToolRoom& room_of(const ToolShape& tool);
 
-    // What would fit in place of a tool of the assembly, for a message; empty if nothing was found. Tries, in
-    // this order, longer extension bars, the other tools of the file, and other kinds with usual lengths.
+    // Names the tools that fit in place of a tool of the assembly, for a message; empty if none does. Tries,
+    // in this order, longer extension bars, the other tools of the file, and other kinds with usual lengths.
     // `tool`: index in Assembly::tools.
     std::string describe_fitting_tool(std::size_t tool);
 

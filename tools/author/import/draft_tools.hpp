@@ -9,7 +9,7 @@
 
 namespace bolt::step_import {
 
-// What decides which tool a joint needs.
+// The properties of a joint that determine its tool.
 struct ToolNeed {
     joint::HeadShape head = joint::HeadShape::hexagon;  // socket: the tool is a key or a bit
     double across_flats = 0.0;                          // m

@@ -91,18 +91,25 @@ double crest_diameter(const PartMesh& mesh, const FastenerShape& bolt) {
     return 2.0 * crest;
 }
 
+// A bolt or a screw from its hexagon, with the axis towards its end: away from the hexagon. Turns the
+// intervals along the axis accordingly.
+FastenerShape shape_from_hexagon(const HexagonShape& hexagon, Interval& height, Interval& whole) {
+    FastenerShape shape;
+    shape.origin = hexagon.axis.origin;
+    shape.axis = hexagon.axis.direction;
+    shape.across_flats = hexagon.across_flats;
+    height = hexagon.height;
+    if (height.low - whole.low <= whole.high - height.high) return shape;
+    shape.axis = -shape.axis;
+    height = {-hexagon.height.high, -hexagon.height.low};
+    whole = {-whole.high, -whole.low};
+    return shape;
+}
+
 FastenerShape classify_bolt(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
                             const HexagonShape& hexagon, Interval whole) {
-    FastenerShape bolt;
-    bolt.origin = hexagon.axis.origin;
-    bolt.axis = hexagon.axis.direction;
-    bolt.across_flats = hexagon.across_flats;
-    Interval head = hexagon.height;
-    if (head.low - whole.low > whole.high - head.high) {  // the shank is on the other side
-        bolt.axis = -bolt.axis;
-        head = {-hexagon.height.high, -hexagon.height.low};
-        whole = {-whole.high, -whole.low};
-    }
+    Interval head;
+    FastenerShape bolt = shape_from_hexagon(hexagon, head, whole);
     const AxisLine line{bolt.origin, bolt.axis};
     bolt.high = whole.high;
     bolt.low = head.high;
@@ -148,16 +155,8 @@ std::optional<double> cap_bearing_face(const std::vector<PlaneFace>& flats, cons
 // Classifies a part with a hexagonal socket.
 FastenerShape classify_cap_screw(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
                                  const HexagonShape& hexagon, Interval whole) {
-    FastenerShape screw;
-    screw.origin = hexagon.axis.origin;
-    screw.axis = hexagon.axis.direction;
-    screw.across_flats = hexagon.across_flats;
-    Interval socket = hexagon.height;
-    if (socket.low - whole.low > whole.high - socket.high) {  // the socket opens at the other end
-        screw.axis = -screw.axis;
-        socket = {-hexagon.height.high, -hexagon.height.low};
-        whole = {-whole.high, -whole.low};
-    }
+    Interval socket;
+    FastenerShape screw = shape_from_hexagon(hexagon, socket, whole);
     const AxisLine line{screw.origin, screw.axis};
     const double head_radius = largest_radius(mesh, line);
     const auto bearing = cap_bearing_face(flats, mesh, line, head_radius);
