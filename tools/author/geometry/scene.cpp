@@ -144,14 +144,14 @@ Fastener find_fastener(const FlattenedModel& scene, int joint_node, std::string 
     return fastener;
 }
 
-// The triangles of a bolt above the `face` (m) that its head bears on, or wider than its shank.
+// The triangles of a bolt above the `face` (m) that its head bears on and above the fillet there, or wider
+// than its shank and the fillet.
 Fastener head_of(const Fastener& bolt, double diameter, double face) {
-    constexpr double slack = 0.1e-3;  // m; a gap or a penetration at the face is reported later
-    const double shank = 0.55 * diameter;
+    const double shank = 0.62 * diameter, fillet = 0.12 * diameter;
     const auto is_wide = [&](const Vec3& p) { return std::hypot(p.x, p.z) > shank; };
     Fastener head{bolt.name, {}, {}, bolt.parts};
     for (const Triangle& t : bolt.triangles) {
-        const bool above = std::min({t.a.y, t.b.y, t.c.y}) > face - slack;
+        const bool above = std::min({t.a.y, t.b.y, t.c.y}) > face + fillet;
         if (!above && !is_wide(t.a) && !is_wide(t.b) && !is_wide(t.c)) continue;
         head.triangles.push_back(t);
         for (const Vec3& p : {t.a, t.b, t.c}) head.box.add(p);
