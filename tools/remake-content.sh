@@ -17,5 +17,6 @@ import() {  # STEP FOLDER options...: writes the models only and keeps the folde
 import "$out/assemblies/zq350/zq350.step" "$out/assemblies/zq350" --lod --deflection 0.25 --angle 32 --contact-deflection 0.35
 import "$out/assemblies/dn200-pn16/dn200-pn16.step" "$out/assemblies/dn200-pn16" --lod --angle 20
 import "$out/assemblies/cover-m8/cover-m8.step" "$out/assemblies/cover-m8" --lod --angle 20
+import "$out/assemblies/pump-32-160/pump-32-160.step" "$out/assemblies/pump-32-160" --lod --angle 20
 for tool in "$out"/tools/*.step; do import "$tool" "$out/tools" --angle 20; done
 "$bin/bolt-sculpt" all -o "$out"

@@ -26,7 +26,7 @@ done < <(cd "$work" && find . -type f | sort)
 while read -r file; do
     [[ -e $work/$file ]] || { echo "FAILED: content/$file has no generator"; failed=1; }
 done < <(cd "$2/content" && find . -name '*.glb' -o -name '*.step' -o -name '*.hdr')
-[[ $made -ge 28 ]] || { echo "FAILED: only $made files were generated"; failed=1; }
+[[ $made -ge 32 ]] || { echo "FAILED: only $made files were generated"; failed=1; }
 "$1/bolt-icon" -o "$work/boltwright.svg"
 cmp "$work/boltwright.svg" "$2/tools/package/boltwright.svg" || failed=1
 [[ -z ${3:-} ]] || skip_part "equal bytes: $3"

@@ -201,6 +201,23 @@ TEST_CASE("Assemblies: zq350 in stainless steel stays elastic at the same torque
     CHECK(a.joints[11].spec.angle.low == doctest::Approx(to_radians(2.0)));
 }
 
+TEST_CASE("Assemblies: the pump mixes three forms and three sizes, each with its own tool") {
+    const Assembly a = load("pump-32-160");
+    REQUIRE(a.joints.size() == 18);
+    std::map<std::string, int> sizes;
+    for (const AssemblyJoint& j : a.joints) {
+        ++sizes[std::string(j.design.thread.size.name)];
+        CHECK(j.spec.torque.high < yield_90(j.design).torque);
+        const double needed = joint::turned_part_size(j.design).across_flats;
+        const content::WrenchDesign& tool = content::tool_of(a, j);
+        CHECK(std::max(tool.size, tool.jaw - 0.2e-3) == doctest::Approx(needed));
+    }
+    CHECK(sizes == std::map<std::string, int>{{"M10", 8}, {"M8", 4}, {"M12", 6}});
+    CHECK(a.joints[0].design.form == joint::JointForm::stud);
+    CHECK(a.joints[8].design.head == joint::HeadShape::socket);
+    CHECK(content::lesson_tools(a).tools.size() == 3);
+}
+
 TEST_CASE("Assemblies: the cover is far from yield and within the range of hand tools") {
     const Assembly a = load("cover-m8");
     REQUIRE(a.joints.size() == 4);

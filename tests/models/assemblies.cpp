@@ -34,7 +34,8 @@ struct ShippedModel {
     Status (*build)(CadDocument&);
 };
 
-const ShippedModel shipped[] = {{"dn200-pn16", add_dn200_pn16}, {"cover-m8", add_cover_m8}};
+const ShippedModel shipped[] = {
+    {"dn200-pn16", add_dn200_pn16}, {"cover-m8", add_cover_m8}, {"pump-32-160", add_pump_32_160}};
 
 std::string written(const ShippedModel& model, const test::Folder& folder) {
     CadDocument document(model.name);
@@ -144,6 +145,43 @@ TEST_CASE("Models: joints, bolts, nuts and holes are within 0.01 mm of the assem
                     ++members;
             CHECK(members >= 2);
         }
+    }
+}
+
+TEST_CASE("Models: studs, cap screws and foot screws of the pump are where its assembly file says") {
+    const auto loaded = content::load_assembly("pump-32-160");
+    REQUIRE(loaded.errors.empty());
+    const auto found = instances(shipped_file("pump-32-160"));
+    REQUIRE(loaded.assembly.joints.size() == 18);
+    for (const auto& joint : loaded.assembly.joints) {
+        const joint::JointDesign& design = joint.design;
+        CAPTURE(design.id);
+        const gp_Vec axis = to_cad(design.axis);
+        const gp_Vec face = to_cad(design.seat) * 1e3 - axis * design.washer_under_turned() * 1e3;
+        const auto height = [&](const std::string& part) {
+            REQUIRE(found.count(part) == 1);
+            const gp_Vec from_face = gp_Vec(found.at(part).placement.TranslationPart()) - face;
+            CHECK((from_face - axis * from_face.Dot(axis)).Magnitude() < 0.01);
+            return from_face.Dot(axis);
+        };
+        CHECK(std::abs(height(joint.node)) < 0.01);
+        const bool stud = design.form == joint::JointForm::stud;
+        const double grip = design.members.front().thickness * 1e3;
+        CHECK(height(design.id + "_bolt") ==
+              doctest::Approx(stud ? -grip : design.washer_under_turned() * 1e3).epsilon(1e-4));
+        CHECK((found.count(design.id + "_nut") == 1) == stud);
+        // A member with a clearance hole, and a part with a hole as wide as the core of the thread.
+        const gp_Lin line(gp_Pnt(face.XYZ()), gp_Dir(axis));
+        const joint::FastenerSize& size = design.thread.size;
+        const double core = 0.5e3 * (size.d - 1.0825 * size.coarse_pitch);
+        int members = 0, tapped = 0;
+        for (const auto& [part, instance] : found) {
+            if (instance.shape.ShapeType() != TopAbs_SOLID) continue;
+            members += count_coaxial(instance.shape, line, 0.5e3 * size.hole) > 0 ? 1 : 0;
+            tapped += part.find("nut") == std::string::npos && count_coaxial(instance.shape, line, core) > 0;
+        }
+        CHECK(members == 1);
+        CHECK(tapped == 1);
     }
 }
 

@@ -92,7 +92,7 @@ TEST_CASE("Menu: each assembly has a card with its picture, and the chosen one i
     const render::Picture bare = driver.picture();
     wait_for_pictures(driver);
     const render::Picture shown = driver.picture();
-    for (const char* name : {"zq350", "cover-m8", "dn200-pn16"}) {
+    for (const char* name : {"zq350", "cover-m8", "dn200-pn16", "pump-32-160"}) {
         CAPTURE(name);
         const DrawnWidget* card = find_button(driver, "menu.assemblies", name);
         REQUIRE(card != nullptr);

@@ -202,6 +202,20 @@ Result<TopoDS_Shape> washer(const WasherSpec& spec) {
         "washer");
 }
 
+Result<TopoDS_Shape> stud(const StudSpec& spec) {
+    const double full_from = std::max(spec.length - spec.thread_length, 2.0);
+    const double shank_end = std::max(full_from - 2.0 * spec.pitch, 0.5 * full_from);
+    const double c = 0.6 * spec.pitch;
+    const TopoDS_Shape shank = revolved({{0.0, -spec.engagement},
+                                         {0.5 * spec.d - c, -spec.engagement},
+                                         {0.5 * spec.d, -spec.engagement + c},
+                                         {0.5 * spec.d, shank_end},
+                                         {0.0, shank_end}});
+    BOLT_TRY_ASSIGN(const auto rod,
+                    threaded_rod(outer_thread(spec.d, spec.pitch, shank_end, full_from, spec.length)));
+    return checked(glued(shank, rod), fmt::format("stud M{:g}x{:g}", spec.d, spec.length));
+}
+
 Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec) {
     const double k = spec.head_height, ro = 0.5 * spec.head_diameter, round = 0.1 * spec.d;
     const double full_from = std::max(spec.length - spec.thread_length, 1.0);

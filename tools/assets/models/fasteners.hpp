@@ -55,6 +55,16 @@ struct SocketScrewSpec {
     double socket = 0.0;         // s, across flats of the socket
 };
 
+// Stud for a tapped hole, DIN 938 and others. The origin is in the face of the tapped part; the stud lies at
+// -engagement < z < length.
+struct StudSpec {
+    double d = 0.0;
+    double pitch = 0.0;
+    double engagement = 0.0;
+    double length = 0.0;
+    double thread_length = 0.0;  // at the end of the nut
+};
+
 // Dimensions from the tables of haptics/joint. `size` is a thread such as "M16" or "M16x1.5".
 Result<BoltSpec> iso_4014(std::string_view size, double length_mm);
 Result<NutSpec> iso_4032(std::string_view size);
@@ -65,6 +75,7 @@ Result<SocketScrewSpec> iso_4762(std::string_view size, double length_mm);  // M
 Result<TopoDS_Shape> hex_bolt(const BoltSpec& spec, ThreadDetail detail = ThreadDetail::helical);
 Result<TopoDS_Shape> hex_nut(const NutSpec& spec, ThreadDetail detail = ThreadDetail::helical);
 Result<TopoDS_Shape> washer(const WasherSpec& spec);
+Result<TopoDS_Shape> stud(const StudSpec& spec);
 Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec);  // with a cosmetic thread
 
 // Bolt, nut and washer as parts of a document. All joints of one type share them.

@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
         {"zq350", "assemblies/zq350/zq350.step", bolt::models::add_zq350},
         {"dn200-pn16", "assemblies/dn200-pn16/dn200-pn16.step", bolt::models::add_dn200_pn16},
         {"cover-m8", "assemblies/cover-m8/cover-m8.step", bolt::models::add_cover_m8},
+        {"pump-32-160", "assemblies/pump-32-160/pump-32-160.step", bolt::models::add_pump_32_160},
         {"tools", "tools/wrench-13.step",
          [](CadDocument& d) { return bolt::models::add_wrench(d, 13.0, 140.0); }},
         {"tools", "tools/wrench-24.step",

@@ -23,6 +23,11 @@ Status add_dn200_pn16(CadDocument& document);
 // invented. The cover's upper face, under the nuts, lies at CAD z = 10 mm; the bolts stand at (±50, ±40) mm.
 Status add_cover_m8(CadDocument& document);
 
+// A centrifugal pump with an end-suction casing on a base plate: 8 studs M10 with nuts hold the bearing
+// bracket, 4 cap screws M8 the bearing cover, and 6 hexagon screws M12 the feet. Heights, feet and nozzles
+// are those of EN 733, size 32-160, from memory; everything else is plausible and follows no standard.
+Status add_pump_32_160(CadDocument& document);
+
 // An open-end wrench for a nut of `size` mm across flats, with `grip` mm from the middle of the jaw to the
 // middle of the grip (wrench.hpp describes its frame).
 Status add_wrench(CadDocument& document, double size, double grip);
