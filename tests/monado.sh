@@ -4,13 +4,6 @@
 # BUILD/monado) gets sessions, logs, pictures and a film of both eyes. PARTS (default: program first-nut cover-m8): see
 # tests/monado/inside.sh. Needs root, mmdebstrap and the package archive; exits with 77 and the reason where one of them is missing.
 set -euo pipefail
-# In namespaces of its own: nothing stays mounted or running whatever happens to this script, and only this computer can reach
-# Monado, which listens on every network interface.
-if [[ -z ${BOLT_OWN_MOUNTS:-} ]]; then
-    own=(unshare --mount --propagation private --net --pid --fork --kill-child)
-    "${own[@]}" true 2>/dev/null || { echo "skipped: namespaces are not allowed" >&2; exit 77; }
-    BOLT_OWN_MOUNTS=1 exec "${own[@]}" bash "$0" "$@"
-fi
 if [[ $# -lt 2 ]]; then
     sed -n '2,5s/^# //p' "$0" >&2
     exit 2
@@ -32,6 +25,13 @@ if [[ ! -e $root/made ]]; then
         --include=libglfw3,libopenal1,libsqlite3-0 \
         trixie "$root" >"$folder/log" 2>&1 || skip "mmdebstrap failed: $(tail -1 "$folder/log")"
     touch "$root/made"
+fi
+# From here on in namespaces of its own: nothing stays mounted or running whatever happens to this script, and only this
+# computer can reach Monado, which listens on every network interface. The root was made before, because that needs the network.
+if [[ -z ${BOLT_OWN_MOUNTS:-} ]]; then
+    own=(unshare --mount --propagation private --net --pid --fork --kill-child)
+    "${own[@]}" true 2>/dev/null || skip "namespaces are not allowed"
+    BOLT_OWN_MOUNTS=1 exec "${own[@]}" bash "$0" "$build" "$source" "$out" "$folder" "$@"
 fi
 mkdir -p "$root/src" "$root/build" "$root/out" "$root/host" "$out"
 { mount --bind "$source" "$root/src" && mount --bind "$build" "$root/build" && mount --bind "$out" "$root/out" &&
