@@ -37,7 +37,9 @@ struct Specification {
     ToleranceWindow torque;    // N·m, at the wrench
     double snug_torque = 0.0;  // N·m, from which the tightening angle is measured
     bool has_angle = false;
-    ToleranceWindow angle;      // rad, from the snug torque; judged if has_angle
+    // rad, judged if has_angle. It counts from the snug torque or, in a lesson with turn passes, from where
+    // the nut rests when the first of them begins: there a fitter marks nut and part.
+    ToleranceWindow angle;
     double target_clamp = 0.0;  // N; 0: derived from the target torque and the nominal friction
     RiskClass risk = RiskClass::C;
 };
@@ -64,14 +66,24 @@ struct AssemblyJoint {
 // Name of the node that a lesson turns: ID_nut, or ID_bolt of a head that is turned.
 std::string turned_node(const AssemblyJoint& joint);
 
-enum class PassKind : std::uint8_t { run_down, tighten, recheck };
+// run_down: nuts to their seats, by hand. tighten: to a fraction of the target torque. turn: to a fraction of
+// the target angle, whatever the torque. recheck: at the full target torque. loosen: in a loosening lesson.
+enum class PassKind : std::uint8_t { run_down, tighten, turn, recheck, loosen };
 
-// One round over the joints: run the nuts down by hand, tighten to a fraction of the target, or recheck at
-// the full target.
+// The author's text at the beginning of a pass.
+struct Instruction {
+    std::map<std::string, std::string> text;  // by language; empty: no instruction
+    std::string view;                         // name in Assembly::views; empty: the view stays as it is
+    std::string picture;                      // path of a PNG or JPEG file; empty: none
+};
+
+// One round over the joints.
 struct Pass {
     PassKind kind = PassKind::tighten;
-    double fraction = 1.0;           // of the target torque; tighten only
+    double fraction = 1.0;           // tighten: of the target torque; turn: of the target angle
     std::vector<std::size_t> order;  // indices into joints
+    double turn_back = 0.0;          // rad, loosen only: turned back by this angle; 0: until it is free
+    Instruction instruction = {};
 };
 
 enum class ToolKind : std::uint8_t { open_end_wrench, ring_wrench, hex_key, ratchet, click_torque_wrench };
@@ -149,6 +161,8 @@ struct Assembly {
     std::vector<AssemblyVariant> variants;  // all variants of the file
     std::vector<AssemblyJoint> joints;
     std::vector<Pass> passes;
+    std::vector<Pass>
+        loosening;            // passes of a loosening lesson; empty: one, in the reverse of the last order
     std::vector<Tool> tools;  // available tools, the default one first
     std::string tool;         // name of the chosen tool
     WrenchDesign wrench;      // of the chosen tool

@@ -240,9 +240,9 @@ void check_load(const LayeredObject& layers, const JointType& type) {
             fmt::format("at most {:.1f} N·m{}", rounded_down(max_torque), limit_suffix));
     };
     const ToleranceWindow& torque = type.spec.torque;
-    if (type.spec.strategy == Strategy::yield) {
-        // Beyond yield a bolt hardens by less than 30 %; a higher target breaks it or has a misplaced decimal
-        // point.
+    if (type.spec.strategy != Strategy::torque) {
+        // An angle may lead beyond yield, too. There a bolt hardens by less than 30 %; a higher target breaks
+        // it or has a misplaced decimal point.
         const double max_torque = 1.3 * torque_90 + design.prevailing_torque;
         if (torque.target > max_torque) report_torque(target, torque.target, "", max_torque, "");
     } else if (torque.high > yield_torque) {

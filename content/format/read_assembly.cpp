@@ -98,12 +98,18 @@ Assembly read_assembly(JsonReader& reader, std::string_view variant, const Model
     // The other variants are read only to report their errors. Without a default variant the plain file can
     // be chosen too.
     for (const AssemblyVariant& other : assembly.variants)
-        if (other.name != assembly.variant) read_tools(reader, read_joints(reader, other.name), folders);
+        if (other.name != assembly.variant) {
+            const std::vector<AssemblyJoint> joints = read_joints(reader, other.name);
+            read_tools(reader, joints, folders);
+            read_passes(reader, {joints, assembly.views, other.name, folders});
+        }
     assembly.joints = read_joints(reader, assembly.variant);
     assembly.tools = read_tools(reader, assembly.joints, folders);
     assembly.tool = assembly.tools.front().name;
     assembly.wrench = assembly.tools.front().wrench;
-    assembly.passes = read_passes(reader, assembly.joints);
+    AssemblyPasses passes = read_passes(reader, {assembly.joints, assembly.views, assembly.variant, folders});
+    assembly.passes = std::move(passes.tightening);
+    assembly.loosening = std::move(passes.loosening);
     return assembly;
 }
 
@@ -111,13 +117,28 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Names of the .glb files in a folder.
-std::vector<std::string> models_in(const fs::path& folder) {
+// A kind of file that an assembly refers to, as its extensions.
+struct FileKind {
+    std::vector<std::string> extensions;
+    const char* what;    // "is not <what>"
+    const char* remedy;  // the "expected" of that message
+};
+const FileKind model_kind{
+    {".glb"}, "a .glb file", "a binary glTF file: bolt-author import-step makes one from STEP"};
+const FileKind picture_kind{{".png", ".jpg", ".jpeg"}, "a picture", "a file .png, .jpg or .jpeg"};
+
+bool has_extension(const fs::path& path, const FileKind& kind) {
+    return std::find(kind.extensions.begin(), kind.extensions.end(), path.extension().string()) !=
+           kind.extensions.end();
+}
+
+// Names of the files of this kind in a folder.
+std::vector<std::string> files_in(const fs::path& folder, const FileKind& kind) {
     std::vector<std::string> names;
     std::error_code problem;
     for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
          entry.increment(problem))
-        if (entry->path().extension() == ".glb") names.push_back(entry->path().filename().string());
+        if (has_extension(entry->path(), kind)) names.push_back(entry->path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
 }
@@ -129,10 +150,18 @@ bool is_in_folder(const fs::path& inner, const fs::path& folder) {
            std::mismatch(folder.begin(), folder.end(), whole.begin(), whole.end()).first == folder.end();
 }
 
-// The path of the .glb file that a value refers to, relative to `folder`; empty after an error. Its existence
-// is checked only if `root` is given.
-std::string read_file_name(JsonReader& reader, const JsonNode& node, const fs::path& folder,
-                           const fs::path& root, std::string_view folder_text) {
+// A folder that a value's path is relative to.
+struct PathBase {
+    fs::path folder;
+    fs::path root;  // files outside it are rejected; empty: files are not checked
+    std::string_view text;
+};
+
+// The path of the file that a value refers to; empty after an error. Its existence is checked only if the
+// base has a root.
+std::string read_file_name(JsonReader& reader, const JsonNode& node, const PathBase& base,
+                           const FileKind& kind) {
+    const auto& [folder, root, folder_text] = base;
     const auto name = reader.text(node);
     if (!name) return {};
     const fs::path given(*name);
@@ -142,9 +171,8 @@ std::string read_file_name(JsonReader& reader, const JsonNode& node, const fs::p
                       fmt::format("a path from {}, with / between folders", folder_text));
         return {};
     }
-    if (given.extension() != ".glb") {
-        reader.report(node.pointer, fmt::format("{} is not a .glb file", in_quotes(*name)),
-                      "a binary glTF file: bolt-author import-step makes one from STEP");
+    if (!has_extension(given, kind)) {
+        reader.report(node.pointer, fmt::format("{} is not {}", in_quotes(*name), kind.what), kind.remedy);
         return {};
     }
     fs::path path = (folder / given).lexically_normal();
@@ -159,9 +187,10 @@ std::string read_file_name(JsonReader& reader, const JsonNode& node, const fs::p
     }
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) {
-        const std::vector<std::string> known = models_in(path.parent_path());
+        const std::vector<std::string> known = files_in(path.parent_path(), kind);
         reader.report(node.pointer, fmt::format("there is no file {} in {}", in_quotes(*name), folder_text),
-                      known.empty() ? "a file; no .glb is there" : suggest(given.filename().string(), known));
+                      known.empty() ? fmt::format("a file; no {} is there", kind.extensions.front())
+                                    : suggest(given.filename().string(), known));
         return {};
     }
     return path.string();
@@ -177,8 +206,8 @@ std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode
 
 ModelFiles read_model_files(JsonReader& reader, const ModelFolders& folders) {
     const auto read = [&](std::string_view key) {
-        return read_file_name(reader, reader.member(reader.root(), key), folders.folder, folders.root,
-                              "the assembly's folder");
+        return read_file_name(reader, reader.member(reader.root(), key),
+                              {folders.folder, folders.root, "the assembly's folder"}, model_kind);
     };
     return {read("model"), read("model_far"), read("contact_model")};
 }
@@ -187,7 +216,27 @@ std::string read_tool_model(JsonReader& reader, const JsonNode& tool, const Mode
     // Tools are shared by all assemblies, so their models are in one folder.
     const JsonNode node = reader.member(tool, "model");
     const fs::path root = folders.root.empty() ? fs::path{} : fs::weakly_canonical(folders.tools);
-    return read_file_name(reader, node, folders.tools, root, "content/tools");
+    return read_file_name(reader, node, {folders.tools, root, "content/tools"}, model_kind);
+}
+
+Instruction read_instruction(JsonReader& reader, const JsonNode& pass, const PassContext& context) {
+    const JsonNode node = reader.member(pass, "instruction");
+    Instruction instruction;
+    instruction.text = read_texts(reader, reader.member(node, "text"));
+    const JsonNode view = reader.member(node, "view");
+    instruction.view = reader.text(view).value_or("");
+    std::vector<std::string> names;
+    for (const NamedView& known : context.views) names.push_back(known.name);
+    const bool is_view = std::find(names.begin(), names.end(), instruction.view) != names.end();
+    const bool views_are_known = reader.is_valid(reader.member(reader.root(), "views").pointer);
+    if (view && !is_view && views_are_known && reader.is_valid(view.pointer))
+        reader.report(
+            view.pointer, fmt::format("{} is not a view of this file", in_quotes(instruction.view)),
+            names.empty() ? "a name in \"views\"; the file has none" : suggest(instruction.view, names));
+    instruction.picture =
+        read_file_name(reader, reader.member(node, "picture"),
+                       {context.folders.folder, context.folders.root, "the assembly's folder"}, picture_kind);
+    return instruction;
 }
 
 }  // namespace bolt::content

@@ -24,8 +24,21 @@ Assembly read_assembly(JsonReader& reader, std::string_view variant, const Model
 
 std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& variant);
 // The smallest fraction of the target torque that a pass tightens to; 1 if unknown.
-double smallest_pass_fraction(JsonReader& reader);
-std::vector<Pass> read_passes(JsonReader& reader, const std::vector<AssemblyJoint>& joints);
+double smallest_pass_fraction(JsonReader& reader, const std::string& variant);
+
+struct AssemblyPasses {
+    std::vector<Pass> tightening, loosening;
+};
+// The parts of an assembly that its passes refer to.
+struct PassContext {
+    const std::vector<AssemblyJoint>& joints;
+    const std::vector<NamedView>& views;
+    const std::string& variant;
+    const ModelFolders& folders;
+};
+AssemblyPasses read_passes(JsonReader& reader, const PassContext& context);
+// The member "instruction" of a pass.
+Instruction read_instruction(JsonReader& reader, const JsonNode& pass, const PassContext& context);
 ModelFiles read_model_files(JsonReader& reader, const ModelFolders& folders);
 // Texts by language: the members of an object.
 std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode& object);

@@ -373,7 +373,7 @@ std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& va
                      reader.member(patch, "every_joint_type"),
                      reader.member(patch, "joint_types"),
                      read_youngs_moduli(reader),
-                     smallest_pass_fraction(reader),
+                     smallest_pass_fraction(reader, variant),
                      {}};
     const std::vector<std::string> type_names = names_of(reader, types.all);
     const bool has_types = static_cast<bool>(types.all);

@@ -80,9 +80,11 @@ struct JointCurve {
     std::vector<Visit> visits;
     std::vector<StageSpan> stages;
     RunDown run_down;
-    double snug_angle = std::numeric_limits<double>::quiet_NaN();  // rad, where the snug torque was first met
-    double start_angle = 0.0;                                      // rad, when first gripped
-    double end_angle = 0.0;                                        // rad, furthest in the direction of work
+    // rad, from which the tightening angle counts: where the snug torque was first met, or the mark at the
+    // beginning of the first pass that turns by an angle. NaN: neither was reached.
+    double snug_angle = std::numeric_limits<double>::quiet_NaN();
+    double start_angle = 0.0;  // rad, when first gripped
+    double end_angle = 0.0;    // rad, furthest in the direction of work
 };
 
 struct CurveRequest {

@@ -55,6 +55,22 @@ std::vector<lesson::JointResult> results_by_joint(const content::Assembly& assem
     return results;
 }
 
+// In a lesson that turns nuts by an angle, the tightening angle counts from the mark: where the nut rested
+// when the first such pass reached it.
+void set_marks(SessionData& data) {
+    if (data.direction() == joint::Direction::loosen || !lesson::turns_by_angle(data.assembly)) return;
+    const std::vector<content::Pass>& passes = data.assembly.passes;
+    const auto turns = [&](const Visit& visit) {
+        const auto pass = static_cast<std::size_t>(visit.pass);
+        return pass < passes.size() && passes[pass].kind == content::PassKind::turn;
+    };
+    for (JointCurve& curve : data.curves) {
+        const auto first = std::find_if(curve.visits.begin(), curve.visits.end(), turns);
+        curve.snug_angle =
+            first == curve.visits.end() ? std::numeric_limits<double>::quiet_NaN() : first->begin_angle;
+    }
+}
+
 Result<SessionData> read_session(const session::SessionReader& session) {
     Result<content::Assembly> assembly = stored_assembly(session);
     if (!assembly) return fail(assembly.error());
@@ -88,6 +104,7 @@ Result<SessionData> read_session(const session::SessionReader& session) {
         });
     if (!read) return fail(read.error());
     data.curves = builder.finish();
+    set_marks(data);
     data.metrics = metrics.finish();
     Result<std::optional<servo::Timing>> timing = session.timing();
     if (!timing) return fail(timing.error());
@@ -248,8 +265,13 @@ std::string pass_label(const content::Pass& pass) {
     switch (pass.kind) {
         case content::PassKind::run_down:
             return "run-down";
+        case content::PassKind::turn:
+            return fmt::format("angle {:.0f} %", 100.0 * pass.fraction);
         case content::PassKind::recheck:
             return "re-check";
+        case content::PassKind::loosen:
+            return pass.turn_back > 0.0 ? fmt::format("back {:.0f}°", to_degrees(pass.turn_back))
+                                        : "loosening";
         case content::PassKind::tighten:
             break;
     }
@@ -257,16 +279,13 @@ std::string pass_label(const content::Pass& pass) {
 }
 
 std::vector<PassOrder> pass_orders(const SessionData& session) {
-    const std::vector<content::Pass>& passes = session.assembly.passes;
     const bool loosening = session.direction() == joint::Direction::loosen;
-    const bool has_passes = !session.pass_texts.empty() && !loosening;
+    const std::vector<content::Pass> passes =
+        loosening ? lesson::loosening_passes(session.assembly) : session.assembly.passes;
+    // Very old sessions have no pass_begin events.
+    const bool has_passes = !session.pass_texts.empty() && (!loosening || passes.size() > 1);
     std::vector<PassOrder> orders;
-    if (loosening) {
-        // As in the lesson's plan: the reverse of the last pass.
-        orders.push_back(
-            {"loosening", passes.empty() ? std::vector<std::size_t>{} : passes.back().order, {}});
-        std::reverse(orders.back().planned.begin(), orders.back().planned.end());
-    } else if (!has_passes && passes.size() != 1) {
+    if (!has_passes && !loosening && passes.size() != 1) {
         orders.push_back({"whole session", {}, {}});
     } else {
         for (const content::Pass& pass : passes) orders.push_back({pass_label(pass), pass.order, {}});

@@ -22,6 +22,7 @@ constexpr MistakeRow mistake_rows[] = {
     {MistakeKind::loosened, "mistake.loosened", "mistake.loosened.do"},
     {MistakeKind::tightened, "mistake.tightened", "mistake.tightened.do"},
     {MistakeKind::over_torque, "mistake.over_torque", "mistake.over_torque.do"},
+    {MistakeKind::over_turned, "mistake.over_turned", "mistake.over_turned.do"},
     {MistakeKind::slipped, "mistake.slipped", "mistake.slipped.do"},
     {MistakeKind::stripped, "mistake.stripped", "mistake.stripped.do"},
     {MistakeKind::broken, "mistake.broken", "mistake.broken.do"},
@@ -52,6 +53,7 @@ std::optional<Mistake> mistake_of(const Lesson& lesson, const LessonEvent& event
         mistake.arguments = {{"held", joint.design.id},
                              fastener_argument(joint.design),
                              {"most", words::torque_number(joint.spec.torque.high)},
+                             {"most_angle", words::Number{to_degrees(joint.spec.angle.high), 0}},
                              {"rounded", words::Number{1e3 * event.value, 2}}};
         const LessonStep* due = lesson.due();
         if (due != nullptr) {
@@ -104,12 +106,15 @@ struct JointTexts {
     TextKey reason, advice;
 };
 
-JointTexts joint_texts(const JointResult& joint) {
+// `from_mark`: the angle counts from a mark, not from the snug torque.
+JointTexts joint_texts(const JointResult& joint, bool from_mark) {
     if (joint.condition == joint::JointCondition::broken) return {"reason.broken", "advice.broken"};
     if (joint.condition == joint::JointCondition::stripped) return {"reason.stripped", "advice.stripped"};
     if (joint.torque_verdict == Verdict::none) return {"reason.not_loosened", "advice.not_loosened"};
     if (joint.torque_verdict == Verdict::low) return {"reason.torque_low", "advice.torque_low"};
     if (joint.torque_verdict == Verdict::high) return {"reason.torque_high", "advice.torque_high"};
+    if (from_mark && joint.angle_verdict == Verdict::low) return {"reason.turn_low", "advice.turn_low"};
+    if (from_mark && joint.angle_verdict == Verdict::high) return {"reason.turn_high", "advice.turn_high"};
     if (joint.angle_verdict == Verdict::low) return {"reason.angle_low", "advice.angle_low"};
     if (joint.angle_verdict == Verdict::high) return {"reason.angle_high", "advice.angle_high"};
     return {"reason.off_seat", "advice.off_seat"};
@@ -164,7 +169,7 @@ Review review(const content::Assembly& assembly, const LessonResult& result) {
             case DeductionKind::damaged:
             case DeductionKind::not_ok: {
                 const auto joint = static_cast<std::size_t>(reason.joint);
-                const JointTexts how = joint_texts(result.joints[joint]);
+                const JointTexts how = joint_texts(result.joints[joint], turns_by_angle(assembly));
                 deduction.key = how.reason;
                 deduction.arguments = joint_arguments(assembly.joints[joint], result.joints[joint]);
                 advice = how.advice;
@@ -187,6 +192,11 @@ Review review(const content::Assembly& assembly, const LessonResult& result) {
                 deduction.key = once ? TextKey("reason.over_torque_corrected.one")
                                      : TextKey("reason.over_torque_corrected.many");
                 advice = TextKey("advice.torque_high");
+                break;
+            case DeductionKind::over_turned:
+                deduction.key = once ? TextKey("reason.over_turned_corrected.one")
+                                     : TextKey("reason.over_turned_corrected.many");
+                advice = TextKey("advice.turn_high");
                 break;
             case DeductionKind::slipped:
                 deduction.key = once ? TextKey("reason.slipped.one") : TextKey("reason.slipped.many");

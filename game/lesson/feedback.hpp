@@ -24,7 +24,8 @@ constexpr words::TextKey text_key(Task task) {
 }
 
 constexpr words::TextKey text_key(StepKind kind) {
-    constexpr words::TextKey keys[] = {"step.run_down", "step.tighten", "step.recheck", "step.loosen"};
+    constexpr words::TextKey keys[] = {"step.run_down", "step.tighten", "step.turn", "step.recheck",
+                                       "step.loosen"};
     return keys[static_cast<int>(kind)];
 }
 

@@ -34,18 +34,24 @@ constexpr HintRow hint_rows[] = {
     {Situation::pull, "hint.pull", HintMotion::pull_on},
     {Situation::pull_to_yield, "hint.pull_to_yield", HintMotion::pull_on},
     {Situation::pull_to_click, "hint.pull_to_click", HintMotion::pull_on},
+    {Situation::turn_on, "hint.turn_on", HintMotion::pull_on},
     {Situation::set_back, "hint.set_back", HintMotion::set_back},
     {Situation::ease, "hint.ease", HintMotion::pull_on},
     {Situation::ease_to_yield, "hint.ease_to_yield", HintMotion::pull_on},
+    {Situation::ease_to_angle, "hint.ease_to_angle", HintMotion::pull_on},
     {Situation::stop, "hint.stop", HintMotion::lift},
     {Situation::stop_at_yield, "hint.stop_at_yield", HintMotion::lift},
     {Situation::stop_at_click, "hint.stop_at_click", HintMotion::lift},
     {Situation::stop_too_much, "hint.stop_too_much", HintMotion::lift},
+    {Situation::stop_at_angle, "hint.stop_at_angle", HintMotion::lift},
+    {Situation::stop_too_far, "hint.stop_too_far", HintMotion::lift},
     {Situation::take_off, "hint.take_off", HintMotion::lift},
     {Situation::check, "hint.check", HintMotion::pull_on},
     {Situation::checked, "hint.checked", HintMotion::lift},
     {Situation::break_loose, "hint.break_loose", HintMotion::pull_off},
     {Situation::unscrew, "hint.turn_off", HintMotion::pull_off},
+    {Situation::turn_back, "hint.turn_back", HintMotion::pull_off},
+    {Situation::turned_back, "hint.turned_back", HintMotion::lift},
     {Situation::free, "hint.free", HintMotion::lift},
     {Situation::wrong_joint, "hint.wrong_joint", HintMotion::lift},
     {Situation::other_way_on, "hint.other_way_on", HintMotion::pull_on},
@@ -56,7 +62,9 @@ constexpr HintRow hint_rows[] = {
     {Situation::next, "hint.next", HintMotion::approach},
     {Situation::pass_run_down, "hint.pass_run_down", HintMotion::reach},
     {Situation::pass_tighten, "hint.pass_tighten", HintMotion::approach},
+    {Situation::pass_turn, "hint.pass_turn", HintMotion::approach},
     {Situation::pass_recheck, "hint.pass_recheck", HintMotion::approach},
+    {Situation::pass_turn_back, "hint.pass_turn_back", HintMotion::approach},
     {Situation::pass_loosen, "hint.pass_loosen", HintMotion::approach},
     {Situation::all_done, "hint.all_done", HintMotion::none},
 };
@@ -99,6 +107,8 @@ std::vector<words::TextArgument> text_arguments(const ObservedLesson& work) {
         {"low", words::torque_number(window.low)},
         {"high", words::torque_number(window.high)},
         {"most", words::torque_number(window.high)},
+        {"angle", words::Number{to_degrees(due->angle), 0}},
+        {"most_angle", words::Number{to_degrees(angle_window(work.lesson, *due).high), 0}},
     };
     if (work.lesson.held_joint >= 0)
         arguments.push_back({"held", joints[static_cast<std::size_t>(work.lesson.held_joint)].design.id});
@@ -150,112 +160,6 @@ std::string motion_text(const words::Words& words, const Hint& hint, const Contr
 
 namespace {
 
-struct ControlRow {
-    HintMotion motion;
-    TextKey mouse, drag, device;
-};
-constexpr ControlRow control_rows[] = {
-    {HintMotion::take, "control.mouse.take", "control.drag.take", "control.device.take"},
-    {HintMotion::put_away, "control.mouse.put_away", "control.mouse.put_away", "control.device.put_away"},
-    {HintMotion::approach, "control.mouse.go", "control.drag.move", "control.device.move"},
-    {HintMotion::reach, "control.mouse.go", "control.drag.move", "control.device.move"},
-    {HintMotion::set_on, "control.mouse.go", "control.drag.move", "control.device.move"},
-    {HintMotion::grip_nut, "control.mouse.go", "control.drag.grip", "control.device.grip"},
-    {HintMotion::spin, "control.mouse.spin", "control.drag.spin", "control.device.turn"},
-    {HintMotion::twist_back, "control.mouse.again", "control.mouse.again", "control.device.twist_back"},
-    {HintMotion::let_go, "control.mouse.let_go", "control.mouse.let_go", "control.device.release"},
-    {HintMotion::pull_on, "control.mouse.pull", "control.mouse.pull", "control.device.turn"},
-    {HintMotion::pull_off, "control.mouse.pull", "control.mouse.pull", "control.device.turn"},
-    {HintMotion::lift, "control.mouse.let_go", "control.drag.lift", "control.device.move"},
-    {HintMotion::set_back, "control.mouse.again", "control.drag.set_back", "control.device.move"},
-};
-static_assert(std::size(control_rows) == motion_count - 1);  // all but `none`
-
-std::string& at(ControlNames& controls, HintMotion motion) {
-    return controls.at(static_cast<std::size_t>(motion));
-}
-
-ControlNames controls(const words::Words& words, TextKey ControlRow::*column, const std::string& key) {
-    ControlNames names;
-    for (const ControlRow& row : control_rows)
-        at(names, row.motion) = words::format_text(words, row.*column, {{"key", key}});
-    return names;
-}
-
-}  // namespace
-
-ControlNames mouse_controls(const words::Words& words, const std::string& tool_key) {
-    return controls(words, &ControlRow::mouse, tool_key);
-}
-
-ControlNames drag_controls(const words::Words& words, const std::string& tool_key) {
-    return controls(words, &ControlRow::drag, tool_key);
-}
-
-ControlNames device_controls(const words::Words& words, const std::string& button,
-                             const std::string& tool_key) {
-    ControlNames names = controls(words, &ControlRow::device, button);
-    at(names, HintMotion::put_away) =
-        words::format_text(words, "control.device.put_away", {{"key", tool_key}});
-    return names;
-}
-
-namespace {
-
-ControlNames button_controls(const words::Words& words, const std::string& button,
-                             const std::string& tool_key, TextKey move, TextKey turn) {
-    ControlNames names = device_controls(words, button, tool_key);
-    for (const HintMotion motion : {HintMotion::approach, HintMotion::reach, HintMotion::set_on})
-        at(names, motion) = words::format_text(words, move, {{"key", button}});
-    for (const HintMotion motion : {HintMotion::spin, HintMotion::pull_on, HintMotion::pull_off})
-        at(names, motion) = words::format_text(words, turn, {});
-    return names;
-}
-
-}  // namespace
-
-ControlNames puck_controls(const words::Words& words, const std::string& button,
-                           const std::string& tool_key) {
-    return button_controls(words, button, tool_key, "control.puck.move", "control.device.turn");
-}
-
-ControlNames keyboard_controls(const words::Words& words, const std::string& button,
-                               const std::string& tool_key) {
-    return button_controls(words, button, tool_key, "control.keys.move", "control.keys.turn");
-}
-
-namespace {
-
-struct FingerRow {
-    HintMotion motion;
-    TextKey text;
-};
-constexpr FingerRow finger_controls[] = {{HintMotion::take, "control.glove.take"},
-                                         {HintMotion::put_away, "control.glove.put_away"},
-                                         {HintMotion::grip_nut, "control.glove.grip"},
-                                         {HintMotion::twist_back, "control.glove.twist_back"},
-                                         {HintMotion::let_go, "control.glove.release"}};
-
-}  // namespace
-
-ControlNames glove_controls(const words::Words& words, ControlNames controls) {
-    for (const FingerRow& row : finger_controls)
-        at(controls, row.motion) = words::format_text(words, row.text, {});
-    return controls;
-}
-
-ControlNames tracked_controls(const words::Words& words) {
-    ControlNames names = glove_controls(words, {});
-    for (const HintMotion motion : {HintMotion::approach, HintMotion::reach, HintMotion::set_on,
-                                    HintMotion::lift, HintMotion::set_back})
-        at(names, motion) = words::format_text(words, "control.hand.move", {});
-    for (const HintMotion motion : {HintMotion::spin, HintMotion::pull_on, HintMotion::pull_off})
-        at(names, motion) = words::format_text(words, "control.hand.turn", {});
-    return names;
-}
-
-namespace {
-
 constexpr double announcement_duration = 3.0;  // s
 constexpr double debounce = 0.15;              // s for which a situation must last before it is shown
 constexpr double stroke_debounce = 1.0;        // s, the same between the strokes on a nut
@@ -269,7 +173,8 @@ constexpr int max_level = 3;
 // Hints that are shown immediately, because the torque keeps rising until the trainee reads them.
 bool immediate(Situation s) {
     return s == Situation::stop || s == Situation::stop_at_yield || s == Situation::stop_at_click ||
-           s == Situation::stop_too_much || s == Situation::leave_broken || s == Situation::leave_stripped;
+           s == Situation::stop_too_much || s == Situation::stop_at_angle || s == Situation::stop_too_far ||
+           s == Situation::leave_broken || s == Situation::leave_stripped;
 }
 
 // Hints that replace another one before its minimum duration.
@@ -292,10 +197,12 @@ Situation announcement(const LessonStep& step, bool new_pass) {
             return Situation::pass_run_down;
         case StepKind::tighten:
             return Situation::pass_tighten;
+        case StepKind::turn:
+            return Situation::pass_turn;
         case StepKind::recheck:
             return Situation::pass_recheck;
         case StepKind::loosen:
-            return Situation::pass_loosen;
+            return step.angle > 0.0 ? Situation::pass_turn_back : Situation::pass_loosen;
     }
     return Situation::next;
 }

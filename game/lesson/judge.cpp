@@ -61,7 +61,7 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
     result.finished = lesson.due() == nullptr;
     result.score = 100.0;
     const double share = 100.0 / static_cast<double>(std::max<std::size_t>(1, lesson.joints.size()));
-    int done_already = 0, out_of_turn = 0, wrong_ways = 0, overdone = 0, slips = 0;
+    int done_already = 0, out_of_turn = 0, wrong_ways = 0, overdone = 0, overturned = 0, slips = 0;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         JointResult joint = judge_joint(lesson, i, world);
         if (joint.condition != joint::JointCondition::intact)
@@ -80,6 +80,8 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
         const bool still_too_high =
             joint.torque_verdict == Verdict::high || joint.condition != joint::JointCondition::intact;
         overdone += std::max(0, lesson.joints[i].over_torque_count - (still_too_high ? 1 : 0));
+        const bool still_too_far = joint.angle_verdict == Verdict::high;
+        overturned += std::max(0, lesson.joints[i].over_turn_count - (still_too_far ? 1 : 0));
         result.joints.push_back(std::move(joint));
     }
     if (out_of_turn > 0)
@@ -96,6 +98,9 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
     if (overdone > 0)
         take_points(result, {2.0 * overdone, times(overdone) + " too much torque, corrected later",
                              DeductionKind::over_torque, -1, overdone});
+    if (overturned > 0)
+        take_points(result, {2.0 * overturned, times(overturned) + " turned too far, corrected later",
+                             DeductionKind::over_turned, -1, overturned});
     if (slips > 0)
         take_points(result,
                     {2.0 * slips, times(slips) + " the wrench slipped", DeductionKind::slipped, -1, slips});

@@ -11,53 +11,10 @@ namespace bolt::lesson {
 
 namespace {
 
-constexpr double finger_drag = 0.4;  // share of the finger torque; a nut with more drag needs the wrench
-
-StepKind kind_of(content::PassKind kind) {
-    switch (kind) {
-        case content::PassKind::run_down:
-            return StepKind::run_down;
-        case content::PassKind::recheck:
-            return StepKind::recheck;
-        case content::PassKind::tighten:
-            break;
-    }
-    return StepKind::tighten;
-}
-
-}  // namespace
-
-std::vector<LessonStep> make_plan(const content::Assembly& assembly, Task task) {
-    std::vector<LessonStep> steps;
-    if (assembly.passes.empty()) return steps;
-    if (task == Task::loosen) {
-        const auto& order = assembly.passes.back().order;
-        for (auto joint = order.rbegin(); joint != order.rend(); ++joint)
-            steps.push_back({StepKind::loosen, *joint, 0.0, 0.0, 0});
-        return steps;
-    }
-    int number = 0;
-    for (const content::Pass& pass : assembly.passes) {
-        for (const std::size_t joint : pass.order) {
-            const double fraction = pass.kind == content::PassKind::tighten ? pass.fraction : 1.0;
-            const double torque = assembly.joints[joint].spec.torque.target * fraction;
-            steps.push_back({kind_of(pass.kind), joint, torque, fraction, number});
-        }
-        ++number;
-    }
-    return steps;
-}
-
-bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, double finger_torque) {
-    return step.kind == StepKind::run_down &&
-           assembly.joints[step.joint].design.prevailing_torque < finger_drag * finger_torque;
-}
-
-namespace {
-
 constexpr double recheck_turn = to_radians(0.2);  // nut angle by which a re-check counts as moving the nut
 constexpr double turning_speed = 0.01;            // rad/s
 constexpr double wrong_way = to_radians(5.0);     // nut angle; more than play and the wrench's elasticity
+constexpr double turn_excess = to_radians(1.0);   // nut angle beyond the window that is reported
 constexpr std::uint64_t assessment_end_ticks = 3000;
 constexpr std::uint64_t regrip_ticks = 1000;  // gap within which a grip by fingers continues the hold
 constexpr double working_torque = 0.5;        // N·m; less is only a touch
@@ -86,8 +43,8 @@ void begin_step(Lesson& lesson, const world::ReadHaptics& world) {
     if (step == nullptr) return;
     if (lesson.announced_pass != step->pass) {
         lesson.announced_pass = step->pass;
-        const std::string share =
-            step->kind == StepKind::tighten ? fmt::format(" to {:.0f} %", 100 * step->fraction) : "";
+        const bool shares = step->kind == StepKind::tighten || step->kind == StepKind::turn;
+        const std::string share = shares ? fmt::format(" to {:.0f} %", 100 * step->fraction) : "";
         add_event(lesson, tick_of(world), EventKind::pass_begin, -1, step->pass,
                   fmt::format("{}{}", name(step->kind), share));
     }
@@ -95,6 +52,11 @@ void begin_step(Lesson& lesson, const world::ReadHaptics& world) {
     track.peak_torque = 0.0;
     track.clicked = false;
     track.begin_angle = joint_at(world, step->joint).angle;
+    const bool seated = joint_at(world, step->joint).stage != joint::Stage::navigation;
+    if (step->kind == StepKind::turn && seated && !track.snug) {
+        track.snug = true;
+        track.snug_angle = track.begin_angle;
+    }
     lesson.step_starts.resize(lesson.current);
     lesson.step_starts.push_back(lesson.joints);
     add_event(lesson, tick_of(world), EventKind::step_begin, static_cast<int>(step->joint), step->torque,
@@ -106,9 +68,9 @@ void end_step(Lesson& lesson, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[step.joint];
     track.done_in_pass = step.pass;
     if (step.kind == StepKind::loosen) {
-        track.result.torque = track.peak_torque;
-        track.result.angle = track.begin_angle - joint_at(world, step.joint).angle;
-    } else if (step.kind == StepKind::tighten) {
+        track.result.torque = std::max(track.result.torque, track.peak_torque);
+        track.result.angle += track.begin_angle - joint_at(world, step.joint).angle;
+    } else if (step.kind == StepKind::tighten || step.kind == StepKind::turn) {
         track.result.torque = track.peak_torque;
     }
     add_event(lesson, tick_of(world), EventKind::step_end, static_cast<int>(step.joint), track.peak_torque,
@@ -191,7 +153,7 @@ void update_turned_torque(Lesson& lesson, std::size_t index, const world::Joint&
     JointTrack& track = lesson.joints[index];
     if (lesson.task != Task::tighten) return;
     if (joint.stage == joint::Stage::navigation) {
-        track.snug = track.yielded = track.over_torqued = false;
+        track.snug = track.yielded = track.over_torqued = track.over_turned = false;
         track.turned_torque = track.result.torque = track.result.angle = 0.0;
     }
     const double ratio = lesson.assembly->joints[index].design.friction.static_ratio;
@@ -212,8 +174,20 @@ void report_excess_torque(Lesson& lesson, std::size_t joint, std::uint64_t tick)
                 fmt::format("{} was turned with more than {:.1f} N·m", track.result.id, highest));
 }
 
-// Reports a nut that is turned the wrong way, once a hold. After excess torque it reports nothing, because
-// turning back is then the correction.
+// Reports a nut that was turned too far from its mark, once until the nut leaves its seat.
+void report_excess_angle(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
+    JointTrack& track = lesson.joints[joint];
+    if (!lesson.turns_by_angle || track.over_turned) return;
+    const double turned = angle_from_mark(lesson, world, joint), most = spec_of(lesson, joint).angle.high;
+    if (turned <= most + turn_excess) return;
+    track.over_turned = true;
+    ++track.over_turn_count;
+    add_mistake(lesson, tick_of(world), MistakeKind::over_turned, joint, turned,
+                fmt::format("{} was turned by more than {:.0f}°", track.result.id, to_degrees(most)));
+}
+
+// Reports a nut that is turned the wrong way, once a hold. After excess torque or an excess angle it reports
+// nothing, because turning back is then the correction.
 void report_wrong_way(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[joint];
     const world::Joint& now = joint_at(world, joint);
@@ -223,7 +197,8 @@ void report_wrong_way(Lesson& lesson, std::size_t joint, const world::ReadHaptic
         track.furthest = now.angle;
         track.seated = now.stage != joint::Stage::navigation;
     }
-    if (beyond > -wrong_way || !track.seated || track.turned_back || track.over_torqued) return;
+    if (beyond > -wrong_way || !track.seated || track.turned_back) return;
+    if (track.over_torqued || track.over_turned) return;
     track.turned_back = true;
     ++track.wrong_way_count;
     add_mistake(lesson, tick_of(world), loosens ? MistakeKind::tightened : MistakeKind::loosened, joint, 0.0,
@@ -248,9 +223,13 @@ void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& w
     track.peak_torque = std::max(track.peak_torque, step_torque);
     update_turned_torque(lesson, joint, nut, step_torque);
     report_excess_torque(lesson, joint, tick_of(world));
+    report_excess_angle(lesson, joint, world);
     if (!fingers) report_wrong_way(lesson, joint, world);
-    if (!track.snug && lesson.task == Task::tighten && torque >= spec_of(lesson, joint).snug_torque &&
-        !fingers) {
+    // A nut that came off its seat during a step of kind `turn` has lost its mark; it gets a new one.
+    const bool marks =
+        !lesson.turns_by_angle || (due != nullptr && due->joint == joint && due->kind == StepKind::turn);
+    if (!track.snug && marks && lesson.task == Task::tighten &&
+        torque >= spec_of(lesson, joint).snug_torque && !fingers) {
         track.snug = true;
         track.snug_angle = nut.angle;
     }
@@ -295,6 +274,16 @@ content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& s
     return {step.torque, share * whole.low, share * whole.high};
 }
 
+content::ToleranceWindow angle_window(const Lesson& lesson, const LessonStep& step) {
+    const content::ToleranceWindow& whole = spec_of(lesson, step.joint).angle;
+    return {whole.target * step.fraction, whole.low * step.fraction, whole.high * step.fraction};
+}
+
+double angle_from_mark(const Lesson& lesson, const world::ReadJoints& world, std::size_t joint) {
+    const JointTrack& track = lesson.joints[joint];
+    return track.snug ? joint_at(world, joint).angle - track.snug_angle : 0.0;
+}
+
 bool requires_yield(const Lesson& lesson, const LessonStep& step) {
     return step.kind == StepKind::tighten && step.fraction > 0.999 &&
            spec_of(lesson, step.joint).strategy == content::Strategy::yield;
@@ -330,11 +319,14 @@ bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world) {
             if (requires_click(lesson, *step)) return track.clicked;
             return !requires_yield(lesson, *step) || track.yielded || track.clicked ||
                    track.peak_torque > spec_of(lesson, step->joint).torque.high;
+        case StepKind::turn:
+            return angle_from_mark(lesson, world, step->joint) >= angle_window(lesson, *step).low;
         case StepKind::recheck:
             return joint.angle - track.begin_angle > recheck_turn ||
                    track.peak_torque >= torque_window(lesson, *step).low;
         case StepKind::loosen:
-            return joint.stage == joint::Stage::navigation;
+            return joint.stage == joint::Stage::navigation ||
+                   (step->angle > 0.0 && track.begin_angle - joint.angle >= step->angle);
     }
     return false;
 }
@@ -346,6 +338,7 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
     lesson.task = task;
     lesson.guides = mode == Mode::guided;
     lesson.steps = make_plan(assembly, task);
+    lesson.turns_by_angle = task == Task::tighten && turns_by_angle(assembly);
     for (const content::AssemblyJoint& joint : assembly.joints) {
         JointTrack track;
         track.result.id = joint.design.id;
@@ -395,6 +388,7 @@ bool undo_steps(Lesson& lesson, const world::ReadHaptics& world, std::size_t ste
         tracks[i].result.out_of_turn = lesson.joints[i].result.out_of_turn;
         tracks[i].wrong_way_count = lesson.joints[i].wrong_way_count;
         tracks[i].over_torque_count = lesson.joints[i].over_torque_count;
+        tracks[i].over_turn_count = lesson.joints[i].over_turn_count;
         tracks[i].slip_count = lesson.joints[i].slip_count;
         tracks[i].result.condition = joint_at(world, i).condition;
     }

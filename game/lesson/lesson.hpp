@@ -16,19 +16,21 @@
 
 namespace bolt::lesson {
 
-enum class StepKind : std::uint8_t { run_down, tighten, recheck, loosen };
+enum class StepKind : std::uint8_t { run_down, tighten, turn, recheck, loosen };
 
 constexpr std::string_view name(StepKind kind) {
-    constexpr std::string_view names[] = {"run down by hand", "tighten", "re-check", "loosen"};
+    constexpr std::string_view names[] = {"run down by hand", "tighten", "turn", "re-check", "loosen"};
     return names[static_cast<int>(kind)];
 }
 
 struct LessonStep {
     StepKind kind = StepKind::tighten;
     std::size_t joint = 0;
-    double torque = 0.0;    // N·m to reach; tighten and recheck
+    double torque = 0.0;    // N·m to reach; tighten and recheck. turn: the joint's target, not aimed at
     double fraction = 1.0;  // of the joint's target
     int pass = 0;
+    // rad. turn: from the mark to reach. loosen: to turn back; 0: until the nut is free.
+    double angle = 0.0;
 };
 
 // The adaptation of an assembly to the published law: the current one, and that of sessions before format 6,
@@ -36,11 +38,11 @@ struct LessonStep {
 enum class LawAdaptation : std::uint8_t { yield_end, before_format_6 };
 
 // Returns the assembly with `law` in force and its specifications adapted to it. The specifications of joint
-// types hold under the mechanistic law. Under the published law a joint ends at its T_max
-// (haptics/joint/published.hpp) and the torque stays there, so these targets replace them:
+// types hold under the mechanistic law. Under the published law the torque of a joint stops growing at its
+// T_max (haptics/joint/published.hpp), so these targets replace them:
 //   - the joint's own published targets, if the file has them
-//   - otherwise targets in the last third of the yield stage, and an angle window whose upper limit lies a
-//   third of the stage beyond its end, because the torque cannot be too high
+//   - otherwise targets in the last third of the yield stage, and an angle window, because the torque cannot
+//   be too high: its upper limit lies beyond the end of the yield stage by a third of the stage's width
 // A torque wrench is set so low that it clicks before the end of the yield stage, whatever its deviation. If
 // that lowers the target torque, the lower torque limit stays below the lowest torque at which the wrench can
 // click. The target clamp force follows from the target torque. Without θ_max in the file, θ_max is computed
@@ -49,9 +51,15 @@ enum class LawAdaptation : std::uint8_t { yield_end, before_format_6 };
 content::Assembly apply_law(content::Assembly assembly, joint::Law law,
                             LawAdaptation adaptation = LawAdaptation::yield_end);
 
-// Tightening: the assembly's passes in order. Loosening: every joint once, in the reverse order of the last
-// pass.
+// The passes of a loosening lesson: the file's, else one that loosens every joint, in the reverse order of
+// the last pass.
+std::vector<content::Pass> loosening_passes(const content::Assembly& assembly);
+
+// The steps of a lesson, from the passes in their order.
 std::vector<LessonStep> make_plan(const content::Assembly& assembly, Task task);
+
+// True if a pass turns the joints by an angle; the angle of each joint then counts from a mark.
+bool turns_by_angle(const content::Assembly& assembly);
 
 // True if the step is done by fingers: it runs down a nut whose drag is small compared with `finger_torque`,
 // the torque in N·m that fingers can apply.
@@ -62,8 +70,10 @@ bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, dou
 // when a hold begins, except `worked` if fingers grip the same nut again within a second.
 struct JointTrack {
     JointResult result;
-    bool snug = false;           // the snug torque has been reached
-    double snug_angle = 0.0;     // rad, nut angle when it was reached first
+    // The nut angle from which the tightening angle counts, rad: where the snug torque was reached first or,
+    // in a lesson that turns nuts by an angle, where the nut rested when its first step of kind `turn` began.
+    bool snug = false;  // there is such an angle
+    double snug_angle = 0.0;
     double peak_torque = 0.0;    // N·m, since the last step of this joint began
     double turned_torque = 0.0;  // N·m, highest at which the nut turned, since it was last off its seat
     double begin_angle = 0.0;    // rad, nut angle when the step began
@@ -75,7 +85,9 @@ struct JointTrack {
     bool turned_back = false;    // turning the wrong way was reported in this hold
     int wrong_way_count = 0;     // holds in which it was turned the wrong way
     bool over_torqued = false;   // excess torque was reported since the nut was last off its seat
-    int over_torque_count = 0;   // undo reduces neither this nor slip_count nor wrong_way_count
+    int over_torque_count = 0;   // undo reduces neither this nor the following counts nor wrong_way_count
+    bool over_turned = false;    // an excess angle was reported since the nut was last off its seat
+    int over_turn_count = 0;
     int slip_count = 0;
     int done_in_pass = -1;  // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;
@@ -85,7 +97,8 @@ struct Lesson {
     const content::Assembly* assembly = nullptr;
     Mode mode = Mode::guided;
     Task task = Task::tighten;
-    bool guides = true;  // a force guides the hand to the due joint; begin() sets it in guided mode
+    bool guides = true;           // a force guides the hand to the due joint; begin() sets it in guided mode
+    bool turns_by_angle = false;  // there are steps of kind `turn`
     std::vector<LessonStep> steps;
     std::size_t current = 0;  // index of the due step
     std::vector<JointTrack> joints;
@@ -106,6 +119,12 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task);
 // The torque window of a step: the joint's window, scaled by the fraction of the pass.
 content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& step);
 
+// The angle window of a step of kind `turn`, rad from the mark: the joint's window, scaled like the torque's.
+content::ToleranceWindow angle_window(const Lesson& lesson, const LessonStep& step);
+
+// The angle, rad, by which the nut has been turned from the mark, or 0 without a mark.
+double angle_from_mark(const Lesson& lesson, const world::ReadJoints& world, std::size_t joint);
+
 // True if the step tightens to the whole target with strategy `yield`.
 bool requires_yield(const Lesson& lesson, const LessonStep& step);
 
@@ -119,12 +138,13 @@ double wrench_set_torque(const Lesson& lesson);
 
 // A step is due until it is done. The hand may leave the nut in between (an open-end wrench comes off for
 // each stroke). A step is done when the hand releases a nut that meets the step's condition:
-//   run down    the fingers have turned the nut onto its seat
+//   run down    the nut is on its seat
 //   tighten     the torque reached the low edge of the step's window. A step to the whole target with
 //               strategy `yield` also needs one of: the joint yields, the torque exceeds its window, the
 //               torque wrench clicks. Some steps need the click (requires_click)
+//   turn        the nut was turned from its mark by at least the low edge of the step's angle window
 //   re-check    the wrench turned the nut further, or reached the window without turning it
-//   loosen      the nut is free of clamp force
+//   loosen      the nut was turned back by the step's angle, or is free of clamp force
 // In assessment, work on the next step's joint ends the due step, fulfilled or not, once the due joint has
 // been loaded. In other modes the step stays due.
 //

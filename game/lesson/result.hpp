@@ -33,7 +33,7 @@ constexpr std::string_view name(Verdict verdict) {
 struct JointResult {
     std::string id;
     double torque = 0.0;  // N·m, highest of the tightening step and of later pulls that tightened further
-    double angle = 0.0;   // rad from snug
+    double angle = 0.0;   // rad, from where JointTrack::snug_angle says
     // N, when the result was last updated; at the end of the lesson it includes embedding and the interaction
     // of the joints
     double clamp = 0.0;
@@ -56,13 +56,14 @@ enum class DeductionKind : std::uint8_t {
     done_already,
     wrong_way,
     over_torque,  // corrected since; excess torque that remains is `not_ok`
+    over_turned,  // the same of an excess angle
     slipped,
     unfinished
 };
 
 // A deduction from the score with its reason as text. A deduction of 0 points only explains.
 struct Deduction {
-    double points = 0.0;
+    double points = 0.0;  // added to the score, so negative
     std::string text;
     DeductionKind kind = DeductionKind::none;
     int joint = -1;      // index, if it concerns one joint; −1: several or none
@@ -87,6 +88,7 @@ enum class MistakeKind : std::uint8_t {
     loosened,   // in a tightening lesson
     tightened,  // in a loosening lesson
     over_torque,
+    over_turned,  // turned further than its angle window
     slipped,
     stripped,
     broken

@@ -10,11 +10,11 @@ constexpr double near = 0.06;                      // m from the nut within whic
 constexpr double worn = 0.2e-3;                    // m of wear at each corner
 constexpr double no_free_swing = to_radians(3.0);  // remaining swing of the handle
 constexpr double last_part =
-    0.8;  // share of the lowest valid torque from which the trainee should pull slowly
+    0.8;  // share of the lowest valid torque or angle from which the trainee should pull slowly
 constexpr double let_go_share = 0.5;     // share of the peak torque below which the pull has ended
 constexpr double let_go_clicked = 0.15;  // the same after a click, which drops the torque by itself
 constexpr double broken_loose = to_radians(2.0);
-constexpr double turning = 0.02;         // rad/s
+constexpr double backward_speed = 0.02;  // rad/s
 constexpr double fingers_turning = 0.3;  // rad/s
 constexpr double wrong_torque = 1.0;     // N·m; more than the wrench's elasticity returns
 constexpr double wrong_share = 0.2;      // share of the step's torque
@@ -47,6 +47,12 @@ Situation running_down(const ObservedLesson& s, const world::Joint& joint, bool 
     return fingers ? Situation::run_down : Situation::run_down_by_wrench;
 }
 
+// True if the wrench loosens the nut in a step that tightens it.
+bool turns_off(const LessonStep& due, const world::Joint& joint) {
+    return (joint.torque < -wrong_torque && joint.speed < -backward_speed) ||
+           joint.torque < -wrong_torque - wrong_share * due.torque;
+}
+
 Situation tightening(const ObservedLesson& s, const LessonStep& due, const world::Joint& joint) {
     if (held_item(s) == HeldItem::nut_by_fingers) return Situation::wrench_needed;
     const JointTrack& track = s.lesson.joints[due.joint];
@@ -62,8 +68,7 @@ Situation tightening(const ObservedLesson& s, const LessonStep& due, const world
         if (track.clicked) return Situation::stop_at_click;
         return to_yield && track.yielded ? Situation::stop_at_yield : Situation::stop;
     }
-    const bool turns_off = joint.torque < -wrong_torque && joint.speed < -turning;
-    if (turns_off || joint.torque < -wrong_torque - wrong_share * due.torque) return Situation::other_way_on;
+    if (turns_off(due, joint)) return Situation::other_way_on;
     if (out_of_room(s)) return Situation::set_back;
     if (checks) return Situation::check;
     if (wrench_set_torque(s.lesson) > 0.0) return Situation::pull_to_click;
@@ -72,15 +77,30 @@ Situation tightening(const ObservedLesson& s, const LessonStep& due, const world
     return eases ? Situation::ease : Situation::pull;
 }
 
+Situation turning(const ObservedLesson& s, const LessonStep& due, const world::Joint& joint) {
+    if (held_item(s) == HeldItem::nut_by_fingers) return Situation::wrench_needed;
+    const content::ToleranceWindow window = angle_window(s.lesson, due);
+    const double turned = angle_from_mark(s.lesson, s.world, due.joint);
+    if (step_fulfilled(s.lesson, s.world)) {
+        if (joint.torque < let_go_share * s.lesson.joints[due.joint].peak_torque) return Situation::take_off;
+        return turned > window.high ? Situation::stop_too_far : Situation::stop_at_angle;
+    }
+    if (turns_off(due, joint)) return Situation::other_way_on;
+    if (out_of_room(s)) return Situation::set_back;
+    return turned > last_part * window.low ? Situation::ease_to_angle : Situation::turn_on;
+}
+
 Situation loosening(const ObservedLesson& s, const LessonStep& due, const world::Joint& joint) {
-    if (step_fulfilled(s.lesson, s.world)) return Situation::free;
+    if (step_fulfilled(s.lesson, s.world))
+        return joint.stage == joint::Stage::navigation ? Situation::free : Situation::turned_back;
     if (held_item(s) == HeldItem::nut_by_fingers) return Situation::wrench_needed;
     const double turned = s.lesson.joints[due.joint].begin_angle - joint.angle;
-    if (joint.torque > wrong_torque && joint.speed > turning) return Situation::other_way_off;
+    if (joint.torque > wrong_torque && joint.speed > backward_speed) return Situation::other_way_off;
     if (joint.torque > wrong_torque + wrong_share * s.lesson.assembly->joints[due.joint].spec.torque.target)
         return Situation::other_way_off;
     if (out_of_room(s)) return Situation::set_back;
-    return turned > broken_loose ? Situation::unscrew : Situation::break_loose;
+    if (turned <= broken_loose) return Situation::break_loose;
+    return due.angle > 0.0 ? Situation::turn_back : Situation::unscrew;
 }
 
 }  // namespace
@@ -116,6 +136,8 @@ Situation situation(const ObservedLesson& work) {
         case StepKind::tighten:
         case StepKind::recheck:
             return tightening(work, *due, joint);
+        case StepKind::turn:
+            return turning(work, *due, joint);
         case StepKind::loosen:
             return loosening(work, *due, joint);
     }

@@ -29,33 +29,41 @@ enum class Situation : std::uint8_t {
     pull,
     pull_to_yield,
     pull_to_click,
+    turn_on,        // pull until the nut has turned by the step's angle
     set_back,       // the handle has no room left to swing
     ease,           // the target is near: pull gently
     ease_to_yield,  // yield is near: pull gently
+    ease_to_angle,  // the same for the angle
     stop,
     stop_at_yield,
     stop_at_click,
     stop_too_much,
+    stop_at_angle,
+    stop_too_far,
     take_off,
     check,  // re-check: pull until the nut moves or the torque is reached
     checked,
     break_loose,
     unscrew,
-    free,  // the nut is loose
+    turn_back,    // on to the step's angle
+    turned_back,  // by the step's angle
+    free,         // the nut is loose
     wrong_joint,
     other_way_on,
     other_way_off,
     wrench_needed,  // fingers hold a nut that needs the wrench
     leave_broken,
     leave_stripped,
-    next,  // the next joint; this and the following four announce a step
+    next,  // the next joint; this and the following six announce a step
     pass_run_down,
     pass_tighten,
+    pass_turn,
     pass_recheck,
+    pass_turn_back,
     pass_loosen,
     all_done,
 };
-inline constexpr std::size_t situation_count = 40;
+inline constexpr std::size_t situation_count = 48;
 
 // The lesson after observe(), and the world that it observed in this tick.
 struct ObservedLesson {

@@ -10,6 +10,7 @@
 #include "engine/base/math.hpp"
 #include "game/analysis/session_data.hpp"
 #include "game/lesson/fastener_names.hpp"
+#include "game/lesson/lesson.hpp"
 #include "game/plot/html.hpp"
 #include "game/plot/svg.hpp"
 
@@ -140,13 +141,16 @@ void add_targets(plot::Plot& plot, const content::Specification& spec) {
         {{to_degrees(spec.angle.low), to_degrees(spec.angle.high)}, "wins", "", false, true});
 }
 
-// Index of the last tightening pass. A re-check after it is drawn in the same style.
+// True for passes that lead to the target of a joint.
+bool leads_to_target(const content::Pass& pass) {
+    return pass.kind == content::PassKind::tighten || pass.kind == content::PassKind::turn;
+}
+
+// Index of the last pass that leads to the target. A re-check after it is drawn in the same style.
 int last_pass_of(const analysis::SessionData& session) {
     if (is_loosening(session)) return 0;
     const std::vector<content::Pass>& passes = session.assembly.passes;
-    const auto last = std::find_if(passes.rbegin(), passes.rend(), [](const content::Pass& p) {
-        return p.kind == content::PassKind::tighten;
-    });
+    const auto last = std::find_if(passes.rbegin(), passes.rend(), leads_to_target);
     return std::max(0, static_cast<int>(passes.rend() - last) - 1);
 }
 
@@ -185,9 +189,7 @@ bool is_judged(const analysis::SessionData& session, const analysis::Visit& visi
     const content::Pass* pass = pass_of(session, visit);
     if (pass == nullptr) return true;
     if (pass->kind == content::PassKind::recheck) return nut_turned(visit);
-    const auto full = [](const content::Pass& p) {
-        return p.kind == content::PassKind::tighten && p.fraction > 0.999;
-    };
+    const auto full = [](const content::Pass& p) { return leads_to_target(p) && p.fraction > 0.999; };
     const std::vector<content::Pass>& passes = session.assembly.passes;
     const auto last = std::find_if(passes.rbegin(), passes.rend(), full);
     return last != passes.rend() && pass == &*last;
@@ -248,8 +250,7 @@ void add_releases(plot::Plot& plot, const analysis::SessionData& session, const 
         const double at = visit.release.angle;
         if (!visit.worked || !is_in_frame(frame, at, loosening)) continue;
         const content::Pass* pass = pass_of(session, visit);
-        const bool named =
-            pass != nullptr && pass->kind == content::PassKind::tighten && pass->fraction < 1.0;
+        const bool named = pass != nullptr && leads_to_target(*pass) && pass->fraction < 1.0;
         plot.markers.push_back({{drawn_angle(frame, at, loosening), clamp_kN(visit.release)},
                                 plot::MarkerShape::square,
                                 "mclamp",
@@ -314,7 +315,7 @@ JointPlotFrame joint_plot_frame(const analysis::SessionData& session, std::size_
     frame.origin_name = loosening || !has_contact ? "start" : "first contact";
     if (!loosening && std::isfinite(curve.snug_angle)) {
         frame.origin = curve.snug_angle;
-        frame.origin_name = "snug";
+        frame.origin_name = lesson::turns_by_angle(session.assembly) ? "mark" : "snug";
     }
     const double start = drawn_angle(frame, curve.start_angle, loosening);
     double end = drawn_angle(frame, curve.end_angle, loosening);

@@ -12,7 +12,7 @@ namespace bolt::report {
 struct JointPlotFrame {
     double origin = 0.0;      // rad, nut angle that is drawn as 0
     plot::AxisRange range;    // degrees from the origin
-    std::string origin_name;  // "snug", "first contact" or "start"
+    std::string origin_name;  // "snug", "mark", "first contact" or "start"
     bool cut_before = false;  // the run-down is not drawn
     bool cut_after = false;   // the end of the free rotation while loosening is not drawn
 };

@@ -10,6 +10,7 @@
 
 #include "engine/base/math.hpp"
 #include "game/lesson/fastener_names.hpp"
+#include "game/lesson/lesson.hpp"
 #include "game/people/page_trainees.hpp"
 #include "game/plot/html.hpp"
 #include "game/report/attempts.hpp"
@@ -114,8 +115,8 @@ std::string judging_note(const analysis::SessionData& s) {
                                      [](const auto& p) { return p.kind == content::PassKind::recheck; });
     std::string out = fmt::format(
         "<p class=\"note\">Judged: {}; clamp force is shown, a wrench cannot measure it. Torque: highest at "
-        "the wrench in the 100\u00a0% tightening pass.",
-        angle ? "torque and angle" : "torque");
+        "the wrench in the 100\u00a0% {} pass.",
+        angle ? "torque and angle" : "torque", lesson::turns_by_angle(s.assembly) ? "angle" : "tightening");
     if (recheck)
         put(out,
             " A re-check, like any other pull, counts only if it turned the {0} further by more than 2°. If "
@@ -132,14 +133,17 @@ std::string judging_note(const analysis::SessionData& s) {
 
 void put_joints(std::string& out, const analysis::SessionData& s) {
     const bool loosening = s.direction() == joint::Direction::loosen;
+    const bool turns = lesson::turns_by_angle(s.assembly);
     out +=
         "<h2>Joints</h2>\n<div "
         "class=\"scroll\"><table><thead><tr><th>joint</th><th>verdict</th><th>bolt</th>";
     out += loosening
                ? "<th class=\"n\">breakaway,<br/>N·m</th><th class=\"n\">angle<br/>turned back</th><th "
                  "class=\"n\">clamp left,<br/>kN</th>"
-               : "<th class=\"n\">torque, N·m<br/>/ target</th><th class=\"n\">angle<br/>from snug</th><th "
-                 "class=\"n\">clamp, kN<br/>/ target</th><th class=\"n\">clamp<br/>error</th>";
+               : fmt::format(
+                     "<th class=\"n\">torque, N·m<br/>/ target</th><th class=\"n\">angle<br/>from {}</th><th "
+                     "class=\"n\">clamp, kN<br/>/ target</th><th class=\"n\">clamp<br/>error</th>",
+                     turns ? "mark" : "snug");
     out +=
         "<th class=\"n\">strokes</th><th class=\"n\">worked<br/>again</th><th class=\"n\">out "
         "of<br/>turn</th></tr></thead><tbody>\n";

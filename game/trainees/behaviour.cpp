@@ -56,6 +56,8 @@ StepPlan make_step_plan(const TraineeProfile& profile, Random& random, const ser
     const bool full_target = due.kind == StepKind::tighten && due.fraction > 0.999;
     plan.until_yield = !plan.wrong_joint && full_target && spec.strategy == content::Strategy::yield &&
                        random.chance(profile.feels_yield);
+    // A misjudged angle is off by the same share as a misjudged torque. On the wrong joint there is no mark.
+    if (!plan.wrong_joint && due.angle > 0.0) plan.goal_angle = due.angle * std::max(stop, 0.2);
     plan.min_torque = spec.torque.low;
     if (plan.until_yield)
         plan.goal_torque =
@@ -305,10 +307,18 @@ constexpr double tight_share = 0.7;           // share of the goal that makes a 
 
 constexpr double unload_time = 0.18;  // s in which the wrench springs back before it is lifted
 
+// rad to the angle at which the trainee means to stop; nothing is left if it is not positive.
+double remaining_angle(const TraineeState& t) {
+    const lesson::JointTrack& track = t.lesson->joints[t.plan.joint];
+    const double angle = t.joint().nut.angle;
+    if (t.plan.loosening) return t.plan.goal_angle - (track.begin_angle - angle);
+    return t.plan.goal_angle - (track.snug ? angle - track.snug_angle : 0.0);
+}
+
 }  // namespace
 
-// A hand on a wrench controls the torque: its rate decreases towards the goal, and the hand follows the nut
-// when it turns. The handle's speed follows from dT/dt = K (hand speed − nut speed).
+// A hand on a wrench controls the torque: its rate decreases towards the goal, a torque or an angle, and the
+// hand follows the nut when it turns. The handle's speed follows from dT/dt = K (hand speed − nut speed).
 void pull(TraineeState& t, const Percept& felt) {
     const TraineeProfile& profile = t.profile;
     StepPlan& plan = t.plan;
@@ -319,7 +329,10 @@ void pull(TraineeState& t, const Percept& felt) {
     // The hand anticipates the growth of the torque during its reaction time, both for slowing down and for
     // stopping. With the delayed torque alone it would overshoot the goal.
     const double growth = profile.anticipation * profile.reaction * std::max(felt.torque_rate, 0.0);
-    const double missing = plan.loosening ? 1.0 : 1.0 - (load + growth) / plan.goal_torque;
+    const bool by_angle = plan.goal_angle > 0.0;
+    const double missing = plan.loosening ? 1.0
+                           : by_angle     ? remaining_angle(t) / plan.goal_angle
+                                          : 1.0 - (load + growth) / plan.goal_torque;
     const double rate = scale * std::max(profile.final_rate, profile.load_rate * missing);
     const double fastest = profile.pull_speed * (plan.only_checks ? 0.2 : 1.0);
     const double speed = std::min(fastest * std::min(1.0, t.elapsed() / 0.15), rate / stiffness + nut_speed);
@@ -327,7 +340,9 @@ void pull(TraineeState& t, const Percept& felt) {
 
     if (plan.loosening) {
         t.free_turn = load < free_torque ? t.free_turn + nut_speed * dt : 0.0;
-        plan.finished = t.free_turn > to_radians(free_stroke);
+        plan.finished = t.free_turn > to_radians(free_stroke) || (by_angle && remaining_angle(t) <= 0.0);
+    } else if (by_angle) {
+        plan.finished = remaining_angle(t) - profile.anticipation * profile.reaction * nut_speed <= 0.0;
     } else {
         plan.finished = (plan.until_click && felt.clicked) ||
                         load + growth >= (plan.until_click ? missing_click : 1.0) * plan.goal_torque ||

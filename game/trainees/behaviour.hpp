@@ -27,9 +27,12 @@ struct StepPlan {
     bool until_yield = false;   // stops when the bolt begins to yield
     bool until_click = false;   // stops at the click of the torque wrench
     double goal_torque = 0.0;   // N·m at which it stops
-    double min_torque = 0.0;    // N·m, known lower limit: below it, yielding does not stop the pull
-    int attempt = 0;            // earlier attempts at this step
-    bool finished = false;      // the trainee believes that the step is done
+    // Nut angle, rad, at which it stops whatever the torque: from the mark, or when loosening from the start
+    // of the step, turned back; 0: it goes by the torque.
+    double goal_angle = 0.0;
+    double min_torque = 0.0;  // N·m, known lower limit: below it, yielding does not stop the pull
+    int attempt = 0;          // earlier attempts at this step
+    bool finished = false;    // the trainee believes that the step is done
 };
 
 // Returns the step to work on, or null if none is left. In an assessment the lesson does not report that a

@@ -243,6 +243,20 @@ void draw_effort(const ActiveLesson& active, const words::Words& w, const glm::d
     ImGui::End();
 }
 
+// "B3: Tighten to 230 N·m".
+std::string due_text(const words::Words& w, const std::string& id, const lesson::LessonStep& due) {
+    const std::string& what = w[lesson::text_key(due.kind)];
+    if (due.kind == lesson::StepKind::tighten)
+        return words::format_text(
+            w, "hud.due_torque",
+            {{"joint", id}, {"what", what}, {"torque", words::torque_number(due.torque)}});
+    if (due.angle > 0.0)
+        return words::format_text(
+            w, "hud.due_angle",
+            {{"joint", id}, {"what", what}, {"angle", words::Number{to_degrees(due.angle), 0}}});
+    return words::format_text(w, "hud.due", {{"joint", id}, {"what", what}});
+}
+
 void draw_step(const ActiveLesson& active, const words::Words& w, const glm::dvec2& size, float scale) {
     const lesson::Lesson& lesson = active.session->lesson();
     const lesson::LessonStep* due = trainer::due(active.undo, lesson);
@@ -255,14 +269,7 @@ void draw_step(const ActiveLesson& active, const words::Words& w, const glm::dve
          white}};
     if (due != nullptr && lesson.mode != lesson::Mode::assessment) {
         const std::string& id = active.session->assembly().joints[due->joint].design.id;
-        const std::string& what = w[lesson::text_key(due->kind)];
-        lines.push_back(
-            {due->kind == lesson::StepKind::tighten
-                 ? words::format_text(
-                       w, "hud.due_torque",
-                       {{"joint", id}, {"what", what}, {"torque", words::torque_number(due->torque)}})
-                 : words::format_text(w, "hud.due", {{"joint", id}, {"what", what}}),
-             white});
+        lines.push_back({due_text(w, id, *due), white});
         // In a room nobody sees a keyboard.
         if (!active.view.head)
             for (const auto& [key, action] : {std::pair{words::TextKey("hud.ask"), Action::hint},

@@ -28,7 +28,8 @@ std::string Viewer::step_text(const TimelineMark& chapter) const {
     const std::string& id =
         recording_->start.assembly.joints[static_cast<std::size_t>(chapter.joint)].design.id;
     using lesson::StepKind;
-    for (const StepKind kind : {StepKind::run_down, StepKind::tighten, StepKind::recheck, StepKind::loosen}) {
+    for (const StepKind kind :
+         {StepKind::run_down, StepKind::tighten, StepKind::turn, StepKind::recheck, StepKind::loosen}) {
         if (lesson::name(kind) != chapter.event.text) continue;
         const std::string& what = options_.words[lesson::text_key(kind)];
         if (kind != StepKind::tighten)

@@ -132,15 +132,18 @@ std::string_view everything() {
     {"kind": "run_down", "order": ["A", "B"]},
     {"kind": "tighten", "percent": 50},
     {"kind": "tighten", "percent": 100},
-    {"kind": "recheck"}
+    {"kind": "recheck", "instruction": {"text": {"en": "Mark each nut.", "de": "Markieren Sie jede Mutter."}, "view": "front", "picture": "mark.png"}}
   ],
+  "loosening": [{"kind": "turn_back", "angle_deg": 60, "order": ["A", "B"]}, {"kind": "loosen"}],
   "default_variant": "plain",
   "variants": {
     "plain": {},
     "weak": {
       "title": {"en": "Weak"},
       "every_joint_type": {"friction_thread": 0.11, "published": {"E1_GPa": 114}},
-      "joint_types": {"M12x1.25": {"class": "8.8", "spec": {"min_torque_Nm": 78, "max_torque_Nm": 100}}}
+      "joint_types": {"M12x1.25": {"class": "8.8", "spec": {"min_torque_Nm": 78, "max_torque_Nm": 100}}},
+      "passes": [{"kind": "run_down", "order": ["A", "B"]}, {"kind": "tighten", "percent": 50}, {"kind": "tighten", "percent": 100}, {"kind": "recheck"}],
+      "loosening": [{"kind": "loosen"}]
     }
   },
   "views": [{"name": "front", "eye_mm": [0, 0, 500], "target_mm": [0, 0, 0], "field_of_view_deg": 50}]

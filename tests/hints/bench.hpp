@@ -13,7 +13,8 @@ inline bool at_work(Situation s) {
     for (const Situation work :
          {Situation::run_down, Situation::run_down_by_wrench, Situation::pull, Situation::pull_to_yield,
           Situation::pull_to_click, Situation::check, Situation::break_loose, Situation::unscrew,
-          Situation::ease, Situation::ease_to_yield})
+          Situation::ease, Situation::ease_to_yield, Situation::turn_on, Situation::ease_to_angle,
+          Situation::turn_back})
         if (s == work) return true;
     return false;
 }
@@ -55,6 +56,27 @@ struct Bench : Script {
         seat_both();
         for (const int joint : {0, 1}) pull(joint, 35.0);
         wrench = true;
+    }
+    // Begins the lesson again: after the pass to half, every nut is turned by 60° from its mark.
+    void by_angle() {
+        for (content::AssemblyJoint& joint : assembly.joints)
+            joint.spec.angle = {to_radians(60.0), to_radians(50.0), to_radians(70.0)};
+        assembly.passes[2].kind = content::PassKind::turn;
+        lesson = begin(assembly, lesson.mode, Task::tighten);
+        to_the_full_pass();
+    }
+    // Turns a nut by `degrees` at a constant torque in N·m.
+    void turn_by(int joint, double degrees, double torque = 50.0) {
+        const double speed = std::copysign(to_radians(10.0) / 1e-3, degrees);  // 10° a tick
+        for (int i = 0; i < static_cast<int>(std::abs(degrees) / 10.0); ++i)
+            tick(joint, servo::Grip::wrench, torque, speed);
+    }
+    // Begins a loosening lesson whose first pass turns every nut back by 45°.
+    void turned_back() {
+        assembly.loosening = {{content::PassKind::loosen, 1.0, {1, 0}, to_radians(45.0)},
+                              {content::PassKind::loosen, 1.0, {1, 0}}};
+        lesson = begin(assembly, lesson.mode, Task::loosen);
+        idle();
     }
     // Completes all passes before the re-check.
     void to_the_check() {

@@ -235,6 +235,61 @@ const Case cases[] = {
          b.tick(1, Grip::wrench, -0.1, -1.0);
      },
      torque, Task::loosen},
+    {Situation::turn_on, "hint.turn_on", HintMotion::pull_on,
+     [](Bench& b) {
+         b.by_angle();
+         b.turn_by(0, 20.0);
+     }},
+    {Situation::ease_to_angle, "hint.ease_to_angle", HintMotion::pull_on,
+     [](Bench& b) {
+         b.by_angle();
+         b.turn_by(0, 40.0);
+         b.tick(0, Grip::wrench, 50.0, to_radians(2.0) / 1e-3);
+     }},
+    {Situation::stop_at_angle, "hint.stop_at_angle", HintMotion::lift,
+     [](Bench& b) {
+         b.by_angle();
+         b.turn_by(0, 60.0);
+     }},
+    {Situation::stop_too_far, "hint.stop_too_far", HintMotion::lift,
+     [](Bench& b) {
+         b.by_angle();
+         b.turn_by(0, 80.0);
+     }},
+    {Situation::take_off, "hint.take_off", HintMotion::lift,
+     [](Bench& b) {
+         b.by_angle();
+         b.turn_by(0, 60.0);
+         b.tick(0, Grip::wrench, 5.0);
+     }},
+    {Situation::set_back, "hint.set_back", HintMotion::set_back,
+     [](Bench& b) {
+         b.by_angle();
+         b.turn_by(0, 20.0);
+         b.free_swing = 0.02;
+     }},
+    {Situation::other_way_on, "hint.other_way_on", HintMotion::pull_on,
+     [](Bench& b) {
+         b.by_angle();
+         b.turn_by(0, -10.0, -30.0);
+     }},
+    {Situation::wrench_needed, "hint.wrench_needed", HintMotion::let_go,
+     [](Bench& b) {
+         b.by_angle();
+         b.tick(0, Grip::fingers, 0.5);
+     }},
+    {Situation::turn_back, "hint.turn_back", HintMotion::pull_off,
+     [](Bench& b) {
+         b.turned_back();
+         b.turn_by(1, -20.0, -20.0);
+     },
+     torque, Task::loosen},
+    {Situation::turned_back, "hint.turned_back", HintMotion::lift,
+     [](Bench& b) {
+         b.turned_back();
+         b.turn_by(1, -50.0, -20.0);
+     },
+     torque, Task::loosen},
     {Situation::all_done, "hint.all_done", HintMotion::none,
      [](Bench& b) {
          b.to_the_check();
@@ -243,8 +298,9 @@ const Case cases[] = {
 };
 
 // Announcements of a step, which depend on time.
-constexpr Situation announced[] = {Situation::next, Situation::pass_run_down, Situation::pass_tighten,
-                                   Situation::pass_recheck, Situation::pass_loosen};
+constexpr Situation announced[] = {Situation::next,       Situation::pass_run_down,  Situation::pass_tighten,
+                                   Situation::pass_turn,  Situation::pass_turn_back, Situation::pass_recheck,
+                                   Situation::pass_loosen};
 
 words::Words words_in(std::string_view language) {
     words::LoadedWords loaded = words::load_words(words::words_folder(), language);

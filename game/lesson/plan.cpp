@@ -1,0 +1,80 @@
+#include <algorithm>
+
+#include "game/lesson/lesson.hpp"
+
+namespace bolt::lesson {
+
+namespace {
+
+constexpr double finger_drag = 0.4;  // share of the finger torque; a nut with more drag needs the wrench
+
+StepKind kind_of(content::PassKind kind) {
+    switch (kind) {
+        case content::PassKind::run_down:
+            return StepKind::run_down;
+        case content::PassKind::turn:
+            return StepKind::turn;
+        case content::PassKind::recheck:
+            return StepKind::recheck;
+        case content::PassKind::loosen:
+            return StepKind::loosen;
+        case content::PassKind::tighten:
+            break;
+    }
+    return StepKind::tighten;
+}
+
+std::vector<LessonStep> plan_loosening(const content::Assembly& assembly) {
+    std::vector<LessonStep> steps;
+    int number = 0;
+    for (const content::Pass& pass : loosening_passes(assembly)) {
+        for (const std::size_t joint : pass.order)
+            steps.push_back({StepKind::loosen, joint, 0.0, 0.0, number, pass.turn_back});
+        ++number;
+    }
+    return steps;
+}
+
+}  // namespace
+
+std::vector<content::Pass> loosening_passes(const content::Assembly& assembly) {
+    if (!assembly.loosening.empty() || assembly.passes.empty()) return assembly.loosening;
+    content::Pass pass;
+    pass.kind = content::PassKind::loosen;
+    const auto& order = assembly.passes.back().order;
+    pass.order.assign(order.rbegin(), order.rend());
+    return {pass};
+}
+
+std::vector<LessonStep> make_plan(const content::Assembly& assembly, Task task) {
+    std::vector<LessonStep> steps;
+    if (assembly.passes.empty()) return steps;
+    if (task == Task::loosen) return plan_loosening(assembly);
+    int number = 0;
+    for (const content::Pass& pass : assembly.passes) {
+        for (const std::size_t joint : pass.order) {
+            const double fraction = pass.kind == content::PassKind::tighten ? pass.fraction : 1.0;
+            const content::Specification& spec = assembly.joints[joint].spec;
+            LessonStep step{kind_of(pass.kind), joint, spec.torque.target * fraction, fraction, number};
+            if (step.kind == StepKind::turn) {
+                step.fraction = pass.fraction;
+                step.angle = spec.angle.target * pass.fraction;
+            }
+            steps.push_back(step);
+        }
+        ++number;
+    }
+    return steps;
+}
+
+bool turns_by_angle(const content::Assembly& assembly) {
+    return std::any_of(assembly.passes.begin(), assembly.passes.end(),
+                       [](const content::Pass& pass) { return pass.kind == content::PassKind::turn; });
+}
+
+bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, double finger_torque) {
+    return step.kind == StepKind::run_down &&
+           assembly.joints[step.joint].design.prevailing_torque < finger_drag * finger_torque;
+}
+
+}  // namespace bolt::lesson
