@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "game/scene/angle_dial.hpp"
 #include "game/scene/annotations.hpp"
 #include "game/scene/postures.hpp"
 #include "game/scene/workplace.hpp"
@@ -75,6 +76,7 @@ void collect_frame(ReplayScene& replay, const ReplayMoment& moment, const Vec3& 
     replay.scene.labels.clear();
     if (const auto label = scene::work_label(moment.words, moment.lesson, moment.setup, world))
         replay.scene.labels.push_back(*label);
+    scene::show_dial(world, scene::dial_of(moment.lesson, moment.setup, world));
     scene::appearance_system(world);
     view::collect_objects(world, replay.scene);
 }

@@ -108,7 +108,7 @@ std::vector<words::TextArgument> text_arguments(const ObservedLesson& work) {
         {"high", words::torque_number(window.high)},
         {"most", words::torque_number(window.high)},
         {"angle", words::Number{to_degrees(due->angle), 0}},
-        {"most_angle", words::Number{to_degrees(angle_window(work.lesson, *due).high), 0}},
+        {"most_angle", words::Number{to_degrees(angle_window(*work.lesson.assembly, *due).high), 0}},
     };
     if (work.lesson.held_joint >= 0)
         arguments.push_back({"held", joints[static_cast<std::size_t>(work.lesson.held_joint)].design.id});

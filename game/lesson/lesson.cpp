@@ -274,8 +274,8 @@ content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& s
     return {step.torque, share * whole.low, share * whole.high};
 }
 
-content::ToleranceWindow angle_window(const Lesson& lesson, const LessonStep& step) {
-    const content::ToleranceWindow& whole = spec_of(lesson, step.joint).angle;
+content::ToleranceWindow angle_window(const content::Assembly& assembly, const LessonStep& step) {
+    const content::ToleranceWindow& whole = assembly.joints[step.joint].spec.angle;
     return {whole.target * step.fraction, whole.low * step.fraction, whole.high * step.fraction};
 }
 
@@ -320,7 +320,7 @@ bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world) {
             return !requires_yield(lesson, *step) || track.yielded || track.clicked ||
                    track.peak_torque > spec_of(lesson, step->joint).torque.high;
         case StepKind::turn:
-            return angle_from_mark(lesson, world, step->joint) >= angle_window(lesson, *step).low;
+            return angle_from_mark(lesson, world, step->joint) >= angle_window(*lesson.assembly, *step).low;
         case StepKind::recheck:
             return joint.angle - track.begin_angle > recheck_turn ||
                    track.peak_torque >= torque_window(lesson, *step).low;

@@ -120,7 +120,7 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task);
 content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& step);
 
 // The angle window of a step of kind `turn`, rad from the mark: the joint's window, scaled like the torque's.
-content::ToleranceWindow angle_window(const Lesson& lesson, const LessonStep& step);
+content::ToleranceWindow angle_window(const content::Assembly& assembly, const LessonStep& step);
 
 // The angle, rad, by which the nut has been turned from the mark, or 0 without a mark.
 double angle_from_mark(const Lesson& lesson, const world::ReadJoints& world, std::size_t joint);

@@ -79,7 +79,7 @@ Situation tightening(const ObservedLesson& s, const LessonStep& due, const world
 
 Situation turning(const ObservedLesson& s, const LessonStep& due, const world::Joint& joint) {
     if (held_item(s) == HeldItem::nut_by_fingers) return Situation::wrench_needed;
-    const content::ToleranceWindow window = angle_window(s.lesson, due);
+    const content::ToleranceWindow window = angle_window(*s.lesson.assembly, due);
     const double turned = angle_from_mark(s.lesson, s.world, due.joint);
     if (step_fulfilled(s.lesson, s.world)) {
         if (joint.torque < let_go_share * s.lesson.joints[due.joint].peak_torque) return Situation::take_off;

@@ -141,9 +141,9 @@ namespace {
 
 constexpr glm::vec4 plate_color{0.06F, 0.07F, 0.08F, 0.82F};
 
-// Adds the symbol and colour of the verdict on the torque; none below the window. `turned`: the highest
-// torque at which the nut turned. The verdict is "high" only if `turned` exceeds the window too, because a
-// high breakaway torque does not overtighten the joint.
+// Adds the symbol and colour of the verdict on a torque or an angle; none below the window. `turned`: the
+// highest torque at which the nut turned, or the angle. The verdict is "high" only if `turned` exceeds the
+// window too, because a high breakaway torque does not overtighten the joint.
 void add_verdict(render::Label& label, const content::ToleranceWindow& window, double torque, double turned,
                  const view::Palette& palette) {
     if (torque < window.low) return;
@@ -168,7 +168,11 @@ std::string work_text(const words::Words& words, const lesson::Lesson& lesson, c
                                   {{"turns", words::Number{joint.angle / (2.0 * pi), 1}}});
     std::string text = words::format_number(words, words::Number{std::abs(joint.torque), 0}) + " N·m   ";
     const auto from = angle_origin(lesson, joint.index);
-    if (from) text += fmt::format("{:+.0f}°   ", to_degrees(joint.angle - *from));
+    const lesson::LessonStep* due = lesson.due();
+    const bool turns = due != nullptr && due->joint == joint.index && due->kind == lesson::StepKind::turn;
+    if (from) text += fmt::format("{:+.0f}°", to_degrees(joint.angle - *from));
+    if (from && turns) text += fmt::format(" / {:.0f}°", to_degrees(due->angle));
+    if (from) text += "   ";
     return text + words[lesson::text_key(joint.stage)];
 }
 
@@ -204,7 +208,11 @@ std::optional<render::Label> work_label(const words::Words& words, const lesson:
     const bool is_due = due != nullptr && due->joint == joint && due->kind == lesson::StepKind::tighten;
     render::Label label =
         plate_label(work_text(words, lesson, now, wrench), label_position(setup, world, joint), 22.0F);
-    if (wrench && lesson.mode != lesson::Mode::assessment)
+    const bool turns = due != nullptr && due->joint == joint && due->kind == lesson::StepKind::turn;
+    const double turned = lesson::angle_from_mark(lesson, world, joint);
+    if (wrench && lesson.mode != lesson::Mode::assessment && turns)
+        add_verdict(label, lesson::angle_window(*lesson.assembly, *due), turned, turned, palette);
+    else if (wrench && lesson.mode != lesson::Mode::assessment)
         add_verdict(label,
                     is_due ? lesson::torque_window(lesson, *due) : lesson.assembly->joints[joint].spec.torque,
                     torque, lesson.joints[joint].turned_torque, palette);

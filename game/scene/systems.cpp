@@ -235,6 +235,9 @@ void appearance_system(SceneWorld& world) {
     world.view<const ArrowMarker>().each([&](ecs::Entity entity, const ArrowMarker& marker) {
         world.add<Appearance>(entity, glm::vec4(glm::vec3(marker.color), 1.0F), 1.0F, !marker.shown);
     });
+    world.view<const DialMarker>().each([&](ecs::Entity entity, const DialMarker& marker) {
+        world.add<Appearance>(entity, glm::vec4(glm::vec3(marker.color), 1.0F), 1.0F, !marker.shown);
+    });
 }
 
 }  // namespace bolt::scene

@@ -7,6 +7,8 @@
 #include "content/format/assembly.hpp"
 #include "engine/assets/gltf.hpp"
 #include "engine/assets/image.hpp"
+#include "engine/base/file.hpp"
+#include "game/scene/angle_dial.hpp"
 #include "game/scene/annotations.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/tool_models/tool_model.hpp"
@@ -15,12 +17,52 @@ namespace bolt::scene {
 
 namespace {
 
+constexpr std::size_t largest_picture_file = std::size_t{32} << 20U;  // bytes
+
 // Reads a model; on failure returns an empty one and adds the error message to `missing`.
 assets::Model read_optional(const std::filesystem::path& file, std::vector<std::string>& missing) {
     Result<assets::Model> model = assets::read_gltf(file);
     if (model) return std::move(*model);
     missing.push_back(model.error().message());
     return {};
+}
+
+// Reads the pictures of the author's instructions.
+void load_pictures(const content::Assembly& assembly, LessonModels& models) {
+    for (const auto* passes : {&assembly.passes, &assembly.loosening})
+        for (const content::Pass& pass : *passes) {
+            const std::string& file = pass.instruction.picture;
+            if (file.empty() || models.pictures.contains(file)) continue;
+            const Result<std::string> bytes = read_file(file, largest_picture_file, ErrorCode::bad_content);
+            assets::Bitmap picture;
+            if (bytes) picture.encoded.assign(bytes->begin(), bytes->end());
+            const Status decoded = bytes ? assets::decode(picture) : Status(fail(bytes.error()));
+            if (decoded)
+                models.pictures.emplace(file, std::move(picture));
+            else
+                models.missing.push_back(fmt::format("{}: {}", file, decoded.error().message()));
+        }
+}
+
+Result<gpu::Image> upload_picture(gpu::Device& device, const assets::Bitmap& picture) {
+    const auto pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    std::vector<std::byte> texels(4 * pixels, std::byte{255});
+    for (std::size_t i = 0; i < pixels; ++i)
+        for (std::size_t c = 0; c < std::size_t{3}; ++c)
+            texels[4 * i + c] = std::byte{picture.pixels[channels * i + (channels < 3 ? 0 : c)]};
+    gpu::ImageInfo info;
+    info.format = VK_FORMAT_R8G8B8A8_SRGB;
+    info.extent = {static_cast<std::uint32_t>(picture.width), static_cast<std::uint32_t>(picture.height)};
+    info.usage =
+        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    info.array = true;
+    BOLT_TRY_ASSIGN(auto image, gpu::Image::create(device, info));
+    BOLT_TRY(gpu::upload_image(device, image, texels));
+    BOLT_TRY(gpu::submit_and_wait(device, [&](VkCommandBuffer commands) {
+        gpu::image_barrier(commands, image.get(), gpu::ResourceUse::sampled, gpu::ResourceUse::transfer_from);
+    }));
+    return image;
 }
 
 }  // namespace
@@ -46,6 +88,8 @@ Result<LessonModels> load_lesson_models(const content::Assembly& assembly, hand:
             tool.turn = turn;
         }
     }
+    models.dial = dial_model(dial_windows(assembly));
+    load_pictures(assembly, models);
     Result<shading::RadianceImage> light = assets::read_hdr(content / "environments/workshop.hdr");
     if (light)
         models.light = std::move(*light);
@@ -64,12 +108,17 @@ Result<std::unique_ptr<GpuLessonModels>> upload(gpu::Device& device, const Lesso
     };
     for (const auto& [model, to] : {std::pair{&models.workpiece.model, &uploaded->workpiece},
                                     {&models.workshop, &uploaded->workshop},
-                                    {&models.hand, &uploaded->hand}})
+                                    {&models.hand, &uploaded->hand},
+                                    {&models.dial, &uploaded->dial}})
         BOLT_TRY(upload_to(*model, *to));
     uploaded->tools.resize(models.tools.size());
     for (std::size_t i = 0; i < models.tools.size(); ++i)
         BOLT_TRY(upload_to(models.tools[i].model, uploaded->tools[i]));
     BOLT_TRY(upload_to(arrow_model(), uploaded->arrows));
+    for (const auto& [file, picture] : models.pictures) {
+        BOLT_TRY_ASSIGN(auto image, upload_picture(device, picture));
+        uploaded->pictures.emplace(file, std::move(image));
+    }
     BOLT_TRY_ASSIGN(auto light, render::upload_environment(
                                     device, models.light ? *models.light : shading::studio_environment()));
     uploaded->light = std::move(light);
@@ -209,6 +258,17 @@ void add_arrows(Workplace& workplace, const GpuLessonModels& on_gpu) {
     }
 }
 
+void add_dial(Workplace& workplace, const LessonModels& models, const GpuLessonModels& on_gpu) {
+    for (std::size_t mesh = 0; mesh < models.dial.meshes.size(); ++mesh) {
+        const ecs::Entity entity = workplace.world.create();
+        workplace.world.add<Transform>(entity);
+        workplace.world.add<Drawable>(entity, &on_gpu.dial, static_cast<std::uint32_t>(mesh), -1, true);
+        const auto window = static_cast<std::size_t>(DialShape::window);
+        workplace.world.add<DialMarker>(entity, static_cast<DialShape>(std::min(mesh, window)),
+                                        mesh < window ? 0 : mesh - window);
+    }
+}
+
 }  // namespace
 
 Result<Workplace> make_workplace(SceneWorld world, const LessonModels& models, const GpuLessonModels& on_gpu,
@@ -221,6 +281,7 @@ Result<Workplace> make_workplace(SceneWorld world, const LessonModels& models, c
         add_tool(workplace, i, models.tools[i], on_gpu.tools[i]);
     add_hand(workplace, models, on_gpu);
     add_arrows(workplace, on_gpu);
+    add_dial(workplace, models, on_gpu);
     return workplace;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/mat4x4.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -71,9 +72,18 @@ struct ArrowMarker {
     glm::vec4 color{1.0F};
 };
 
+// A part of the protractor at a nut that is turned by an angle (angle_dial.hpp).
+enum class DialShape : std::uint8_t { scale, pointer, window };
+struct DialMarker {
+    DialShape shape = DialShape::scale;
+    std::size_t window = 0;  // index in dial_windows()
+    bool shown = false;
+    glm::vec4 color{1.0F};
+};
+
 // The registry with the components of the simulation and of its pictures.
 using SceneWorld = world::WorldWith<Transform, Drawable, Appearance, Outline, Fadable, NutPart, JointPart,
-                                    ToolPart, SkinnedHand, GhostPart, ArrowMarker>;
+                                    ToolPart, SkinnedHand, GhostPart, ArrowMarker, DialMarker>;
 
 // The properties of the person at the workplace that the scene depends on.
 struct Worker {
@@ -121,9 +131,11 @@ struct ToolModel {
 struct LessonModels {
     view::LoadedModel workpiece;
     assets::Model workshop, hand;
+    assets::Model dial;            // angle_dial.hpp; empty if no nut is turned by an angle
     std::vector<ToolModel> tools;  // in the order of content::LessonTools
     std::optional<shading::RadianceImage> light;
-    std::vector<std::string> missing;  // error messages
+    std::map<std::string, assets::Bitmap> pictures;  // of the author's instructions, decoded, by path
+    std::vector<std::string> missing;                // error messages
 };
 
 Result<LessonModels> load_lesson_models(const content::Assembly& assembly,
@@ -131,9 +143,11 @@ Result<LessonModels> load_lesson_models(const content::Assembly& assembly,
 
 // The models of a lesson on the GPU. Entities point to them, so they must not be moved.
 struct GpuLessonModels {
-    render::GpuModel workpiece, workshop, hand, arrows;
+    render::GpuModel workpiece, workshop, hand, arrows, dial;
     std::vector<render::GpuModel> tools;
     render::EnvironmentLight light;
+    std::map<std::string, gpu::Image>
+        pictures;  // in ResourceUse::transfer_from, as ui::Ui::picture needs them
 };
 
 Result<std::unique_ptr<GpuLessonModels>> upload(gpu::Device& device, const LessonModels& models);

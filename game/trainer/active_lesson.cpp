@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/vec2.hpp>
 
+#include "game/scene/angle_dial.hpp"
 #include "game/trainer/hint_visuals.hpp"
 
 namespace bolt::trainer {
@@ -375,6 +376,7 @@ void guidance_system(scene::SceneWorld& world, LessonFrame& frame) {
                                : take_wrench_hint       ? active.palette.due
                                                         : no_color);
     show_hint_visuals(world, active, hint);
+    scene::show_dial(world, scene::dial_of(lesson, active.session->setup(), world, active.palette));
     show_force(world, active, frame.seconds);
 }
 

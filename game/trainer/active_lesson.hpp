@@ -19,6 +19,7 @@
 #include "game/trainer/controls.hpp"
 #include "game/trainer/helped_hand.hpp"
 #include "game/trainer/hud.hpp"
+#include "game/trainer/instruction.hpp"
 #include "game/trainer/lesson_view.hpp"
 #include "game/trainer/pointing.hpp"
 #include "game/trainer/station_client.hpp"
@@ -52,6 +53,7 @@ struct Guidance {
     lesson::HintState hints;
     lesson::MistakeState mistakes;
     std::optional<std::pair<std::size_t, Pose>> wrench_ghost;  // cached: its step and its pose
+    InstructionState instruction;
 };
 
 // The force on a hand that a mouse moves, as an arrow, because the mouse does not render it.

@@ -216,6 +216,9 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
     };
     timed("pointer", [&] { handle_input(active.workplace.world, frame); });
     ecs::run(frame_systems, active.workplace.world, frame, timed);
+    if (in_lesson &&
+        trainer::update(active.guidance.instruction, active.session->lesson(), active.clock.paused))
+        begin_instruction();
     if (tour_ && in_lesson) trainer::update(*tour_, frame);
     if (room_ && room_->touch && waits_for_touch(*room_->touch))
         show_touch_marker(active.scene, gpu_->models->arrows, scene_in_room(), room_->touch->marker);
@@ -246,6 +249,8 @@ void App::draw_screen(const ScreenContext& context) {
         perform(draw_arm(context, arm_screen_));
     } else if (in_lesson && room_ && room_->touch) {
         perform(draw_touch_check(context, *room_->touch));
+    } else if (shows_instruction()) {
+        perform(draw_instruction_page(context));
     } else if (in_lesson && active_->clock.paused) {
         perform(draw_pause(context, preferences_, active_->session->lesson().mode));
     } else if (screen_ == ShownScreen::menu) {
@@ -268,6 +273,9 @@ Status App::draw_interface(gpu::FrameContext& frame, const render::ImageLayer& s
     const glm::dvec2 extent(input_.size);
     ui.add_characters(input_.text);
     ui.add_characters(arm_screen_.needs.preparation.instruction);
+    if (active_ && active_->guidance.instruction.shown != nullptr)
+        for (const auto& [language, text] : active_->guidance.instruction.shown->text)
+            ui.add_characters(text);
     if (screen_ == ShownScreen::menu) add_changing_characters(ui, words_, menu_, options_.choice);
     BOLT_TRY(ui.begin(frame, input_));
     if (const auto picture = pictures_.picture(renderer); picture && !active_)
@@ -366,7 +374,9 @@ Status App::update(const view::WindowFrame& window) {
     for (const platform::InputEvent& event : events) {
         closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event);
         const bool by_key = std::holds_alternative<platform::KeyEvent>(event);
-        if (can_start && is_confirmation(event) && (enter_starts || !by_key)) press_start();
+        const bool confirms = is_confirmation(event) && (enter_starts || !by_key);
+        if (can_start && confirms) press_start();
+        if (confirms && shows_instruction()) perform(ScreenAction::resume);
         if (screen_ == ShownScreen::menu && is_back(event)) show_page(MenuPage::choices);
     }
     return {};

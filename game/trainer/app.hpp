@@ -133,6 +133,9 @@ class App : public view::WindowContent {
     Result<LessonRequest> study_request();
     void count_study_lesson();
     Status upload_lesson();
+    void begin_instruction();
+    [[nodiscard]] bool shows_instruction() const;
+    ScreenAction draw_instruction_page(const ScreenContext& context);
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
     [[nodiscard]] bool in_room() const { return room_ && room_->surrounds_user; }
     void pause_unseen(bool seen);

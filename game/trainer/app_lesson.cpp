@@ -38,6 +38,32 @@ Status App::upload_lesson() {
     return {};
 }
 
+// Pauses the lesson for the author's instruction, and shows the view that it names.
+void App::begin_instruction() {
+    ActiveLesson& active = *active_;
+    active.clock.paused = true;
+    const std::string& view = active.guidance.instruction.shown->view;
+    if (view.empty() || in_room()) return;
+    if (const auto named = view::named_view(context_->models.workpiece, view))
+        active.view.camera.glide_to(view::orbit_of(*named));
+}
+
+bool App::shows_instruction() const {
+    const bool touches = room_ && room_->touch;
+    return active_ && screen_ == ShownScreen::lesson && !settings_ && !touches && active_->clock.paused &&
+           active_->guidance.instruction.shown != nullptr;
+}
+
+ScreenAction App::draw_instruction_page(const ScreenContext& context) {
+    const content::Instruction& instruction = *active_->guidance.instruction.shown;
+    const auto found = gpu_->models->pictures.find(instruction.picture);
+    if (found == gpu_->models->pictures.end()) return draw_instruction(context, instruction, nullptr);
+    const VkExtent2D extent = found->second.info().extent;
+    const InstructionPicture picture{gpu_->ui->picture({&found->second, 0}),
+                                     glm::vec2(extent.width, extent.height)};
+    return draw_instruction(context, instruction, &picture);
+}
+
 // The choice of the menu, or the tour with the same devices.
 LessonChoice App::lesson_choice() const {
     LessonChoice choice = options_.choice;

@@ -64,13 +64,30 @@ bool draw_choice_button(const std::string& label, bool is_chosen) {
     return pressed;
 }
 
-void begin_dialog(const ScreenContext& context, const char* name, float width, float opacity) {
-    ImGui::SetNextWindowPos(
-        {static_cast<float>(0.5 * context.size.x), static_cast<float>(0.5 * context.size.y)},
-        ImGuiCond_Always, {0.5F, 0.5F});
-    ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, static_cast<float>(context.size.y)});
-    ImGui::SetNextWindowBgAlpha(opacity);
+namespace {
+
+struct DialogLook {
+    float width = 0.0F, opacity = 1.0F;
+};
+
+// `anchor`: the point of the dialog, as shares of its size, that is at `at` (px).
+void begin_dialog_at(const ScreenContext& context, const char* name, const glm::vec2& at,
+                     const glm::vec2& anchor, const DialogLook& look) {
+    ImGui::SetNextWindowPos({at.x, at.y}, ImGuiCond_Always, {anchor.x, anchor.y});
+    ImGui::SetNextWindowSizeConstraints({look.width, 0.0F}, {look.width, static_cast<float>(context.size.y)});
+    ImGui::SetNextWindowBgAlpha(look.opacity);
     ImGui::Begin(name, nullptr, panel_flags);
+}
+
+}  // namespace
+
+void begin_dialog(const ScreenContext& context, const char* name, float width, float opacity) {
+    begin_dialog_at(context, name, glm::vec2(0.5 * context.size), {0.5F, 0.5F}, {width, opacity});
+}
+
+void begin_dialog_at_right(const ScreenContext& context, const char* name, float width, float opacity) {
+    const glm::vec2 at(static_cast<float>(context.size.x) - 12.0F * context.scale, 0.5 * context.size.y);
+    begin_dialog_at(context, name, at, {1.0F, 0.5F}, {width, opacity});
 }
 
 void draw_languages(const ScreenContext& context, content::TraineeSettings& settings) {

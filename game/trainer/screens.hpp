@@ -83,5 +83,7 @@ void draw_languages(const ScreenContext& context, content::TraineeSettings& sett
 void draw_settings_file(const ScreenContext& context, const Preferences& preferences);
 // Begins a dialog of this width (px) in the middle of the picture; close it with ImGui::End().
 void begin_dialog(const ScreenContext& context, const char* name, float width, float opacity);
+// The same at the right edge, where it leaves the scene visible.
+void begin_dialog_at_right(const ScreenContext& context, const char* name, float width, float opacity);
 
 }  // namespace bolt::trainer

@@ -76,7 +76,7 @@ TEST_CASE(
     CHECK(s.lesson.due()->angle == doctest::Approx(to_radians(30.0)));
     const double mark = s.state.joints[0].nut.angle;
     CHECK(s.lesson.joints[0].snug_angle == mark);
-    CHECK(angle_window(s.lesson, *s.lesson.due()).low == doctest::Approx(to_radians(25.0)));
+    CHECK(angle_window(s.assembly, *s.lesson.due()).low == doctest::Approx(to_radians(25.0)));
     s.turn(0, 24.0, 110.0);  // the torque does not end the step
     CHECK(s.lesson.due()->joint == 0);
     s.turn(0, 2.0);
