@@ -71,7 +71,8 @@ constexpr double flip_rise = 0.03;       // m that a wrench is lifted to be flip
 constexpr double max_arc_height = 0.05;  // m, of a reach between joints
 // A wrench that lags behind the intended pose by caught_distance (m) for caught_delay (s) is caught.
 constexpr double caught_distance = 0.02, caught_delay = 0.5;
-constexpr double retreat = 0.06;                  // m
+constexpr double retreat = 0.06;  // m
+constexpr int max_catches = 4;    // in a row, before the trainee begins again at the rest pose
 constexpr int max_misses = 3, max_fruitless = 3;  // misses and strokes before the trainee tries another side
 constexpr int max_lift = 4;                       // in steps of lift_step
 constexpr double lift_step = 1e-3;                // m
@@ -206,6 +207,14 @@ void begin_next_action(TraineeState& t) {
         return;
     }
     t.holds_wrench = !t.plan.fingers;
+    // A hand that obstacles have caught again and again does not get out of there; from the rest pose it
+    // does.
+    const bool boxed_in = t.obstacles() != nullptr && t.consecutive_catches >= max_catches &&
+                          glm::distance(t.hand.position, t.rest.position) > caught_distance;
+    if (boxed_in) {
+        go_to_rest(t);
+        return;
+    }
     if (search_time > 0.0) {
         t.enter(Phase::search_view, search_time);
         return;
@@ -227,10 +236,10 @@ void start_reach(TraineeState& t) {
 
 void choose_grip_angle(TraineeState& t) {
     const double sign = t.plan.loosening ? -1.0 : 1.0;
-    // After repeated misses or fruitless strokes the trainee tries from another side.
-    const double other_side = t.consecutive_misses > max_misses || t.fruitless_strokes > max_fruitless
-                                  ? t.random.uniform(-1.0, 1.0) * pi
-                                  : 0.0;
+    // After repeated misses, catches or fruitless strokes the trainee tries from another side.
+    const bool in_vain = t.consecutive_misses > max_misses || t.fruitless_strokes > max_fruitless ||
+                         t.consecutive_catches > max_catches;
+    const double other_side = in_vain ? t.random.uniform(-1.0, 1.0) * pi : 0.0;
     const motion::GripAngle grip =
         motion::choose_grip(*t.setup, t.obstacles(), t.plan.joint, t.joint().nut.angle,
                             0.5 * pi - 0.5 * sign + other_side, sign, t.profile.stroke);
@@ -268,8 +277,9 @@ void adopt_wrench_pose(TraineeState& t) {
 }
 
 void retreat_if_caught(TraineeState& t, const Pose& intended, const Pose& wrench) {
-    const bool in_transit = t.phase == Phase::reach || t.phase == Phase::change_tool ||
-                            t.phase == Phase::lift || t.phase == Phase::pause;
+    const bool in_transit = t.phase == Phase::reach || t.phase == Phase::lower ||
+                            t.phase == Phase::change_tool || t.phase == Phase::lift ||
+                            t.phase == Phase::pause;
     if (!in_transit || glm::distance(intended.position, wrench.position) < caught_distance) {
         t.caught_time = 0.0;
         if (t.phase == Phase::lower) t.consecutive_catches = 0;
