@@ -33,7 +33,8 @@ struct ImmersiveFrame {
     std::vector<EyeGroup> groups;
     xr::Hands hands;
     bool has_passthrough = false;  // shows the real room where the picture is transparent
-    bool tracks_hands = false;     // the display has hands that can move the tool; false on walls
+    // A headset, whose tracked hands can move the tool; false: projection walls, which track no hands.
+    bool tracks_hands = false;
     std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
 };
 
