@@ -77,7 +77,7 @@ inline ClosestSegmentParameters closest_on_segments(const Vec3& middle_a, const 
     return {on_a, on_b, false};
 }
 
-// m; surfaces that are no further apart count as coincident.
+// m; surfaces that are at most this far apart count as coincident.
 inline constexpr double coincidence_tolerance = 1e-7;
 
 // The radius in float with a margin, so that a query finds everything that is within `radius` in double.

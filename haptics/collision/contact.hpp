@@ -55,8 +55,8 @@ struct Contact {
     Vec3 normal{0.0};       // unit, from the obstacle to the free side
     double distance = 0.0;  // m, signed; negative: penetration
     ObstacleId obstacle;
-    // Index of a feature of the tool; if the bit `of_obstacle` is set, of a feature of the obstacle. The
-    // index does not change while tool and obstacle move.
+    // Index of a feature of the tool or, if the bit `of_obstacle` is set, of a feature of the obstacle. A
+    // feature keeps its index while tool and obstacle move.
     std::uint32_t feature = 0;
     // Contacts with meshes only: a triangle that contains the closest point. If `feature` is of the tool, the
     // triangle is of the obstacle, and vice versa.
@@ -70,7 +70,7 @@ inline constexpr std::uint32_t of_obstacle = 0x80000000U;  // in `Contact::featu
 
 struct ContactQueryResult {
     std::size_t count = 0;         // contacts written
-    double complete_within = 0.0;  // m; every nearer contact was written, or merged with one that was
+    double complete_within = 0.0;  // m; every nearer contact was written, or merged with a written one
     bool truncated = false;        // the output was too small; the nearest contacts were kept
     std::uint32_t query_cost = 0;  // in comparisons of a sample with a surface, approximate
 };
@@ -81,8 +81,8 @@ struct ContactQueryResult {
 // permitted angle grows with the difference of the distances of the two contacts.
 //
 // Error bound for a motion that the kept contacts permit and that moves no point by more than `merge_stride`:
-// A merged contact can then penetrate more than the kept one, by at most merge_angle × merge_stride plus the
-// merge distance times the angle of the motion.
+// a contact that was merged can penetrate deeper than the kept one by at most merge_angle × merge_stride plus
+// the merge distance times the angle of the motion.
 inline constexpr double merge_angle = 4.0 * pi / 180.0;  // rad
 inline constexpr double merge_stride = 0.5e-3;           // m
 inline constexpr double first_merge_distance = 2e-3;     // m
@@ -95,8 +95,8 @@ bool nearer(const Contact& a, const Contact& b);
 // their exact query.
 struct DeferredContact {
     double lower = 0.0;           // m; lower bound of the distance
-    Vec3 on_tool{0.0};            // m; the point on the tool is within `position_error` of it
-    Vec3 normal{0.0};             // unit; the normal is within `spread` of it
+    Vec3 on_tool{0.0};            // m; the exact point on the tool is within `position_error` of this one
+    Vec3 normal{0.0};             // unit; the exact normal is within `spread` of this one
     float position_error = 0.0F;  // m
     float spread = 0.0F;          // rad
     ObstacleId obstacle;

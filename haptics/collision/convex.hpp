@@ -2,11 +2,11 @@
 // each other with a clearance of a tenth of a millimetre.
 //
 // Two convex solids are separated by s along n if a slab of width s, normal to n, lies between them. The
-// greatest s over all n equals the distance if the nearest features are face and corner or two edges; it is
-// less than the distance if they are two corners, and minus the penetration depth if the solids overlap. The
-// n of the greatest s is a normal of a face, or the cross product of two edges whose arcs on the Gauss map
-// cross, so only these are tried (Gottschalk, Lin, Manocha, SIGGRAPH 1996; for the arcs: Gregorius, Game
-// Developers Conference 2013).
+// greatest s over all n equals the distance if the nearest features are face and corner or two edges. It is
+// less than the distance if the nearest features are two corners, and it is minus the penetration depth if
+// the solids overlap. The n of the greatest s is a normal of a face, or the cross product of two edges whose
+// arcs on the Gauss map cross, so only these directions are tried (Gottschalk, Lin, Manocha, SIGGRAPH 1996;
+// for the arcs: Gregorius, Game Developers Conference 2013).
 #pragma once
 
 #include <array>
@@ -69,8 +69,8 @@ struct Separation {
     std::uint32_t on_obstacle = 0, on_tool = 0;
 };
 
-// `to_obstacle`: the tool's frame to the obstacle's. If the separation exceeds `band` (m), some lower bound >
-// band is returned.
+// `to_obstacle`: the tool's frame to the obstacle's. If the separation exceeds `band` (m), the returned
+// distance is a lower bound of it that also exceeds `band`.
 Separation separation(const Convex& tool, const Convex& obstacle, const Pose& to_obstacle, double band);
 
 inline constexpr std::size_t max_contact_points = 12;

@@ -36,9 +36,9 @@ struct EdgeQueryResult {
 };
 
 // Two edges face each other if their common perpendicular points out of both solids; otherwise a face, a
-// vertex or another edge is nearer. FacingEdges lists the candidate edges of a solid for a piece. Any other
-// edge is further than the radius of the query, or cannot face the piece until the piece has turned by `turn`
-// (rad).
+// vertex or another edge is nearer. FacingEdges lists the candidate edges of a solid for a piece. An edge
+// that is not listed is further away than the radius of the query, or cannot face the piece until the piece
+// has turned by `turn` (rad).
 struct FacingEdges {
     std::array<std::uint32_t, 40> ridges{};  // indices in `Solid::ridges`
     std::uint32_t count = 0;
@@ -46,9 +46,10 @@ struct FacingEdges {
     double turn = 0.0;
 };
 
-// Finds the crossings of the piece, within `band`, with edges of `solid` that face it. If the output is too
-// small, the nearest crossings are written. `other` is the solid that the piece belongs to; `to_other` maps
-// the frame of `solid` to that of `other`. Edges further than `radius` are ignored. Fills `facing`.
+// Finds the crossings, within `band`, of the piece with those edges of `solid` that face the piece. If the
+// output is too small, the nearest crossings are written. `other` is the solid that the piece belongs to;
+// `to_other` maps the frame of `solid` to that of `other`. Edges further away than `radius` are ignored.
+// Fills `facing`.
 EdgeQueryResult query_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
                             const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
                             FacingEdges& facing);
@@ -65,9 +66,9 @@ struct EdgeCache {
 // the candidates stay valid longer.
 inline constexpr double short_lookahead = 2e-3;
 
-// As `query_edges`, with the cached candidates where they suffice. `turned`: rad, the piece's accumulated
-// turn. `near_before`: an edge was within `short_lookahead` at the last query. `searched` returns whether the
-// edges had to be searched again.
+// As `query_edges`, with the cached candidates while they are valid. `turned`: rad, the piece's accumulated
+// turn. `near_before`: an edge was within `short_lookahead` at the last query. Sets `searched`: true if the
+// candidates were no longer valid, so that the edges were searched again.
 EdgeQueryResult query_edges_cached(const Solid& solid, const EdgePiece& piece, const Solid& other,
                                    const Pose& to_other, double turned, double band, bool near_before,
                                    EdgeCache& cache, bool& searched, std::span<Crossing> crossings);

@@ -36,7 +36,7 @@ Jaw make_jaw(double opening, double head_angle, double thickness = 0.0, double d
 struct HexagonPrism {
     double across_flats = 0.0;  // s, m
     double height = 0.0;        // m
-    double bearing = 0.0;  // m, diameter of the flat ring on both faces; outside it the chamfers fall by 30°
+    double bearing = 0.0;  // m, diameter of the plane part of both faces; outside it the chamfers fall by 30°
 
     // m, from the middle of a flat to a corner.
     [[nodiscard]] double half_side() const;
@@ -62,7 +62,7 @@ struct HeadFit {
     double lateral_offset = 0.0;  // m, from the middle of the slot to the bolt's axis
     double tilt = 0.0;            // rad, rotation of the jaw about the direction along its flats
 
-    // Returns true if the hexagon is between the flats, at whatever angle.
+    // Returns true if the hexagon is between the flats of the head. The misalignment may have any value.
     [[nodiscard]] bool surrounds(double opening) const {
         return overlap > 0.0 && toward_throat + toward_mouth > 0.0 &&
                std::abs(lateral_offset) < 0.25 * opening;

@@ -15,8 +15,8 @@
 namespace bolt::collision {
 
 // An edge is sharp in three cases: the angle between the normals of its faces exceeds `sampled_edge_angle`;
-// it stands more than `edge_rise` above the smooth surface through its faces; it does not have exactly two
-// faces.
+// the edge stands more than `edge_rise` above the smooth surface through its faces; the edge does not have
+// exactly two faces.
 struct SharpEdge {
     std::array<std::uint32_t, 2> vertices;
     std::uint32_t triangle;            // one of its faces
@@ -63,11 +63,12 @@ struct ContactMesh {
 };
 
 inline constexpr double edge_rise = 30e-6;  // m, see SharpEdge
-// rad; edges sharper than this get points along them, since a round face may touch them anywhere.
+// rad; edges sharper than this get sample points along them, because a round face may touch such an edge
+// anywhere.
 inline constexpr double sampled_edge_angle = 20.0 * pi / 180.0;
 // rad; facets that meet at a smaller angle than this approximate a round surface.
 inline constexpr double crease = 30.0 * pi / 180.0;
-// m; between neighbouring samples a round surface rises by no more than this.
+// m; between neighbouring samples a round surface rises by at most this.
 inline constexpr double round_rise = 60e-6;
 // 1/m; a lower curvature adds no samples.
 inline constexpr double min_curvature = 10.0;

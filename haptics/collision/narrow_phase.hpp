@@ -4,8 +4,8 @@
 //
 // Every sample and every cluster of samples stores the lower bound of its distance that its last query found.
 // The relative motion since that query is subtracted; the surface is queried again only where the remaining
-// bound is within the band.
-// The bounds save work and never change the result: it is the same bit for bit with an empty cache.
+// bound is within the band. The bounds save work and never change the result: with an empty cache every bit
+// is the same.
 #pragma once
 
 #include <vector>
@@ -35,7 +35,7 @@ struct CachedQuery {
 
 // The cache of one solid's samples against the other's surface.
 struct SurfaceQueryCache {
-    std::vector<std::vector<DistanceBound>> levels;  // by level and cluster; holds for all samples of it
+    std::vector<std::vector<DistanceBound>> levels;  // by level and cluster; valid for all samples in it
     std::vector<std::vector<CachedQuery>> level_queries;
     std::vector<DistanceBound> samples;
     std::vector<CachedQuery> sample_queries;  // by sample

@@ -1,8 +1,8 @@
 // Points and edge pieces of a solid that can be the first to touch another solid, in a hierarchy of clusters.
 //
 // Two solids touch where at least one of them curves outward: at a corner, along an edge (against an edge or
-// a round face), or on a round face. Flat and concave regions need no samples, because a solid that touches
-// them has samples there.
+// a round face), or on a round face. Flat and concave regions need no samples, because the other solid, which
+// curves outward there, has samples at the contact.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace bolt::collision {
 struct SurfaceSample {
     static constexpr std::uint32_t no_piece = 0xffffffffU;
     Vec3 at{0.0};                    // m; the middle of an edge piece
-    std::uint32_t triangle = 0;      // one that it lies on
+    std::uint32_t triangle = 0;      // a triangle that the sample lies on
     std::uint32_t piece = no_piece;  // index in `SurfaceSamples::pieces`; no_piece: a point
 };
 

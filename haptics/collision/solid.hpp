@@ -49,8 +49,8 @@ struct Solid {
 // the nearest surface does not point out of the solid.
 Result<Solid> make_solid(std::span<const ContactMesh> parts);
 
-// The tangent plane at the closest point of a surface. As a constraint it keeps the query point on its outer
-// side.
+// The tangent plane at the closest point of a surface. As a constraint this plane keeps the query point on
+// the outer side of the surface.
 struct SeparatingPlane {
     double distance = 0.0;  // m, signed; negative: the point is inside
     Vec3 point{0.0};        // m, on the surface
@@ -68,7 +68,7 @@ struct PointQueryResult {
     double complete_within = 0.0;
 };
 
-// m; a surface that rises by no more than this above a plane gets no plane of its own.
+// m; a surface that rises at most this far above a plane gets no plane of its own.
 inline constexpr double plane_tolerance = 20e-6;
 inline constexpr std::size_t max_planes = 8;
 

@@ -16,8 +16,9 @@
 
 namespace bolt::collision {
 
-// The head of a ring wrench, or a socket. Its hole is one hexagon, or the union of two that are 30° apart.
-// One of its points, which receive the corners, is along the tool's +X.
+// The head of a ring wrench, or a socket. The hole is one hexagon, or the union of two that are 30° apart. It
+// has 6 or 12 notches, called points, which receive the corners of the turned hexagon; one point lies along
+// the tool's +X.
 struct Ring {
     double opening = 0.0;  // m, across the flats of the hole
     int points = 12;       // 6 or 12
@@ -26,16 +27,15 @@ struct Ring {
     double lead_in = 0.0;       // m, legs of the 45° chamfers at the open ends
     double outside = 0.0;       // m, diameter
     bool closed_above = false;  // a socket: a shoulder at `high` stops the nut
-    // rad between two teeth of its ratchet; 0: the hole turns with the handle.
-    double tooth_angle = 0.0;
+    double tooth_angle = 0.0;   // rad between two teeth of the ratchet; 0: no ratchet
 };
 
 // The tip of a hexagon key or bit.
 struct Key {
-    double width = 0.0;        // m, across its flats; a corner is at 30° from the tool's +X
-    double tip = 0.0;          // m along Z, negative: the end of the key
-    double chamfer = 0.0;      // m, legs of the 45° chamfer at its end
-    double length = 0.0;       // m of straight hexagon from its end
+    double width = 0.0;        // m, across the flats; a corner is at 30° from the tool's +X
+    double tip = 0.0;          // m, height of the key's end along Z; negative
+    double chamfer = 0.0;      // m, legs of the 45° chamfer at the end
+    double length = 0.0;       // m of straight hexagon from the end
     double tooth_angle = 0.0;  // as Ring::tooth_angle
 };
 
@@ -43,7 +43,7 @@ using ToolHead = std::variant<Jaw, Ring, Key>;
 
 // The hexagonal socket of a screw head.
 struct HexagonSocket {
-    double across_flats = 0.0;   // m, of the socket itself, which is wider than its key
+    double across_flats = 0.0;   // m, of the socket, which is wider than the key
     double depth = 0.0;          // m
     double mouth = 0.0;          // m, height of the head above its bearing face
     double head_diameter = 0.0;  // m
@@ -51,41 +51,41 @@ struct HexagonSocket {
 
 using TurnedShape = std::variant<HexagonPrism, HexagonSocket>;
 
-// Returns true if the head can turn the shape: jaw and ring a hexagon, a key a socket.
+// Returns true if the head can turn the shape: a jaw or a ring turns a hexagon, a key turns a socket.
 bool grips(const ToolHead& head, const TurnedShape& shape);
 
 // m across the flats of the head, and of the shape.
 double width_across_flats(const ToolHead& head);
 double width_across_flats(const TurnedShape& shape);
 
-// rad between two angles of the handle at which the head fits the same hexagon: 60°, of a ring with 12 points
-// 30°, with a ratchet the angle between two teeth.
+// rad between two angles of the handle at which the head fits the same hexagon: the angle between two teeth
+// with a ratchet, otherwise 30° for a ring with 12 points and 60° for all other heads.
 double fitting_angle(const ToolHead& head);
 
 // rad; 0 without a ratchet.
 double tooth_angle(const ToolHead& head);
 
-// m, along the bolt, of the region that grips: the thickness of a jaw or a ring.
+// m, extent of the gripping region along the bolt: the thickness of a jaw or a ring.
 double thickness(const ToolHead& head);
 
-// m above the bearing face at which the head's origin belongs when it is on the shape: the flats overlap as
+// m, height of the head's origin above the bearing face when the head is on the shape: the flats overlap as
 // far as possible, and a socket neither stands on the seat nor hangs above the nut.
 double grip_height(const ToolHead& head, const TurnedShape& shape);
 
-// The position of a head on a shape that it can turn. As HeadFit; of rings and keys `toward_throat` and
-// `toward_mouth` are half a side of the hexagon, and `lateral_offset` is the distance of the axes.
-// `tool`: pose of the tool in the frame of the shape.
+// The position of a head on a shape that the head can turn. For rings and keys `toward_throat` and
+// `toward_mouth` are half a side of the hexagon, and `lateral_offset` is the distance between the axes of
+// head and shape. `tool`: pose of the tool in the frame of the shape.
 HeadFit head_fit(const ToolHead& head, const TurnedShape& shape, const Pose& tool);
 
 // A head or a shape as convex solids in its own frame.
 Result<std::vector<Convex>> head_solids(const ToolHead& head);
 Result<std::vector<Convex>> shape_solids(const TurnedShape& shape);
 
-// Returns true if a point of the tool's mesh, in the tool's frame, belongs to the region that the solids
-// represent. A real head may be broader and has fillets.
+// Returns true if a point of the tool's mesh lies inside one of the solids of the head. Both are in the
+// tool's frame. A real head may be broader than its solids and has fillets.
 bool covered(std::span<const Convex> head, const Vec3& point);
 
-// One query of the contacts between a head and a shape that it can turn.
+// One query of the contacts between a head and a shape that the head can turn.
 struct GripQuery {
     const ToolHead& head;
     const TurnedShape& shape;
@@ -97,9 +97,11 @@ struct GripQuery {
 // Writes the contacts and returns their number. `tool` and `shape`: poses in the assembly. Distances are
 // exact if a face or two edges are nearest (convex.hpp).
 //
-// While the hexagon is in the hole its hole is convex there: it is free if no corner is beyond a wall. So
-// each end of the six edges within the hole is tested against its two walls, and the nearer contact of each
-// wall and end is kept. Before that the solids themselves are tested.
+// A jaw is always tested with solid_contacts(). So is a ring, a socket or a key until all six edges of the
+// hexagon reach into the hole. From then on the hole, which is convex, is tested in closed form: the hexagon
+// touches no wall if none of its corners is beyond a wall. For each wall, and for each end of the edges
+// within the hole, the contact of the nearest corner is written. Six more points test the shoulder of a
+// socket or the floor under a key.
 std::size_t grip_contacts(const GripQuery& query, const Pose& tool, const Pose& shape,
                           std::span<Contact, max_grip_contacts> out);
 

@@ -26,8 +26,8 @@ struct OctreeLeaf {
     double height = 0.0;
     float spread = 0.0F;
     bool front = false;  // the part of the cell in front of the plane is outside the solid
-    // The triangles belong to one part and none rises above the plane of another within listing_distance, so
-    // a point outside has exactly one separating plane.
+    // All triangles belong to one part, and no triangle rises above the plane of another within
+    // listing_distance. A point outside the part then has exactly one separating plane.
     bool convex = false;
 };
 

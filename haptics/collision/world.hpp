@@ -33,7 +33,7 @@ struct Obstacle {
     ObstacleId id;                      // copied to its contacts
     const ContactMesh* mesh = nullptr;  // may be shared; must live until make_world returns
     Pose pose;                          // to the assembly
-    bool moves = false;                 // also set for a part that may be disabled or overlaps others
+    bool moves = false;                 // also true for a part that may be disabled or that overlaps others
 };
 
 struct WorldOptions {
@@ -86,7 +86,8 @@ struct SurfacePoint {
 // Spreads `count` points over a mesh evenly by area. Deterministic.
 std::vector<SurfacePoint> sample_surface(const ContactMesh& mesh, std::size_t count);
 
-// As sample_surface, without points that face another surface of the solid, as in a bore: its bolt fills it.
+// As sample_surface, without points that face another surface of the solid, such as the points in a bore,
+// which a bolt fills.
 std::vector<SurfacePoint> sample_outer_surface(const Solid& solid, std::size_t count);
 
 struct Visibility {
