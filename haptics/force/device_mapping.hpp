@@ -1,6 +1,6 @@
 // Maps the device's small workspace to the assembly's (rotation, scale and clutch), and a bolt's torque to
 // the device's range. While the clutch is held the tool stands still and the hand can return to the middle of
-// its reach, like lifting a mouse.
+// its reach, as when a mouse is lifted.
 #pragma once
 
 #include <limits>
@@ -70,8 +70,8 @@ struct Pivot {
 
 // The pose of a wrench that sits on a bolt, while the hand holds its handle at `lever_end`, `lever_arm` m
 // from the jaw: the pose `held`, turned about the bolt so that the handle points to `lever_end`, and moved so
-// that it ends there. The device's orientation has no effect, because a device without torque cannot hold the
-// wrist. If `lever_end` is on the axis, `held` is moved and not turned.
+// that the handle ends there. The device's orientation has no effect, because a device without torque cannot
+// hold the wrist. If `lever_end` is on the axis, `held` is moved but not turned.
 Pose pivoted(const Pivot& pivot, const Pose& held, double lever_arm, const Vec3& lever_end);
 
 // The smallest scale, at least 1, at which the end of a wrench of `handle_length` m that points to the user
@@ -89,8 +89,9 @@ OutputCommand to_device(const WorkspaceMap& workspace, const WorkspaceState& sta
 // The device's limits in the assembly's units; the output stage works in these.
 OutputLimits in_assembly(const WorkspaceMap& workspace, const OutputLimits& device);
 
-// Renders a bolt's torque on a device with a smaller range: scaled so that the largest torque of the lesson
-// stays within it; as a torque if the device has one, otherwise as a force at the end of the wrench's handle.
+// Renders a bolt's torque on a device with a smaller range. The torque is scaled so that the largest torque
+// of the lesson stays within this range. It is rendered as a torque if the device has torque output,
+// otherwise as a force at the end of the wrench's handle.
 
 struct TorqueRendering {
     double scale = 1.0;     // device torque / true torque; 0: none

@@ -241,7 +241,7 @@ ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& 
     if (s.force_share == 0.0 && s.torque_share == 0.0 && (target.id != s.target.id || s.path.count == 0))
         begin(s, tool.position, target, free, dt);
     if (s.path.count == 0) return {};
-    // J stored with the spring of the last tick and the tool of this one.
+    // Energy, J, of the last tick's spring at the tool's new position.
     const double stored_before = stored_in(g, s, tool);
     // J, work of the last tick's force along the path.
     const double guided_work = s.at_end ? 0.0 : glm::dot(s.force, tool.position - s.tool);

@@ -16,7 +16,7 @@ namespace bolt::force {
 
 struct GuidingParameters {
     double gain = 0.1;                 // k of F = k/d, N·m: 1 N at 10 cm
-    double stiffness = 500.0;          // K_max, N/m, that the device renders stably
+    double stiffness = 500.0;          // K_max, N/m, largest stiffness that the device renders stably
     double fade_distance = 1.0;        // m; from here to twice this distance the force fades to zero
     double max_force = 3.0;            // N
     double max_torque = 0.2;           // N·m, of the aligning torque
@@ -25,8 +25,9 @@ struct GuidingParameters {
     double fade_rate = 4.0;            // 1/s, at which the force fades in and out
 };
 
-// k/d has the local stiffness k/d². Below d_min = √(k/K_max) the spring K_max d replaces it, and both are
-// capped. Force and potential are continuous; the largest force is √(k K_max) or the cap. `distance` in m.
+// The force k/d has the local stiffness k/d². Below d_min = √(k/K_max) the spring force K_max d replaces k/d,
+// and `max_force` caps both. Force and potential are continuous; the largest force is √(k K_max) or the cap.
+// `distance` in m.
 double guiding_pull(const GuidingParameters& guiding, double distance);  // N
 Vec3 guiding_force(const GuidingParameters& guiding, const Vec3& tool, const Vec3& target);
 
@@ -73,13 +74,14 @@ struct GuidePath {
 // - via the approach point;
 // - over the target at several heights;
 // - around one side.
-// Returns the shortest free candidate. If none is free, returns the straight segment, whatever its direction,
-// if it is free; else an empty path. Queries `free` at most 100 times.
+// Returns the shortest free candidate. If none is free, returns the straight segment if it is free in spite
+// of its direction, otherwise an empty path. Queries `free` at most 100 times.
 GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree free);
 
 // The lowest height above the target, m, to which the tool may be led from its present position. A segment
 // that is free for a point may be too narrow for the tool, and near the target the tool is certain to fit
-// only along the axis. So it is led at constant height until it is inside a cone about the axis, then down.
+// only along the axis. So the tool is led at constant height until it is inside a cone about the axis, and
+// then down.
 double lowest_permitted_height(const GuideTarget& target, const Vec3& tool);
 
 // Moves the end of the path, and the approach point if there is one, to the target's present position.
@@ -91,9 +93,9 @@ Vec3 point_at(const GuidePath& path, double along);  // `along` in m from the st
 // Returns true if the parts of the segment outside the ball of GuideTarget::bounding_radius are free.
 bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegmentFree free);
 
-// The guiding force: plans a path to a nut, pulls the tool towards the farthest point of the path in its line
-// of sight and aligns the jaw at the end. The force fades in and out, and target or path change only while it
-// is zero, so it is continuous.
+// The guiding force: plans a path to a nut, pulls the tool towards the farthest point of the path in the
+// tool's line of sight and aligns the jaw at the end. The force is continuous: it fades in and out, and
+// target or path change only while the force is zero.
 
 struct GuidedTool {
     Vec3 position{0.0};
@@ -102,7 +104,7 @@ struct GuidedTool {
 };
 
 struct GuideState {
-    GuideTarget target;  // of the present force; replaced once this force has faded out
+    GuideTarget target;  // of the present force; replaced when this force has faded out
     GuidePath path;
     double along = 0.0;           // m along the path to the pull point, towards which the force points
     double max_along = 0.0;       // m, largest value of `along` on this path
@@ -116,10 +118,10 @@ struct GuideState {
     bool at_end = false;  // the pull point is the target
 };
 
-// One tick of dt. With a negative `target.id` the force fades out; pass one while a nut is engaged. Returns
-// the request to the output stage: along the path all work counts as injected energy, so the passivity
-// observer ignores it; at the target the force derives from a potential, which the observer watches like any
-// spring.
+// One tick of dt. With a negative `target.id` the force fades out; pass a negative id while a nut is engaged.
+// Returns the request to the output stage. Along the path all work counts as injected energy, which the
+// passivity observer ignores. At the target the force derives from a potential, which the observer treats
+// like the energy of a spring.
 ForceRequest guide(const GuidingParameters& guiding, GuideState& state, const GuidedTool& tool,
                    const GuideTarget& target, IsSegmentFree free, double dt);
 

@@ -19,7 +19,7 @@ struct OutputLimits {
     double force = 20.0;              // N, magnitude
     double torque = 2.0;              // N·m, magnitude; 0: no torque output
     double force_slew_rate = 2000.0;  // N/s, slew rate while rendering
-    double torque_slew_rate = 200.0;  // N·m/s, the same
+    double torque_slew_rate = 200.0;  // N·m/s, slew rate while rendering
     double ramp_up = 0.5;             // s from closing the dead-man switch to the full force
     double release = 0.02;            // s from releasing the dead-man switch to zero output, at most
 
@@ -33,7 +33,8 @@ struct OutputLimits {
     double angular_speed = 50.0;  // rad/s
     double jump = 0.03;           // m in one tick; more is a faulty sample
     double angular_jump = 0.5;    // rad in one tick
-    // s without a sample until the output is released. The output is zero `release` after the last sample.
+    // s without a sample after which the output starts to fall. It reaches zero at most `release` s after the
+    // last sample.
     double max_silence = 0.008;
     double recovery_time = 0.1;  // s of valid samples after a fault before the output ramps up
 };
@@ -68,8 +69,8 @@ struct LimitBounds {
     bool operator==(const LimitBounds&) const = default;
 };
 
-// The limits, lowered to the bounds. A bound above the limit, negative or NaN has no effect: no bound can
-// raise a limit.
+// The limits, lowered to the bounds. A bound that is above its limit, negative or NaN has no effect, so a
+// bound never raises a limit.
 inline OutputLimits lowered(const OutputLimits& limits, const LimitBounds& bounds) {
     OutputLimits lower = limits;
     const auto lower_to = [](double& limit, const std::optional<double>& bound) {

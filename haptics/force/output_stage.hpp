@@ -65,8 +65,8 @@ bool update_watchdog(const OutputLimits& limits, WatchdogState& state, const Dev
                      bool request_is_finite, double dt);
 
 // Time-domain passivity control: observes the energy at the device's port and removes energy that the
-// rendering generates. A sampled, delayed and slew-limited spring returns more energy than was put in, which
-// a hand feels as vibration.
+// rendering generates. A sampled, delayed and slew-limited spring returns more energy than the hand put in,
+// and the hand feels the excess as vibration.
 //
 // Hannaford, Ryu: Time-domain passivity control of haptic interfaces. IEEE Trans. Robotics and Automation
 // 18(1), 2002. The stored energy is the reference, as in Ryu, Preusche, Hannaford, Hirzinger: Time domain

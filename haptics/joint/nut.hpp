@@ -139,8 +139,8 @@ struct RingGrip {
     double height = 0.0;        // e, m
     double across_flats = 0.0;  // s, m
     int points = 6;             // 6 or 12
-    double tilt = 0.0;          // rad, and
-    double clearance = 0.0;     // m, half of the difference of the widths: as in CornerGrip
+    double tilt = 0.0;          // rad, between the axes of tool and nut
+    double clearance = 0.0;     // m, half of the difference of the widths across flats
     double rounded = 0.0;       // m that each corner has lost along each flat
 };
 
