@@ -32,7 +32,7 @@ struct Engagement {
     // misalignment of the jaw, plus the tool's rotation about the bolt since then (not wrapped). With a
     // ratchet: of its head.
     double hand_angle = 0.0;
-    double ratchet_slack = 0.0;  // rad, 0 … one tooth: how far the handle is behind the ratchet's head
+    double ratchet_slack = 0.0;  // rad, 0 … one tooth, by which the handle is behind the ratchet's head
     // m, tool minus nut centre at engagement; decays with a time constant of 0.05 s.
     Vec3 offset_at_engagement{0.0};
 
@@ -62,19 +62,20 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
 // joint's step with a drive that limit_to_pawl() limits, and settle_ratchet(). Without a ratchet the last two
 // do nothing.
 
-// Turns the engaged tool by `turned` rad since the last tick, tightening positive. A ratchet's handle first
-// takes up the slack to its tooth.
+// Turns the engaged tool by `turned`, rad since the last tick, tightening positive. The handle of a ratchet
+// first takes up Engagement::ratchet_slack.
 void turn_tool(const Wrench& wrench, double turned, Engagement& engagement);
 
 // N·m, drag of the pawl when the handle is `slack` rad behind its tooth.
 double pawl_drag(const Ratchet& ratchet, double slack);
 
-// A head that turns back with the handle drives the nut with the drag of the pawl at most.
+// While the handle turns back, the torque on the nut is at most the drag of the pawl: sets the torque limit
+// of `drive`.
 void limit_to_pawl(const Wrench& wrench, double nut_angle, const Engagement& engagement,
                    joint::NutDrive& drive);
 
-// Call after the joint's step. The head stands where its torque on the nut equals the drag of the pawl, and
-// the handle moves on over the teeth. `nut_angle`, `play` in rad.
+// Call after the joint's step. While the handle turns back, the head stops where its torque on the nut equals
+// the drag of the pawl; the pawl climbs over the teeth while the handle moves on. `nut_angle`, `play` in rad.
 void settle_ratchet(const Wrench& wrench, double nut_angle, double play, Engagement& engagement);
 
 // Grip of a tool on a nut with contact simulation. Geometry alone determines whether the head holds the nut
@@ -91,8 +92,10 @@ void settle_ratchet(const Wrench& wrench, double nut_angle, double play, Engagem
 // Pose of the wrench in the nut's frame.
 Pose pose_in_nut_frame(const NutGeometry& nut, double nut_angle, const ToolPose& tool);
 
-// One tick. Engages a nut that the head can turn if it surrounds the hexagon by more than its bevel and is
-// aligned within the play; releases it if it no longer surrounds it. `rounded`, by joint: m
+// One tick. The head engages a nut that it can turn if the head surrounds the hexagon and the two are aligned
+// within the play. At that moment the flats of head and hexagon must overlap by the bevel of a jaw, or by
+// 0.5 mm for other heads. Releases the nut if the head no longer surrounds the hexagon or turns by more than
+// a hand can turn in a tick, or if the command is not a pose. `rounded`, by joint: m
 // (joint::CornerGrip::rounded).
 void update_contact_engagement(const Setup& setup, std::span<const joint::JointState> joints,
                                std::span<const double> rounded, const ToolPose& tool, Engagement& engagement);
@@ -102,8 +105,8 @@ joint::NutDrive contact_drive(const Setup& setup, const NutGeometry& nut, double
                               const Engagement& engagement);
 
 // Call after the joint's step. A head that turns beyond the corners' torque removes material in proportion to
-// the work, and transmits less torque the further it turns. Returns true in the tick in which it slips off
-// the nut.
+// the work, and transmits less torque the further it turns. Returns true in the tick in which the head slips
+// over the corners.
 bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::JointState& joint,
                    double& rounded, Engagement& engagement);
 

@@ -40,7 +40,7 @@ struct TickInput {
     CommandedTool commanded_tool;
     Grip grip = Grip::none;
     bool dead_man = false;    // the dead-man switch is held; otherwise the output is zero
-    std::int16_t guide = -1;  // joint that the guiding force leads to; −1: no guiding force
+    std::int16_t guide = -1;  // index of the joint that the guiding force leads to; −1: no guiding force
 
     bool fresh = true;   // a device sample arrived since the last tick; the watchdog stops a silent device
     bool stop = false;   // emergency stop pressed; latches until `reset`
@@ -52,8 +52,8 @@ struct TickInput {
     // N·m on the scale of a click-type torque wrench; 0: it does not click. Ignored from the click until the
     // wrench leaves the nut.
     float set_torque = 0.0F;
-    // The tool that lies ready for the hand, as an index in Setup::tools. The hand takes it up when it holds
-    // no tool (change_tool in tick.hpp).
+    // Index in Setup::tools of the tool that the hand gets when it next takes one. change_tool() (tick.hpp)
+    // puts this tool into use while the hand holds neither a tool nor a nut.
     std::uint8_t tool = 0;
 };
 

@@ -112,8 +112,9 @@ struct ThreadPrivileges {
 // Limits above which a hand may feel the loop's jitter or a device's own watchdog may trip. wake_up and
 // compute are shares of the period.
 struct HostRequirements {
-    double wake_up = 0.25;       // at the 99.9th percentile
-    double compute = 0.5;        // at the 99.9th percentile; the rest is for the transfer to the device
+    double wake_up = 0.25;  // at the 99.9th percentile
+    double compute =
+        0.5;  // at the 99.9th percentile; the rest of the period is for the transfer to the device
     double missed = 1e-3;        // share of all deadlines
     double stall = 0.02;         // s without a tick; the output stage must have reached zero by then
     std::uint64_t ticks = 1000;  // fewest ticks that give a 99.9th percentile
@@ -178,7 +179,7 @@ struct ThreadOptions {
 };
 
 // A thread that runs a tick at a fixed rate with the real-time privileges that the operating system grants.
-// It reports them, so that a caller notices a host that cannot keep time.
+// The thread reports its privileges, so that a caller notices a host that cannot keep time.
 class ServoThread {
   public:
     // Runs on the servo thread with denormals flushed. Must neither throw nor wait. Returns false to end the

@@ -23,12 +23,13 @@ struct NutGeometry {
     Vec3 e1{1.0, 0.0, 0.0};
     Vec3 e2{0.0, 0.0, -1.0};
     double height = 0.0;            // m
-    double across_flats = 0.0;      // m, that the tool must have: s in ISO 4032, or that of a head's socket
+    double across_flats = 0.0;      // m, width that the tool must have: s in ISO 4032, or of a head's socket
     double bearing_diameter = 0.0;  // m, of the bearing face inside the chamfer
     double socket_depth = 0.0;      // m, of the head's hexagonal socket; 0: the tool grips it from outside
     double head_diameter = 0.0;     // m, of a head with a socket
     std::size_t tool = 0;           // index in Setup::tools of the tool that turns it
-    // m above the bearing face at which the tool's origin belongs, and the fingertips.
+    // m, height above the bearing face of the tool's origin when the tool is on the nut; also that of the
+    // fingertips.
     double grip_height = 0.0;
     double corner_pressure = 0.0;  // Pa at which the corners yield (haptics/joint/nut.hpp)
     double start_gap = 0.0;        // m from bearing face to seat at nut angle 0
@@ -36,8 +37,8 @@ struct NutGeometry {
 };
 
 // The ratchet between the handle and the head of a tool. In one direction the head turns with the handle. In
-// the other a spring-loaded pawl climbs over the teeth: its drag rises over each tooth and then drops. A nut
-// that turns more easily than that turns back with the handle.
+// the other direction a spring-loaded pawl climbs over the teeth: its drag rises over each tooth and then
+// drops. A nut whose resistance is below this drag turns back with the handle.
 struct Ratchet {
     double tooth_angle = 0.0;       // rad; 0: no ratchet
     double drag = 0.0;              // N·m, at the top of a tooth

@@ -209,11 +209,12 @@ bool step_joints(const Setup& setup, State& state, float set_torque) {
     return click.clicked;
 }
 
-// Part 4, without a nut in the hand: the guiding force. It fades out if `guide` is −1.
+// Part 4, without a nut in the hand: the guiding force, which fades out if `guided_joint` is −1.
 force::ForceRequest guiding_request(const Setup& setup, State& state, const ToolPose& tool, Grip grip,
-                                    int guide, force::IsSegmentFree free) {
-    force::ForceRequest guiding = force::guide(setup.guiding, state.guide, guided_tool(setup, tool),
-                                               guide_target(setup, state.joints, guide), free, setup.dt);
+                                    int guided_joint, force::IsSegmentFree free) {
+    force::ForceRequest guiding =
+        force::guide(setup.guiding, state.guide_state, guided_tool(setup, tool),
+                     guide_target(setup, state.joints, guided_joint), free, setup.dt);
     if (setup.limits.torque <= 0.0 && grip == Grip::wrench)
         guiding.command = as_force_at_lever_end(setup, guiding.command, tool);
     state.guiding_command = guiding.command;

@@ -41,7 +41,7 @@ struct State {
     Vec3 hold_target{0.0};  // m, point to which the hold spring pulls an engaged tool
     ReleaseFade release_fade;
     force::OutputCommand guiding_command;  // guiding force and torque of the last tick
-    force::GuideState guide;
+    force::GuideState guide_state;
     force::OutputStage output_stage;
     std::optional<ToolContact> tool_contact;              // none: no contact simulation
     std::array<Checkpoint, max_checkpoints> checkpoints;  // ring buffer
@@ -55,8 +55,8 @@ State initial_state(const Setup& setup);
 void change_tool(Setup& setup, State& state, const TickInput& input);
 
 // One tick. `free` returns true if the straight segment between two points crosses no obstacle; the guiding
-// force plans with it. The first overload queries State::tool_contact, so without contact simulation every
-// segment is free.
+// force plans its path with this function. The first overload queries State::tool_contact, so without contact
+// simulation every segment is free.
 Output tick(const Setup& setup, State& state, const TickInput& input);
 Output tick(const Setup& setup, State& state, const TickInput& input, force::IsSegmentFree free);
 

@@ -41,7 +41,7 @@ struct ContactCache {
     std::array<collision::Contact, proxy::max_contacts> contacts;
 };
 
-// The shape of a tool, and what contact queries keep about it.
+// The shape of a tool, and the data of contact queries that belong to this tool.
 struct ToolInContact {
     collision::ToolShape shape;
     collision::NarrowPhaseState narrow_phase;
@@ -51,7 +51,8 @@ struct ToolInContact {
 
 struct ToolContact {
     collision::CollisionWorld world;
-    collision::ToolShape wrench;  // the tool in use, with the next three
+    // The next four members belong to the tool in use, as in ToolInContact.
+    collision::ToolShape wrench;
     collision::NarrowPhaseState narrow_phase;
     std::vector<collision::Convex> head;
     std::vector<std::vector<collision::Convex>> shape_solids;  // by joint; empty: the head cannot turn it

@@ -45,9 +45,9 @@ struct VibrationOptions {
     VibrationPulse yield{0.9, 55.0, 0.15};
     VibrationPulse slip{0.95, 80.0, 0.08};
     VibrationPulse click{1.0, 230.0, 0.03};
-    VibrationPulse load_pulse{0.6, 120.0,
-                              0.03};  // at the target torque; longer than a frame, so it has no gaps
-    double yield_frequency = 60.0;    // Hz, of `load_pulse` in the yield stage
+    // At the target torque. Each pulse lasts longer than a frame, so that there are no gaps between pulses.
+    VibrationPulse load_pulse{0.6, 120.0, 0.03};
+    double yield_frequency = 60.0;  // Hz, of `load_pulse` in the yield stage
 
     double detent_angle = to_radians(30.0);  // rad
     double full_strike = 0.5;                // m/s
@@ -127,9 +127,9 @@ struct VibrationState {
 void advance_vibration(VibrationState& state, const VibrationOptions& options, const VibrationInput& input,
                        double dt);
 
-// The command to send in this frame; it replaces the one that the controller renders. The pending event with
-// the highest rank comes first. Others wait, at most max_wait; none interrupts an event of higher rank. No
-// command: send nothing.
+// The command to send in this frame, which replaces the command that the controller renders. The pending
+// event with the highest rank comes first; the others wait, at most max_wait. An event never interrupts one
+// of higher rank. Returns nullopt if there is nothing to send.
 std::optional<VibrationCommand> next_vibration(VibrationState& state, const VibrationOptions& options);
 
 }  // namespace bolt::servo
