@@ -3,7 +3,7 @@
 // slow for the servo tick.
 //
 // The device that moves the tool is the only source of the hand's position: the tool moves along with the
-// open hand, and forces start when the hand has closed on it.
+// open hand, and forces start when the hand has closed on the tool.
 #pragma once
 
 #include <string>
@@ -34,8 +34,8 @@ struct HandState {
     std::uint64_t number = 0;  // of the last glove sample
 };
 
-// One step of dt with the latest sample of the glove, which may be that of the last step again. Pure, no
-// allocation.
+// One step of dt with the latest sample of the glove, which may be the same sample as in the last step. Pure,
+// no allocation.
 hand::GraspEvent update_hand(const HandSetup& setup, HandState& state, const hand::GloveSample& sample,
                              const ToolPoses& tool, double dt);
 

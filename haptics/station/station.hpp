@@ -35,10 +35,10 @@ struct StationLinkStats {
     LinkStats mover, wheel;
 };
 
-// How the mover's workspace maps to the assembly's, as far as the installer determines it.
+// The part of the mapping from the mover's workspace to the assembly's that the installer determines.
 struct WorkspaceOptions {
-    // Unit, from the device's frame to the user's: the identity unless the device is mounted at another angle
-    // than its maker intends.
+    // Unit, from the device's frame to the user's. The identity, unless the device is mounted at an angle
+    // that its maker did not intend.
     Quat rotation{1.0, 0.0, 0.0, 0.0};
     std::optional<double> scale;  // none: fitted to the mover's reach
     // Power at the device / power at the tool (force::WorkspaceMap); none: 1/scale, so that forces keep their
@@ -91,7 +91,8 @@ class Station {
     // not run; the command is then not queued.
     [[nodiscard]] Status send(const StationCommand& command);
     const StationTick& latest_tick();
-    bool next_tick(StationTick& tick);  // all ticks in order, except those of a pause; false: none yet
+    // Writes the next tick, in order and without the ticks of a pause; returns false if there is none yet.
+    bool next_tick(StationTick& tick);
     [[nodiscard]] std::uint64_t lost_ticks() const;  // not read in time and dropped
 
     // The gloved hand for display; null: none. Call it from one thread only.

@@ -34,7 +34,7 @@ struct DeviceLayout {
     // forces only.
     std::optional<device::Description> wheel;
     Buttons wheel_buttons;
-    force::WorkspaceMap workspace;  // of the mover; for a device that senses velocity only `rotation` applies
+    force::WorkspaceMap workspace;  // of the mover; if the mover senses velocity, only `rotation` applies
     Pose home;                      // initial pose of the tool in the assembly's frame
     // m from the wrench's jaw to the point of the wrench that follows the mover (lever_arm_of()).
     double lever_arm = 0.0;
@@ -66,13 +66,13 @@ bool renders_torque(const device::Description& description);
 struct StationControls {
     servo::Grip grip = servo::Grip::none;  // `wrench` has no effect if a gloved hand determines the grip
     bool dead_man = false;                 // held, in addition to the devices' buttons
-    // s after which `dead_man` expires unless the controls are sent again, so that a window that hangs
-    // releases it.
+    // s after which `dead_man` expires unless the controls are sent again. A window that hangs thus releases
+    // the dead-man switch.
     double dead_man_timeout = std::numeric_limits<double>::infinity();
     bool clutch = false, stop = false, reset = false;
     std::int16_t guide = -1;  // joint that the guiding force leads to; −1: none
     float set_torque = 0.0F;  // N·m, of a click-type torque wrench
-    std::uint8_t tool = 0;    // that lies ready: servo::TickInput::tool
+    std::uint8_t tool = 0;    // index of the tool that the hand gets next, as servo::TickInput::tool
     // Unit, from the viewer's frame to the assembly's. A puck moves the tool in the viewer's frame, an arm in
     // the assembly's frame rotated about the vertical to face the viewer.
     Quat view{1.0, 0.0, 0.0, 0.0};
@@ -101,8 +101,8 @@ struct SaveCheckpoint {};
 struct RestoreCheckpoint {
     std::uint8_t steps = 1;
 };
-// Changes a pending restore, or cancels it with `steps` 0. No effect if none is pending, so that a restore
-// which completed in the meantime is not repeated.
+// Changes a pending restore, or cancels it if `steps` is 0. Has no effect if no restore is pending, so that a
+// restore that completed in the meantime is not repeated.
 struct AmendRestore {
     std::uint8_t steps = 0;
 };
@@ -122,13 +122,14 @@ struct StationInputs {
     std::uint64_t missed = 0;                    // deadlines of the servo without a tick since the last tick
 };
 
-// The gripper of the mover. A closed one closes the trainee's hand: it also counts as the dead-man switch.
+// The gripper of the mover. A closed gripper closes the trainee's hand and also counts as a held dead-man
+// switch.
 struct Gripper {
     double opening = 1.0;  // 0 closed … 1 fully open
     bool closed = false;
 };
 // Openings at which an open gripper counts as closed, and a closed one as open. Chosen values: a hand that
-// holds the handle of a wrench is half closed, and must not lose it by trembling.
+// holds the handle of a wrench is half closed, and must not lose the wrench by trembling.
 inline constexpr double gripper_closes_below = 0.35, gripper_opens_above = 0.55;
 
 // The state of the connection to one device.
@@ -173,12 +174,13 @@ struct DeviceCommands {
 StationState initial_state(const DeviceLayout& layout);
 
 // One tick. Forces come from the servo's output stage; this code maps them and may only reduce them. A device
-// that is lost or silent for too long moves nothing and renders no force. When it returns, the hand may be
-// anywhere, so the mapping is realigned, as after a clutch.
+// that is lost or silent for too long moves nothing and renders no force. When the device returns, the hand
+// may be anywhere, so the mapping is realigned, as after a clutch.
 DeviceCommands tick(const DeviceLayout& layout, servo::Setup& setup, StationState& state, servo::State& servo,
                     const StationInputs& inputs);
 
-// The parts of tick(), in order; read_inputs() calls pivot_about_bolt().
+// The parts of tick(), in order; read_inputs() calls pivot_about_bolt(). Both functions that move the tool
+// near a nut, pivot_about_bolt() and move_to_nut(), are implemented in near_nut.cpp.
 servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                              const StationInputs& inputs);
 // On a bolt and near it the mover moves the end of the wrench's handle, and the wrench turns so that its jaw
@@ -186,8 +188,8 @@ servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& set
 // wrist, and a hand cannot align a jaw with the bolt to 1°. `last`: the tool's pose before this tick.
 void pivot_about_bolt(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                       const Pose& last, double dt);
-// Moves a tool whose device senses velocity and renders no force: along with a held nut, and towards
-// StationControls::approach_joint. Changes `input`.
+// Moves the tool if its device senses velocity and renders no force: along with a held nut, and towards the
+// nut of StationControls::approach_joint. Changes `input`.
 void move_to_nut(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                  const servo::State& servo, const StationInputs& inputs, servo::TickInput& input);
 DeviceCommands map_output(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
@@ -213,7 +215,7 @@ struct MoverSample {
 
 // One tick, for recording.
 struct StationTick {
-    std::uint64_t number = 0;  // of the servo's deadline; missed deadlines count too
+    std::uint64_t number = 0;  // number of the servo's deadline; missed deadlines count too
     servo::TickInput input;
     servo::Output output;
     Pose commanded_tool;  // in the assembly's frame
@@ -234,7 +236,7 @@ struct StationStep {
     StationTick tick;
     bool paused = false;  // no servo tick, so nothing to record
 };
-// tick(), or pause_tick() while StationControls::pause is set. `number` goes to the tick.
+// Calls tick(), or pause_tick() while StationControls::pause is set. `number`: StationTick::number.
 StationStep step(const DeviceLayout& layout, servo::Setup& setup, StationState& state, servo::State& servo,
                  const StationInputs& inputs, std::uint64_t number);
 

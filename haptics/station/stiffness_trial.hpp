@@ -17,11 +17,11 @@ inline constexpr int stiffness_levels = 10;          // the last one has the sti
 inline constexpr double stiffness_level_time = 1.0;  // s
 inline constexpr double trial_force_share = 0.2;     // of the arm's largest force; the trial renders no more
 
-// Why a trial has ended.
+// The reason for the end of a trial.
 enum class TrialEnd : std::uint8_t {
     none,         // it continues
     reported,     // the arm renders the stiffness that it reports
-    oscillation,  // a swing that a step of the spring has excited does not die away
+    oscillation,  // an oscillation that a step of the spring has excited does not decay
     energy,       // a spring at rest gives energy to the hand
     fault,        // the output stage has blocked the force (Fault)
 };
