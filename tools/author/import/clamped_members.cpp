@@ -50,11 +50,11 @@ std::optional<MemberSpan> measure(const PartGeometry& part, const ScaledPose& po
         const Vec3 start = bolt.origin + radius * (std::cos(angle) * u + std::sin(angle) * v);
         const auto cuts = crossings(part.mesh, local.point(start), local.direction(bolt.axis));
         MemberSpan& span = spans[i];
-        span.from = bolt.seat;
+        span.from = bolt.end;
         span.to = bolt.head;
         for (std::size_t c = 0; c + 1 < cuts.size(); c += 2) {
             const double low = std::max(cuts[c] * std::abs(pose.scale), bolt.head - touching);
-            const double high = std::min(cuts[c + 1] * std::abs(pose.scale), bolt.seat + touching);
+            const double high = std::min(cuts[c + 1] * std::abs(pose.scale), bolt.end + touching);
             if (high <= low) continue;
             span.solid += high - low;
             span.from = std::min(span.from, low);
@@ -149,9 +149,9 @@ std::optional<TappedPart> find_tapped_part(const std::vector<const PartGeometry*
         if (hole == 0.0) continue;
         const auto span = measure(*parts[n], poses[n], bolt, 0.65 * bolt.diameter);
         const double least = 0.5 * bolt.diameter;
-        if (!span || std::min(bolt.seat, span->to) - span->from < least) continue;
+        if (!span || std::min(bolt.end, span->to) - span->from < least) continue;
         const bool nominal = 2.0 * hole > clearance_hole.least * bolt.diameter;
-        if (nominal && bolt.seat - span->to > 0.3 * bolt.diameter) continue;
+        if (nominal && bolt.end - span->to > 0.3 * bolt.diameter) continue;
         if (!last || span->from > last->face)
             last = TappedPart{static_cast<int>(n), 2.0 * hole, span->from, span->to, nominal};
     }

@@ -21,12 +21,13 @@ struct ClampedMember {
     double thickness = 0.0;  // m
 };
 
-// A bolt in the scene frame, metres. The clamped members lie between the heights `head` and `seat` along the
-// axis from `origin`.
+// A bolt in the scene frame, metres. The functions below examine the parts between the heights `head` and
+// `end` along the axis from `origin`.
 struct InstalledBolt {
     Vec3 origin, axis;
     double diameter = 0.0;
-    double head = 0.0, seat = 0.0;  // under the head and its washers; under the nut and its washers
+    double head = 0.0;  // under the head and its washers
+    double end = 0.0;   // given at each function
 };
 
 inline constexpr double coaxial_distance = 0.1 * mm;
@@ -36,9 +37,10 @@ inline constexpr double touching = 0.06 * mm;  // largest gap of faces that coun
 // direction.
 bool coaxial(const Vec3& p, const Vec3& a, const Vec3& q, const Vec3& b);
 
-// Returns the members from head to nut. `parts` and `poses` are indexed by node; a null part is ignored. A
-// gap between two members at the bolt is filled by the parts that close it elsewhere, such as the raised
-// faces of two flanges and the gasket between them.
+// Returns the members from the head to `bolt.end`, which is the height under the nut and its washers, or that
+// of the tapped part. `parts` and `poses` are indexed by node; a null part is ignored. A gap between two
+// members at the bolt is filled by the parts that close the gap elsewhere, such as the raised faces of two
+// flanges and the gasket between them.
 std::vector<ClampedMember> find_members(const std::vector<const PartGeometry*>& parts,
                                         const std::vector<ScaledPose>& poses, const InstalledBolt& bolt);
 
@@ -46,14 +48,15 @@ std::vector<ClampedMember> find_members(const std::vector<const PartGeometry*>& 
 struct TappedPart {
     int node = -1;
     double hole = 0.0;                // diameter, m
-    double face = 0.0, bottom = 0.0;  // where its material around the hole begins and ends
+    double face = 0.0, bottom = 0.0;  // heights at which the material around the hole begins and ends
     bool nominal = false;             // the hole is as wide as the thread
 };
 
-// Returns the part that the end of a bolt without a nut is screwed into: its hole is as wide as the core of
-// the bolt's thread, and the bolt engages by at least half a diameter. A hole as wide as the whole thread
-// counts too, unless the bolt protrudes from it as a bolt does that has lost its nut. Of several parts the
-// last one along the bolt. The seat of `bolt` is the end of the bolt.
+// Returns the part that the end of a bolt without a nut is screwed into. The hole of this part is as wide as
+// the core of the bolt's thread, and the bolt engages by at least half a diameter. A hole as wide as the
+// whole thread counts too, unless the bolt protrudes by more than 0.3 diameters: such a bolt has probably
+// lost its nut. If there are several such parts, returns the last one along the bolt. `bolt.end` is the end
+// of the bolt.
 std::optional<TappedPart> find_tapped_part(const std::vector<const PartGeometry*>& parts,
                                            const std::vector<ScaledPose>& poses, const InstalledBolt& bolt);
 

@@ -314,7 +314,7 @@ class DraftWriter {
     void describe() {
         for (const DraftTool& tool : tools_)
             draft_.tools.push_back(fmt::format("{}{}, generated from these numbers",
-                                               tool.name.empty() ? "" : tool.name + ", ", tool.words));
+                                               tool.name.empty() ? "" : tool.name + ", ", tool.description));
         for (const DraftJointType& named : types_) {
             const JointTypeKey& type = named.type;
             const bool cap = type.head == joint::HeadShape::socket;

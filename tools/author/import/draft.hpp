@@ -22,9 +22,9 @@ struct DraftInput {
 };
 
 struct Draft {
-    std::string text;  // empty without a joint
+    std::string text;  // of assembly.json; empty without a joint
     std::size_t joints = 0;
-    std::vector<std::string> tools, joint_types;  // in words, with what was assumed
+    std::vector<std::string> tools, joint_types;  // in words, with the assumptions
     std::vector<std::string> remarks;
 };
 

@@ -8,8 +8,9 @@
 
 namespace bolt::step_import {
 
-// Indices into `seats` (m). Joints on a circle: a star, where the next joint is the farthest from all earlier
-// ones and, among equals, the farthest from the last one. Otherwise from the middle outwards.
+// Returns indices into `seats` (m). Joints on a circle are tightened in a star: the next joint is the
+// farthest from all earlier ones and, among equals, the farthest from the last one. Other joints are
+// tightened from the middle outwards.
 std::vector<std::size_t> tightening_order(const std::vector<Vec3>& seats);
 
 }  // namespace bolt::step_import

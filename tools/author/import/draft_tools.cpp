@@ -12,7 +12,6 @@ namespace bolt::step_import {
 namespace {
 
 constexpr std::size_t most_tools = 11;      // "tool", and ten of "more_tools" (assembly.schema.json)
-constexpr double largest_key = 6.0 * mm;    // of M8: full torque by hand needs about 300 N
 constexpr double jaw_play = 0.2 * mm;       // of an open end
 constexpr double grip_share = 0.9;          // middle of the grip on a key / length of its long arm
 constexpr double shortest_key = 40.0 * mm;  // to the grip
@@ -29,7 +28,8 @@ void describe_open_end(DraftTool& tool) {
     tool.json = fmt::format(
         R"({{ "kind": "open_end_wrench", "jaw_mm": {:g}, "head_angle_deg": 15, "handle_length_mm": {:g} }})",
         s + jaw_play / mm, handle);
-    tool.words = fmt::format("an open-end wrench of {:g} mm, {:g} mm from the jaw to the grip", s, handle);
+    tool.description =
+        fmt::format("an open-end wrench of {:g} mm, {:g} mm from the jaw to the grip", s, handle);
 }
 
 void describe_key(DraftTool& tool) {
@@ -39,7 +39,8 @@ void describe_key(DraftTool& tool) {
     tool.name = fmt::format("hex_key_{:g}", s / mm);
     tool.json =
         fmt::format(R"({{ "kind": "hex_key", "size_mm": {:g}, "handle_length_mm": {:g} }})", s / mm, handle);
-    tool.words = fmt::format("a hexagon key of {:g} mm, {:g} mm from the screw to the grip", s / mm, handle);
+    tool.description =
+        fmt::format("a hexagon key of {:g} mm, {:g} mm from the screw to the grip", s / mm, handle);
 }
 
 void describe_bit(DraftTool& tool) {
@@ -50,7 +51,7 @@ void describe_bit(DraftTool& tool) {
     tool.json = fmt::format(
         R"({{ "kind": "ratchet", "head": "hex_bit", "size_mm": {:g}, "handle_length_mm": {:g} }})", s,
         handle);
-    tool.words =
+    tool.description =
         fmt::format("a ratchet with a hexagon bit of {:g} mm, {:g} mm from the screw to the grip", s, handle);
 }
 

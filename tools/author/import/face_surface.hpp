@@ -26,7 +26,7 @@ class FaceSurface {
     [[nodiscard]] bool is_plane() const { return surface_.GetType() == GeomAbs_Plane; }
     [[nodiscard]] bool is_pole(std::uint32_t corner) const { return pole_u_[corner] || pole_v_[corner]; }
     [[nodiscard]] const gp_XY& at(std::uint32_t corner) const { return uv_[corner]; }
-    // At a pole, one point has many parameters; returns the one closest to `towards`.
+    // At a pole, one point has many parameters; returns the parameters closest to `towards`.
     [[nodiscard]] gp_XY at(std::uint32_t corner, const gp_XY& towards) const;
     [[nodiscard]] gp_XY middle(std::uint32_t a, std::uint32_t b) const;
     [[nodiscard]] gp_XY middle(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;

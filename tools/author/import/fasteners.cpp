@@ -20,9 +20,12 @@ namespace bolt::step_import {
 
 namespace {
 
-constexpr std::size_t max_flats = 400;  // more than any fastener has; skips castings
-constexpr double largest_width = 1.3;   // largest radius of a fastener / width across flats
-constexpr double largest_cap = 1.9;     // the same of a screw with a socket; a countersunk one has 1.87
+constexpr std::size_t max_plane_faces = 400;  // more than any fastener has; skips castings
+// Largest radius of a fastener / width across its flats.
+constexpr double max_radius_ratio = 1.3;
+// Largest radius of a screw with a socket / width across the flats of the socket; 1.87 with a countersunk
+// head.
+constexpr double max_cap_radius_ratio = 1.9;
 
 // Accepted widths across flats, m.
 constexpr WidthRange fastener_widths{5.0 * mm, 65.0 * mm};
@@ -44,7 +47,7 @@ bool inside(const PartMesh& mesh, const Vec3& p) {
     return std::abs(2.0 * sum) > 2.0 * pi;
 }
 
-FastenerShape classify_nut(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+FastenerShape classify_nut(const std::vector<PlaneFace>& plane_faces, const PartMesh& mesh,
                            const HexagonShape& hexagon, const Interval& whole) {
     FastenerShape nut;
     nut.kind = FastenerKind::nut;
@@ -55,11 +58,11 @@ FastenerShape classify_nut(const std::vector<PlaneFace>& flats, const PartMesh& 
     nut.high = whole.high;
     // Bearing faces; the collar of a locking nut protrudes beyond one of them.
     Interval faces;
-    for (const PlaneFace& flat : flats) {
-        const double along = glm::dot(flat.normal, nut.axis);
+    for (const PlaneFace& plane : plane_faces) {
+        const double along = glm::dot(plane.normal, nut.axis);
         if (std::abs(along) < 1.0 - parallel) continue;
-        if (face_radius(mesh, flat.face, hexagon.axis) < 0.4 * nut.across_flats) continue;
-        faces.add(hexagon.axis.height(flat.normal * flat.distance));
+        if (face_radius(mesh, plane.face, hexagon.axis) < 0.4 * nut.across_flats) continue;
+        faces.add(hexagon.axis.height(plane.normal * plane.distance));
     }
     if (faces.high - faces.low > 0.1 * nut.across_flats) {
         nut.low = faces.low;
@@ -106,7 +109,7 @@ FastenerShape shape_from_hexagon(const HexagonShape& hexagon, Interval& height, 
     return shape;
 }
 
-FastenerShape classify_bolt(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+FastenerShape classify_bolt(const std::vector<PlaneFace>& plane_faces, const PartMesh& mesh,
                             const HexagonShape& hexagon, Interval whole) {
     Interval head;
     FastenerShape bolt = shape_from_hexagon(hexagon, head, whole);
@@ -115,11 +118,12 @@ FastenerShape classify_bolt(const std::vector<PlaneFace>& flats, const PartMesh&
     bolt.low = head.high;
     // Bearing face: at the end of the flats, or on a washer face beyond them, wider than any shank.
     double best = -std::numeric_limits<double>::infinity();
-    for (const PlaneFace& flat : flats) {
-        if (glm::dot(flat.normal, bolt.axis) < 1.0 - parallel) continue;
-        const double height = line.height(flat.normal * flat.distance);
-        if (height < head.high - flat_slack || height > head.high + 0.2 * bolt.across_flats) continue;
-        if (face_radius(mesh, flat.face, line) < 0.4 * bolt.across_flats) continue;
+    for (const PlaneFace& plane : plane_faces) {
+        if (glm::dot(plane.normal, bolt.axis) < 1.0 - parallel) continue;
+        const double height = line.height(plane.normal * plane.distance);
+        if (height < head.high - plane_position_tolerance || height > head.high + 0.2 * bolt.across_flats)
+            continue;
+        if (face_radius(mesh, plane.face, line) < 0.4 * bolt.across_flats) continue;
         best = std::max(best, height);
     }
     if (std::isfinite(best)) bolt.low = best;
@@ -140,28 +144,29 @@ FastenerShape classify_bolt(const std::vector<PlaneFace>& flats, const PartMesh&
 
 // The bearing face of a cap screw's head, as a height along the screw's axis: the plane that looks towards
 // the end of the screw and is nearly as wide as the head; nullopt without one.
-std::optional<double> cap_bearing_face(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+std::optional<double> cap_bearing_face(const std::vector<PlaneFace>& plane_faces, const PartMesh& mesh,
                                        const AxisLine& line, double head_radius) {
     std::optional<double> bearing;
-    for (const PlaneFace& flat : flats) {
-        if (glm::dot(flat.normal, line.direction) < 1.0 - parallel) continue;
-        if (face_radius(mesh, flat.face, line) < 0.8 * head_radius) continue;
-        const double height = line.height(flat.normal * flat.distance);
+    for (const PlaneFace& plane : plane_faces) {
+        if (glm::dot(plane.normal, line.direction) < 1.0 - parallel) continue;
+        if (face_radius(mesh, plane.face, line) < 0.8 * head_radius) continue;
+        const double height = line.height(plane.normal * plane.distance);
         if (!bearing || height > *bearing) bearing = height;
     }
     return bearing;
 }
 
 // Classifies a part with a hexagonal socket.
-FastenerShape classify_cap_screw(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+FastenerShape classify_cap_screw(const std::vector<PlaneFace>& plane_faces, const PartMesh& mesh,
                                  const HexagonShape& hexagon, Interval whole) {
     Interval socket;
     FastenerShape screw = shape_from_hexagon(hexagon, socket, whole);
     const AxisLine line{screw.origin, screw.axis};
     const double head_radius = largest_radius(mesh, line);
-    const auto bearing = cap_bearing_face(flats, mesh, line, head_radius);
+    const auto bearing = cap_bearing_face(plane_faces, mesh, line, head_radius);
     const std::string found = fmt::format("has a hexagonal socket of {:.2f} mm", screw.across_flats / mm);
-    if (!bearing || *bearing - whole.low < 0.2 * screw.across_flats || *bearing > whole.high - flat_slack) {
+    if (!bearing || *bearing - whole.low < 0.2 * screw.across_flats ||
+        *bearing > whole.high - plane_position_tolerance) {
         screw.rejection = found +
                           ", but no flat bearing face under a head; expected a cylindrical head with a "
                           "flat face towards the shank";
@@ -185,25 +190,26 @@ FastenerShape classify_cap_screw(const std::vector<PlaneFace>& flats, const Part
 }
 
 // Returns a washer if the part is a flat ring between two radii and two parallel faces.
-FastenerShape classify_washer(const TopoDS_Shape& shape, const std::vector<PlaneFace>& flats,
+FastenerShape classify_washer(const TopoDS_Shape& shape, const std::vector<PlaneFace>& plane_faces,
                               const PartMesh& mesh) {
     FastenerShape washer;
     const std::vector<Hole> holes = find_holes(shape);
-    if (holes.empty() || flats.size() < 2) return washer;
+    if (holes.empty() || plane_faces.size() < 2) return washer;
     const AxisLine line{holes.front().point, holes.front().axis};
     Interval heights, radii, faces;
     for (const Vec3& point : mesh.points) {
         heights.add(line.height(point));
         radii.add(line.radius(point));
     }
-    for (const PlaneFace& flat : flats) {
-        if (std::abs(glm::dot(flat.normal, line.direction)) < 1.0 - parallel) return washer;
-        faces.add(line.height(flat.normal * flat.distance));
+    for (const PlaneFace& plane : plane_faces) {
+        if (std::abs(glm::dot(plane.normal, line.direction)) < 1.0 - parallel) return washer;
+        faces.add(line.height(plane.normal * plane.distance));
     }
     const double thickness = heights.high - heights.low;
-    const bool flat = faces.low < heights.low + flat_slack && faces.high > heights.high - flat_slack;
+    const bool between_planes = faces.low < heights.low + plane_position_tolerance &&
+                                faces.high > heights.high - plane_position_tolerance;
     const bool ring = radii.low > 0.25 * radii.high && radii.low < 0.85 * radii.high;
-    if (!flat || !ring || thickness > 0.35 * radii.high || thickness < 0.1 * mm) return washer;
+    if (!between_planes || !ring || thickness > 0.35 * radii.high || thickness < 0.1 * mm) return washer;
     washer.kind = FastenerKind::washer;
     washer.origin = line.origin;
     washer.axis = line.direction;
@@ -219,10 +225,10 @@ int count_solids(const TopoDS_Shape& shape) {
     return solids;
 }
 
-void explain_missing_hexagon(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+void explain_missing_hexagon(const std::vector<PlaneFace>& plane_faces, const PartMesh& mesh,
                              FastenerShape& rejected) {
-    const auto hexagon = find_hexagon(flats, mesh, HexagonSide::outside, all_widths);
-    if (hexagon && largest_radius(mesh, hexagon->axis) <= largest_width * hexagon->across_flats)
+    const auto hexagon = find_hexagon(plane_faces, mesh, HexagonSide::outside, all_widths);
+    if (hexagon && largest_radius(mesh, hexagon->axis) <= max_radius_ratio * hexagon->across_flats)
         rejected.rejection = fmt::format(
             "has a hexagon {:.3f} mm across flats; expected {:g} to {:g} mm: is the unit of the file right?",
             hexagon->across_flats / mm, fastener_widths.low / mm, fastener_widths.high / mm);
@@ -231,32 +237,33 @@ void explain_missing_hexagon(const std::vector<PlaneFace>& flats, const PartMesh
             "none of its {} plane faces form a hexagon; expected three pairs of opposite faces at 60 "
             "degrees, {:g} to "
             "{:g} mm apart and equal within {:g} mm",
-            flats.size(), fastener_widths.low / mm, fastener_widths.high / mm, flat_slack / mm);
+            plane_faces.size(), fastener_widths.low / mm, fastener_widths.high / mm,
+            plane_position_tolerance / mm);
 }
 
 }  // namespace
 
 FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh) {
     const FaceMap faces = faces_of(shape);
-    const std::vector<PlaneFace> flats = find_flats(faces);
-    if (flats.size() > max_flats || mesh.points.empty()) return {};
+    const std::vector<PlaneFace> plane_faces = find_plane_faces(faces);
+    if (plane_faces.size() > max_plane_faces || mesh.points.empty()) return {};
     const auto whole_along = [&](const AxisLine& line) {
         Interval heights;
         for (const Vec3& point : mesh.points) heights.add(line.height(point));
         return heights;
     };
-    const auto socket = find_hexagon(flats, mesh, HexagonSide::socket, socket_widths);
-    if (socket && largest_radius(mesh, socket->axis) <= largest_cap * socket->across_flats)
-        return classify_cap_screw(flats, mesh, *socket, whole_along(socket->axis));
-    const auto hexagon = find_hexagon(flats, mesh, HexagonSide::outside, fastener_widths);
+    const auto socket = find_hexagon(plane_faces, mesh, HexagonSide::socket, socket_widths);
+    if (socket && largest_radius(mesh, socket->axis) <= max_cap_radius_ratio * socket->across_flats)
+        return classify_cap_screw(plane_faces, mesh, *socket, whole_along(socket->axis));
+    const auto hexagon = find_hexagon(plane_faces, mesh, HexagonSide::outside, fastener_widths);
     if (!hexagon) {
-        FastenerShape washer = classify_washer(shape, flats, mesh);
-        if (washer.kind == FastenerKind::none) explain_missing_hexagon(flats, mesh, washer);
+        FastenerShape washer = classify_washer(shape, plane_faces, mesh);
+        if (washer.kind == FastenerKind::none) explain_missing_hexagon(plane_faces, mesh, washer);
         return washer;
     }
     const Interval whole = whole_along(hexagon->axis);
     const double widest = largest_radius(mesh, hexagon->axis);
-    if (widest > largest_width * hexagon->across_flats) {
+    if (widest > max_radius_ratio * hexagon->across_flats) {
         FastenerShape other;
         const int solids = count_solids(shape);
         if (solids > 1 || widest < 3.0 * hexagon->across_flats)
@@ -265,13 +272,13 @@ FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh
                 "hexagon's "
                 "axis; expected every bolt and nut to be a part of its own, at most {:.2f} mm from its axis",
                 hexagon->across_flats / mm, solids == 1 ? "1 solid" : fmt::format("{} solids", solids),
-                widest / mm, largest_width * hexagon->across_flats / mm);
+                widest / mm, max_radius_ratio * hexagon->across_flats / mm);
         return other;
     }
     const double middle = 0.5 * (hexagon->height.low + hexagon->height.high);
     return inside(mesh, hexagon->axis.origin + middle * hexagon->axis.direction)
-               ? classify_bolt(flats, mesh, *hexagon, whole)
-               : classify_nut(flats, mesh, *hexagon, whole);
+               ? classify_bolt(plane_faces, mesh, *hexagon, whole)
+               : classify_nut(plane_faces, mesh, *hexagon, whole);
 }
 
 std::vector<Hole> find_holes(const TopoDS_Shape& shape) {

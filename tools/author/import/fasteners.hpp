@@ -19,7 +19,7 @@ enum class FastenerKind { none, bolt, nut, washer };
 struct FastenerShape {
     FastenerKind kind = FastenerKind::none;
     Vec3 origin{0.0}, axis{0.0, 1.0, 0.0};  // of a bolt: from the head to the end
-    double across_flats = 0.0;              // of the hexagon; of a cap screw that of its socket
+    double across_flats = 0.0;              // of the hexagon, or of a cap screw's socket
     double low = 0.0;                       // bearing face under a bolt's head; lower face of a nut or washer
     double high = 0.0;                      // end of a bolt; upper face of a nut or washer
     double diameter = 0.0;  // of a bolt's thread over the crests; of the hole of a nut or washer

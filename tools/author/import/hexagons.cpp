@@ -8,8 +8,8 @@
 
 namespace bolt::step_import {
 
-std::vector<PlaneFace> find_flats(const FaceMap& faces) {
-    std::vector<PlaneFace> flats;
+std::vector<PlaneFace> find_plane_faces(const FaceMap& faces) {
+    std::vector<PlaneFace> plane_faces;
     for (int f = 1; f <= faces.Extent(); ++f) {
         const TopoDS_Face face = TopoDS::Face(faces(f));
         const BRepAdaptor_Surface surface(face, false);
@@ -18,32 +18,32 @@ std::vector<PlaneFace> find_flats(const FaceMap& faces) {
         gp_XYZ normal = plane.Axis().Direction().XYZ();
         if (!plane.Direct()) normal.Reverse();
         if (face.Orientation() == TopAbs_REVERSED) normal.Reverse();
-        PlaneFace flat;
-        flat.normal = direction_to_scene(normal);
-        flat.distance = glm::dot(flat.normal, point_to_scene(plane.Location().XYZ()));
-        flat.face = static_cast<std::size_t>(f - 1);
-        flats.push_back(flat);
+        PlaneFace found;
+        found.normal = direction_to_scene(normal);
+        found.distance = glm::dot(found.normal, point_to_scene(plane.Location().XYZ()));
+        found.face = static_cast<std::size_t>(f - 1);
+        plane_faces.push_back(found);
     }
-    return flats;
+    return plane_faces;
 }
 
 namespace {
 
-// Two parallel flats that face away from each other.
-struct FlatPair {
+// Two parallel plane faces with opposite normals, as indices in the list of plane faces.
+struct FacePair {
     std::size_t a, b;
     double width;
 };
 
-std::vector<FlatPair> find_pairs(const std::vector<PlaneFace>& flats, HexagonSide side,
+std::vector<FacePair> find_pairs(const std::vector<PlaneFace>& plane_faces, HexagonSide side,
                                  const WidthRange& widths) {
-    std::vector<FlatPair> pairs;
-    for (std::size_t a = 0; a < flats.size(); ++a)
-        for (std::size_t b = a + 1; b < flats.size(); ++b) {
-            const double apart = flats[a].distance + flats[b].distance;
+    std::vector<FacePair> pairs;
+    for (std::size_t a = 0; a < plane_faces.size(); ++a)
+        for (std::size_t b = a + 1; b < plane_faces.size(); ++b) {
+            const double apart = plane_faces[a].distance + plane_faces[b].distance;
             const double width = side == HexagonSide::outside ? apart : -apart;
-            if (glm::dot(flats[a].normal, flats[b].normal) < -1.0 + parallel && width > widths.low &&
-                width < widths.high)
+            if (glm::dot(plane_faces[a].normal, plane_faces[b].normal) < -1.0 + parallel &&
+                width > widths.low && width < widths.high)
                 pairs.push_back({a, b, width});
         }
     return pairs;
@@ -51,35 +51,35 @@ std::vector<FlatPair> find_pairs(const std::vector<PlaneFace>& flats, HexagonSid
 
 }  // namespace
 
-std::optional<HexagonShape> find_hexagon(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+std::optional<HexagonShape> find_hexagon(const std::vector<PlaneFace>& plane_faces, const PartMesh& mesh,
                                          HexagonSide side, const WidthRange& widths) {
-    const std::vector<FlatPair> pairs = find_pairs(flats, side, widths);
-    const auto same_width_at_60 = [&](const FlatPair& p, const FlatPair& q) {
-        return std::abs(std::abs(glm::dot(flats[p.a].normal, flats[q.a].normal)) - 0.5) < 1e-4 &&
-               std::abs(p.width - q.width) < flat_slack;
+    const std::vector<FacePair> pairs = find_pairs(plane_faces, side, widths);
+    const auto same_width_at_60 = [&](const FacePair& p, const FacePair& q) {
+        return std::abs(std::abs(glm::dot(plane_faces[p.a].normal, plane_faces[q.a].normal)) - 0.5) < 1e-4 &&
+               std::abs(p.width - q.width) < plane_position_tolerance;
     };
     for (std::size_t i = 0; i < pairs.size(); ++i)
         for (std::size_t k = i + 1; k < pairs.size(); ++k) {
-            const FlatPair &p = pairs[i], &q = pairs[k];
+            const FacePair &p = pairs[i], &q = pairs[k];
             if (!same_width_at_60(p, q)) continue;
-            const Vec3 u = flats[p.a].normal, v = flats[q.a].normal;
+            const Vec3 u = plane_faces[p.a].normal, v = plane_faces[q.a].normal;
             const Vec3 axis = glm::normalize(glm::cross(u, v));
-            const auto middle = [&](const FlatPair& pair) {
-                return 0.5 * (flats[pair.a].distance - flats[pair.b].distance);
+            const auto middle = [&](const FacePair& pair) {
+                return 0.5 * (plane_faces[pair.a].distance - plane_faces[pair.b].distance);
             };
             const double uv = glm::dot(u, v), mu = middle(p), mv = middle(q);
             const double det = 1.0 - uv * uv;
             const Vec3 centre = u * ((mu - uv * mv) / det) + v * ((mv - uv * mu) / det);
             for (std::size_t l = k + 1; l < pairs.size(); ++l) {
-                const FlatPair& r = pairs[l];
+                const FacePair& r = pairs[l];
                 if (!same_width_at_60(p, r) || !same_width_at_60(q, r)) continue;
-                const Vec3 w = flats[r.a].normal;
+                const Vec3 w = plane_faces[r.a].normal;
                 if (std::abs(glm::dot(w, axis)) > 1e-3 ||
-                    std::abs(glm::dot(w, centre) - middle(r)) > flat_slack)
+                    std::abs(glm::dot(w, centre) - middle(r)) > plane_position_tolerance)
                     continue;
                 HexagonShape hexagon{{centre, axis}, p.width, {}};
-                for (const std::size_t flat : {p.a, p.b, q.a, q.b, r.a, r.b})
-                    for (const std::uint32_t point : mesh.faces[flats[flat].face].points)
+                for (const std::size_t n : {p.a, p.b, q.a, q.b, r.a, r.b})
+                    for (const std::uint32_t point : mesh.faces[plane_faces[n].face].points)
                         hexagon.height.add(hexagon.axis.height(mesh.points[point]));
                 return hexagon;
             }

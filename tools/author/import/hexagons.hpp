@@ -14,16 +14,17 @@
 
 namespace bolt::step_import {
 
-inline constexpr double parallel = 1e-6;         // 1 − cos of 0.08°
-inline constexpr double flat_slack = 0.02 * mm;  // tolerance of the flats
+inline constexpr double parallel = 1e-6;  // 1 − cos of 0.08°
+// m; plane faces are taken to be at equal heights, or equally far apart, if they differ by less than this.
+inline constexpr double plane_position_tolerance = 0.02 * mm;
 
 struct PlaneFace {
     Vec3 normal;            // outward
-    double distance = 0.0;  // m, of the origin along the normal
-    std::size_t face = 0;
+    double distance = 0.0;  // m, of the plane from the origin along the normal
+    std::size_t face = 0;   // index in PartMesh::faces
 };
 
-std::vector<PlaneFace> find_flats(const FaceMap& faces);
+std::vector<PlaneFace> find_plane_faces(const FaceMap& faces);
 
 struct Interval {
     double low = std::numeric_limits<double>::infinity();
@@ -53,10 +54,12 @@ struct WidthRange {
     double low, high;
 };
 
-enum class HexagonSide { outside, socket };  // its faces look away from the axis, or towards it
+// `outside`: the faces of the hexagon point away from its axis; `socket`: they point towards it.
+enum class HexagonSide { outside, socket };
 
-// Three pairs of parallel faces at 60°, equally far apart, around one axis; nullopt without one.
-std::optional<HexagonShape> find_hexagon(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+// Returns three pairs of parallel faces at 60° and equally far apart around one axis; nullopt if there are
+// none.
+std::optional<HexagonShape> find_hexagon(const std::vector<PlaneFace>& plane_faces, const PartMesh& mesh,
                                          HexagonSide side, const WidthRange& widths);
 
 // Largest distance of the part, or of one of its faces, from the axis, m.

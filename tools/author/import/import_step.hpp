@@ -28,7 +28,7 @@ struct PartReport {
     std::string name;
     std::size_t instances = 0, triangles = 0, far_triangles = 0, contact_triangles = 0;
     std::size_t open_edges = 0;
-    std::vector<Vec3> open_at_mm;  // middle of the first ones, in the part's CAD frame
+    std::vector<Vec3> open_at_mm;  // middles of the first open edges, in the part's CAD frame
     std::size_t faces_without_triangles = 0;
     double deviation_mm = 0.0;  // largest distance found between a triangle and its surface
 };

@@ -51,7 +51,7 @@ std::string explain_metric_size(const PlacedFastener& bolt) {
 // Returns true if the nut has the width of one for this bolt.
 bool nut_fits(const PlacedFastener& bolt, const PlacedFastener& nut) {
     return bolt.cap ? size_of(bolt.diameter, nut.across_flats) != nullptr
-                    : std::abs(nut.across_flats - bolt.across_flats) <= flats_slack;
+                    : std::abs(nut.across_flats - bolt.across_flats) <= width_tolerance;
 }
 
 std::string describe(const PlacedFastener& bolt) {
@@ -201,9 +201,8 @@ class JointFinder {
         }
         if (nearest == nullptr)
             return "the file has no part with the shape of a nut, and no part has a tapped hole around its "
-                   "end; expected a nut on its axis, a hexagon with a hole, or a hole as wide as its thread "
-                   "or "
-                   "core";
+                   "end; expected a nut (a hexagon with a hole) on its axis, or a hole as wide as its thread "
+                   "or its core in the part that it is screwed into";
         const std::string& name = name_of(nearest->node);
         const double cosine = std::min(std::abs(glm::dot(bolt.axis, nearest->axis)), 1.0);
         if (!coaxial(bolt.origin, bolt.axis, nearest->origin, nearest->axis))
@@ -224,7 +223,7 @@ class JointFinder {
             return fmt::format(
                 "the nut on its axis, {}, is {:.2f} mm across flats; expected the bolt's width within {:g} "
                 "mm",
-                name, nearest->across_flats / mm, flats_slack / mm);
+                name, nearest->across_flats / mm, width_tolerance / mm);
         const double seat = along(*nearest, bolt.origin, bolt.axis).first;
         return fmt::format(
             "the nut on its axis, {}, begins {:.2f} mm from the bearing face of the head, and the shank is "
@@ -244,8 +243,8 @@ class JointFinder {
             }
         }
         if (nearest == nullptr)
-            return "the file has no part with the shape of a bolt; expected a bolt on its axis, a hexagon "
-                   "or a head with a socket, and a cylinder";
+            return "the file has no part with the shape of a bolt; expected a bolt (a hexagon, or a head "
+                   "with a socket, and a cylinder) on its axis";
         return fmt::format(
             "no bolt is paired with it: the nearest one, {}, has its axis {:.2f} mm away; expected a bolt of "
             "the same width across flats, or a cap screw of its thread, within {:g} mm of its axis",
@@ -339,10 +338,10 @@ class JointFinder {
         return find_tapped_part(parts, poses_, {bolt.origin, bolt.axis, bolt.diameter, bolt.low, bolt.high});
     }
 
-    // Finds the members between the heights `head` and `seat`, and remarks on a gap.
-    void find_members_of(const PlacedFastener& bolt, JointCandidate& joint, double head, double seat) {
+    // Finds the members between the heights `head` and `far`, and remarks on a gap.
+    void find_members_of(const PlacedFastener& bolt, JointCandidate& joint, double head, double far) {
         const char* const end = joint.is_screw() ? "tapped part" : "nut";
-        joint.members = members_of(bolt, joint, head, seat);
+        joint.members = members_of(bolt, joint, head, far);
         double sum = 0.0;
         for (const ClampedMember& member : joint.members) sum += member.thickness;
         if (joint.members.empty()) {
@@ -359,13 +358,13 @@ class JointFinder {
     }
 
     std::vector<ClampedMember> members_of(const PlacedFastener& bolt, const JointCandidate& joint,
-                                          double head, double seat) const {
+                                          double head, double far) const {
         std::vector<const PartGeometry*> parts;
         for (std::size_t n = 0; n < tree_.nodes.size(); ++n) parts.push_back(part_of(static_cast<int>(n)));
         for (const auto& list : {joint.head_washers, joint.nut_washers,
                                  std::vector{joint.bolt, joint.is_screw() ? joint.tapped : joint.nut}})
             for (const int node : list) parts[static_cast<std::size_t>(node)] = nullptr;
-        return find_members(parts, poses_, {bolt.origin, bolt.axis, bolt.diameter, head, seat});
+        return find_members(parts, poses_, {bolt.origin, bolt.axis, bolt.diameter, head, far});
     }
 
     void add_remark(const JointCandidate& joint, const std::string& what) {

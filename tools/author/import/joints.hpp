@@ -20,18 +20,21 @@ struct JointCandidate {
     std::string size;  // "M16", "M16x1.5"
     joint::HeadShape head = joint::HeadShape::hexagon;
     double bolt_length = 0.0;  // m, under the head
-    double grip = 0.0;         // m, distance between head and nut or tapped part without washers
-    Vec3 seat{0.0};  // m, centre of the hole on the face of the member under the nut or head that is turned
-    Vec3 axis{0.0, 1.0, 0.0};  // from the members to that nut or head
+    double grip = 0.0;         // m, distance from the head to the nut or the tapped part, without the washers
+    // m, centre of the hole, on the face of the member under the nut or head that is turned.
+    Vec3 seat{0.0};
+    Vec3 axis{0.0, 1.0, 0.0};  // from the members to the nut or head that is turned
     int bolt = -1, nut = -1;   // nodes; a screw has no nut
     int tapped = -1;           // node of the part that a screw is screwed into; −1 with a nut
-    double engagement = 0.0;   // m of the screw's length in that part; 0: all beyond members and washer
+    // m, length of the thread in that part; 0: the screw ends inside the part, so its whole length beyond
+    // members and washers engages.
+    double engagement = 0.0;
     std::vector<int> head_washers, nut_washers;
     std::vector<ClampedMember> members;  // from head to nut or tapped part
     int group = -1;                      // node joint_ID
 
     [[nodiscard]] bool is_screw() const { return tapped >= 0; }
-    // A key turns a cap screw, also one with a nut.
+    // Cap screws are turned at the head, with a key, even if they have a nut.
     [[nodiscard]] bool turns_head() const { return is_screw() || head == joint::HeadShape::socket; }
 };
 

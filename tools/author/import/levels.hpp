@@ -12,9 +12,9 @@
 
 namespace bolt::step_import {
 
-// Returns one normal for each index: the area-weighted mean of the triangles at the same position whose
-// normal differs by less than `crease` (rad) from that of the corner's own triangle. Flats stay flat and
-// edges stay sharp.
+// Returns one normal for each index: the area-weighted mean of the normals of those triangles at the same
+// position whose normal differs by less than `crease` (rad) from that of the corner's own triangle. Plane
+// faces stay plane and edges stay sharp.
 std::vector<glm::vec3> crease_normals(const std::vector<glm::vec3>& positions,
                                       const std::vector<std::uint32_t>& indices, double crease);
 
@@ -40,7 +40,7 @@ FarLevel simplify(const std::vector<assets::Mesh>& meshes, const std::vector<std
 
 struct OpenEdgeList {
     std::size_t count = 0;
-    std::vector<Vec3> first;  // m, middles of the first ones, relative to the part
+    std::vector<Vec3> first;  // m, middles of the first edges, relative to the part
 };
 
 // The contact mesh of a part; its points are shared along the edges of the B-rep.

@@ -46,7 +46,7 @@ struct MaterialTable {
     std::vector<TableMaterial> materials;  // sorted by name
 };
 
-// Reads the materials of `text` into the table, where they replace those of the same name. Appends all errors
+// Reads the materials of `text` into the table; each replaces a material of the same name. Appends all errors
 // with line and column. `keys` receives every key that the reader knows.
 void read_materials(std::string_view text, std::string_view file, MaterialTable& table,
                     std::vector<Error>& errors, std::set<std::string>* keys = nullptr);

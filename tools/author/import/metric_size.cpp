@@ -68,7 +68,7 @@ std::string inch_text(double diameter) {
 const joint::FastenerSize* size_of(double diameter, double across_flats) {
     const joint::FastenerSize& size = nearest_size(diameter);
     if (std::abs(size.d - diameter) > diameter_slack(size)) return nullptr;
-    const auto fits = [&](double flats) { return std::abs(across_flats - flats) < flats_slack; };
+    const auto fits = [&](double flats) { return std::abs(across_flats - flats) < width_tolerance; };
     return fits(size.across_flats) || fits(din_across_flats(size)) ? &size : nullptr;
 }
 

@@ -9,7 +9,7 @@
 
 namespace bolt::step_import {
 
-inline constexpr double flats_slack = 0.5 * mm;  // tolerance of the width across flats
+inline constexpr double width_tolerance = 0.5 * mm;  // of the width across flats
 
 // The cylindrical head of a screw with a hexagonal socket, m.
 struct CapHead {
@@ -26,8 +26,8 @@ const joint::FastenerSize* size_of(double diameter, double across_flats);
 // standard demands.
 const joint::FastenerSize* size_of(double diameter, double across_flats, const CapHead& head);
 
-// Explains why size_of() returns null for a bolt of this diameter: what is expected, and the inch thread of
-// this diameter, if there is one.
+// Explains why size_of() returns null for a bolt of this diameter: states the expected dimensions and, if
+// this is the diameter of an inch thread, names the thread.
 std::string explain_size(double diameter);
 
 // The same for a cap screw. Names the standard of a low head.

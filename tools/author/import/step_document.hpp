@@ -91,7 +91,8 @@ struct StepInstance {
     gp_Trsf placement;  // relative to the parent
     int part = -1;
     std::vector<int> children;
-    std::optional<Colour> colour;  // of this instance: overrides the part, is overridden by a face
+    // Of this instance: overrides the colour of the part; the colour of a face overrides this one.
+    std::optional<Colour> colour;
 };
 
 // CAD frame: millimetres, Z up.

@@ -11,7 +11,7 @@
 
 namespace bolt::step_import {
 
-// A part with one colour override; all instances that share both use one mesh.
+// A part with one colour override. Instances with the same part and the same colour use one mesh.
 struct ColouredPart {
     int part = -1;
     std::optional<Colour> colour;  // of the instances; overrides the colour of the part
