@@ -267,15 +267,16 @@ ToolParts shaft_parts(double lower, double upper, double top, Detail detail) {
 
 constexpr double bit_length = 55.0;  // mm, of a bit on a ratchet
 
-// A socket or a bit, with its extension bar. The drive's shoulder is at the height `top`.
-struct DriveEndParts {
+// The parts on the square drive of a ratchet: a socket or a bit, with its extension bar. The drive's shoulder
+// is at the height `top`.
+struct AttachmentParts {
     ToolParts parts;
     double top = 0.0;
 };
 
-DriveEndParts drive_end(const ToolParameters& p, Detail detail) {
+AttachmentParts attachment_parts(const ToolParameters& p, Detail detail) {
     const double s = p.size / mm, drive = p.drive / mm, opening = p.opening / mm;
-    DriveEndParts end;
+    AttachmentParts end;
     if (measure_of(p) == SizeMeasure::socket_screw) {
         ToolParameters bit = p;
         bit.length = bit_length * mm;
@@ -314,21 +315,21 @@ SocketGrip socket_grip(const ToolParameters& p) {
 
 KeyGrip key_grip(const ToolParameters& p) {
     const double s = p.size / mm, flat = 0.5 * p.opening / mm, tip = -0.5 * key_engagement * s;
-    if (p.kind != ToolKind::hex_key) return {tip, 0.06 * s, bit_length - 1.55 * p.drive / mm - tip};
+    if (p.kind != ModelKind::hex_key) return {tip, 0.06 * s, bit_length - 1.55 * p.drive / mm - tip};
     return {tip, 0.072 * s, key_arms(p.size).arm / mm - flat - key_bend(s)};
 }
 
-RatchetOnEnd ratchet_on_end(const ToolParameters& p, Detail detail) {
+RatchetWithAttachment ratchet_with_attachment(const ToolParameters& p, Detail detail) {
     const double drive = p.drive / mm;
-    DriveEndParts end = drive_end(p, detail);
+    AttachmentParts end = attachment_parts(p, detail);
     const RatchetHead head = ratchet_head(drive, end.top + 0.5);
     append(end.parts, ratchet_head_parts(head, drive, detail));
     return {std::move(end.parts), head.radius, head.middle(), head.high};
 }
 
-ToolParts socket_parts(const ToolParameters& p, Detail detail) {
+ToolParts ratchet_parts(const ToolParameters& p, Detail detail) {
     const double drive = p.drive / mm;
-    DriveEndParts end = drive_end(p, detail);
+    AttachmentParts end = attachment_parts(p, detail);
     const RatchetHead head = ratchet_head(drive, end.top + 0.5);
     append(end.parts, ratchet_head_parts(head, drive, detail));
     append(end.parts, ratchet_handle_parts(head, drive, p.teeth, p.length / mm, detail));

@@ -14,17 +14,18 @@ namespace bolt::tool_models {
 namespace {
 
 constexpr KindInfo kinds[] = {
-    {ToolKind::open_end, "open_end", "open-end wrench, head at 15°", SizeMeasure::nut},
-    {ToolKind::ring, "ring", "cranked ring wrench, 12 points", SizeMeasure::nut},
-    {ToolKind::combination, "combination", "open end and ring of one size", SizeMeasure::nut},
-    {ToolKind::hex_key, "hex_key", "hexagon key, ISO 2936", SizeMeasure::socket_screw},
-    {ToolKind::socket, "socket", "12-point socket on a ratchet handle", SizeMeasure::nut},
-    {ToolKind::extension_bar, "extension_bar", "extension bar between socket and handle", SizeMeasure::drive},
-    {ToolKind::adaptor, "adaptor", "adaptor from one square drive to another", SizeMeasure::drive},
-    {ToolKind::hex_bit, "hex_bit", "hexagon bit in a socket for a square drive", SizeMeasure::socket_screw},
-    {ToolKind::torque_wrench, "torque_wrench", "click torque wrench with an open-end insert",
+    {ModelKind::open_end_wrench, "open_end", "open-end wrench, head at 15°", SizeMeasure::nut},
+    {ModelKind::ring_wrench, "ring", "cranked ring wrench, 12 points", SizeMeasure::nut},
+    {ModelKind::combination_wrench, "combination", "open end and ring of one size", SizeMeasure::nut},
+    {ModelKind::hex_key, "hex_key", "hexagon key, ISO 2936", SizeMeasure::socket_screw},
+    {ModelKind::ratchet, "socket", "12-point socket on a ratchet handle", SizeMeasure::nut},
+    {ModelKind::extension_bar, "extension_bar", "extension bar between socket and handle",
+     SizeMeasure::drive},
+    {ModelKind::adaptor, "adaptor", "adaptor from one square drive to another", SizeMeasure::drive},
+    {ModelKind::hex_bit, "hex_bit", "hexagon bit in a socket for a square drive", SizeMeasure::socket_screw},
+    {ModelKind::click_torque_wrench, "torque_wrench", "click torque wrench with an open-end insert",
      SizeMeasure::nut},
-    {ToolKind::electronic_torque_wrench, "electronic_torque_wrench",
+    {ModelKind::electronic_torque_wrench, "electronic_torque_wrench",
      "torque wrench with a display and a light, open-end insert", SizeMeasure::nut},
 };
 
@@ -67,7 +68,7 @@ TestTorque interpolated_torque(double size_mm, double TorqueRow::*column) {
     while (i + 1 < last && size_mm > torque_rows[i + 1].size) ++i;
     const TorqueRow &a = torque_rows[i], &b = torque_rows[i + 1];
     for (const TorqueRow& row : {a, b})
-        if (same(row.size, size_mm)) return {row.*column, TorqueSource::read};
+        if (same(row.size, size_mm)) return {row.*column, TorqueSource::tabulated};
     const double exponent = std::log(b.*column / (a.*column)) / std::log(b.size / a.size);
     const double torque = a.*column * std::pow(size_mm / a.size, exponent);
     const bool within = size_mm > torque_rows[0].size && size_mm < torque_rows[last].size;
@@ -99,11 +100,11 @@ Status check_size(const ToolParameters& p) {
 double standard_drive(const ToolParameters& p) {
     const double s = p.size / mm;
     switch (p.kind) {
-        case ToolKind::adaptor:  // the next greater drive, the greatest one to the next smaller
+        case ModelKind::adaptor:  // to the next greater drive; from the greatest, to the next smaller
             for (const double drive : drive_sizes)
                 if (drive > s + 1e-6) return drive * mm;
             return drive_sizes[3] * mm;
-        case ToolKind::extension_bar:
+        case ModelKind::extension_bar:
             return 0.0;
         default:
             return measure_of(p) == SizeMeasure::nut ? (s <= 13.0   ? 10.0
@@ -121,44 +122,44 @@ double standard_drive(const ToolParameters& p) {
 double standard_length(const ToolParameters& p) {
     const double s = p.size;
     switch (p.kind) {
-        case ToolKind::open_end:
-        case ToolKind::ring:
+        case ModelKind::open_end_wrench:
+        case ModelKind::ring_wrench:
             return std::round((8.2 * s + 83.0 * mm) / (5.0 * mm)) * 5.0 * mm;
-        case ToolKind::combination:
+        case ModelKind::combination_wrench:
             return std::round((9.5 * s + 55.0 * mm) / (5.0 * mm)) * 5.0 * mm;
-        case ToolKind::hex_key:
+        case ModelKind::hex_key:
             return key_arms(s).handle;
-        case ToolKind::socket:
+        case ModelKind::ratchet:
             return (p.drive < 11.0 * mm ? 200.0 : p.drive < 15.0 * mm ? 270.0 : 500.0) * mm;
-        case ToolKind::extension_bar:
+        case ModelKind::extension_bar:
             return 10.0 * s;
-        case ToolKind::adaptor:
+        case ModelKind::adaptor:
             return 0.9 * s + 1.6 * p.drive;
-        case ToolKind::hex_bit:
+        case ModelKind::hex_bit:
             return 55.0 * mm;
         default:
             return std::max(8.2 * s + 290.0 * mm, 380.0 * mm);
     }
 }
 
-bool is_torque_wrench(ToolKind kind) {
-    return kind == ToolKind::torque_wrench || kind == ToolKind::electronic_torque_wrench;
+bool is_torque_wrench(ModelKind kind) {
+    return kind == ModelKind::click_torque_wrench || kind == ModelKind::electronic_torque_wrench;
 }
 
 bool has_open_end(const ToolParameters& p) {
-    return p.kind == ToolKind::open_end || p.kind == ToolKind::combination ||
+    return p.kind == ModelKind::open_end_wrench || p.kind == ModelKind::combination_wrench ||
            (is_torque_wrench(p.kind) && !has_ratchet(p));
 }
 
 bool has_drive(const ToolParameters& p) {
-    return has_ratchet(p) || p.kind == ToolKind::adaptor || p.kind == ToolKind::hex_bit;
+    return has_ratchet(p) || p.kind == ModelKind::adaptor || p.kind == ModelKind::hex_bit;
 }
 
-Status check_end(const ToolParameters& p) {
+Status check_head(const ToolParameters& p) {
     const std::string_view name = info_of(p.kind).name;
-    if (p.end != DriveEnd::usual && p.kind != ToolKind::socket && !is_torque_wrench(p.kind))
+    if (p.head != ModelHead::standard && p.kind != ModelKind::ratchet && !is_torque_wrench(p.kind))
         return usage(fmt::format("{} has one head of its own", name), "no choice of heads");
-    if (p.end == DriveEnd::open_end && p.kind == ToolKind::socket)
+    if (p.head == ModelHead::open_end && p.kind == ModelKind::ratchet)
         return usage("a ratchet does not turn an open end", "socket or hex_bit");
     if (p.extension != 0.0 && !has_ratchet(p))
         return usage(fmt::format("{} has no square drive for an extension bar", name),
@@ -171,7 +172,7 @@ Status check_end(const ToolParameters& p) {
 
 Status check_options(const ToolParameters& p) {
     const std::string_view name = info_of(p.kind).name;
-    BOLT_TRY(check_end(p));
+    BOLT_TRY(check_head(p));
     if (p.teeth != 0 && !has_ratchet(p))
         return usage(fmt::format("{} has no ratchet, so it has no teeth", name), "no number of teeth");
     if (p.teeth != 0 && std::find(ratchet_teeth.begin(), ratchet_teeth.end(), p.teeth) == ratchet_teeth.end())
@@ -181,7 +182,7 @@ Status check_options(const ToolParameters& p) {
     if (!has_drive(p)) return usage(fmt::format("{} has no square drive beside its size", name), "no drive");
     for (const double drive : drive_sizes)
         if (same(drive, p.drive / mm)) {
-            if (p.kind == ToolKind::adaptor && same(p.drive, p.size))
+            if (p.kind == ModelKind::adaptor && same(p.drive, p.size))
                 return usage(fmt::format("an adaptor from {} mm to the same drive", in_mm(p.drive)),
                              "another drive");
             return {};
@@ -194,40 +195,41 @@ Status check_options(const ToolParameters& p) {
 
 double shortest_length(const ToolParameters& p) {
     switch (p.kind) {
-        case ToolKind::hex_key:
+        case ModelKind::hex_key:
             return 4.0 * p.size;
-        case ToolKind::extension_bar:
+        case ModelKind::extension_bar:
             return 3.5 * p.size;
-        case ToolKind::adaptor:
+        case ModelKind::adaptor:
             return 0.5 * p.size + 1.2 * p.drive;
-        case ToolKind::hex_bit:
+        case ModelKind::hex_bit:
             return 1.6 * p.drive + 0.6 * p.size;
-        case ToolKind::socket:
+        case ModelKind::ratchet:
             return 8.0 * p.drive;
-        case ToolKind::combination:
+        case ModelKind::combination_wrench:
             return 5.2 * p.size + 30.0 * mm;
-        case ToolKind::torque_wrench:
-        case ToolKind::electronic_torque_wrench:
+        case ModelKind::click_torque_wrench:
+        case ModelKind::electronic_torque_wrench:
             return has_ratchet(p) ? 8.0 * p.drive + 150.0 * mm : 3.0 * p.size + 130.0 * mm;
         default:
             return 3.8 * p.size + 30.0 * mm;
     }
 }
 
-std::span<const KindInfo> tool_kinds() { return kinds; }
+std::span<const KindInfo> model_kinds() { return kinds; }
 
-const KindInfo& info_of(ToolKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
+const KindInfo& info_of(ModelKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
 bool has_ratchet(const ToolParameters& p) {
-    return p.kind == ToolKind::socket ||
-           (is_torque_wrench(p.kind) && (p.end == DriveEnd::socket || p.end == DriveEnd::hex_bit));
+    return p.kind == ModelKind::ratchet ||
+           (is_torque_wrench(p.kind) && (p.head == ModelHead::socket || p.head == ModelHead::hex_bit));
 }
 
 SizeMeasure measure_of(const ToolParameters& p) {
-    return has_ratchet(p) && p.end == DriveEnd::hex_bit ? SizeMeasure::socket_screw : info_of(p.kind).measure;
+    return has_ratchet(p) && p.head == ModelHead::hex_bit ? SizeMeasure::socket_screw
+                                                          : info_of(p.kind).measure;
 }
 
-Result<ToolKind> kind_named(std::string_view name) {
+Result<ModelKind> kind_named(std::string_view name) {
     std::vector<std::string> names;
     for (const KindInfo& info : kinds) {
         if (info.name == name) return info.kind;
@@ -260,19 +262,19 @@ KeyArms key_arms(double size) {
             same(s, a.size) || same(s, b.size)};
 }
 
-TestTorque test_torque(ToolKind kind, double size) {
+TestTorque test_torque(ModelKind kind, double size) {
     const double s = size / mm;
     switch (kind) {
-        case ToolKind::ring:
-        case ToolKind::socket:
+        case ModelKind::ring_wrench:
+        case ModelKind::ratchet:
             return interpolated_torque(s, &TorqueRow::ring);
-        case ToolKind::extension_bar:
-        case ToolKind::adaptor:
+        case ModelKind::extension_bar:
+        case ModelKind::adaptor:
             for (const DriveRow& row : drive_rows)
                 if (same(row.size, s)) return {row.torque, TorqueSource::estimated};
             return {};
-        case ToolKind::hex_key:
-        case ToolKind::hex_bit:
+        case ModelKind::hex_key:
+        case ModelKind::hex_bit:
             return {};  // no table of ISO 2936 or ISO 2351 was to be had
         default: {
             // Beyond the table the power law of open ends exceeds that of rings, which is impossible.
@@ -312,8 +314,8 @@ std::string description(const ToolParameters& p) {
     add("jaw depth", p.jaw_depth);
     add("jaw tip", p.jaw_tip);
     if (p.teeth > 0) text += fmt::format(", {} teeth", p.teeth);
-    if (p.end == DriveEnd::socket) text += ", socket";
-    if (p.end == DriveEnd::hex_bit) text += ", hexagon bit";
+    if (p.head == ModelHead::socket) text += ", socket";
+    if (p.head == ModelHead::hex_bit) text += ", hexagon bit";
     add("extension bar", p.extension);
     return text;
 }

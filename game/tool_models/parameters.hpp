@@ -15,47 +15,50 @@
 
 namespace bolt::tool_models {
 
-enum class ToolKind : std::uint8_t {
-    open_end,
-    ring,
-    combination,
+// Kinds of models. A kind that content::ToolKind has too has the same name here. `ratchet` is a ratchet with
+// its socket or bit; its name on the command line is "socket".
+enum class ModelKind : std::uint8_t {
+    open_end_wrench,
+    ring_wrench,
+    combination_wrench,
     hex_key,
-    socket,
+    ratchet,
     extension_bar,
     adaptor,
     hex_bit,
-    torque_wrench,
+    click_torque_wrench,
     electronic_torque_wrench
 };
 
-// The dimension that the size of a kind gives: the width across flats of the nut or of the socket screw,
-// or the width of its square drive.
+// The dimension that the size of a kind of tool states: the width across flats of the nut or of the screw's
+// socket, or the width of the tool's square drive.
 enum class SizeMeasure : std::uint8_t { nut, socket_screw, drive };
 
 struct KindInfo {
-    ToolKind kind;
+    ModelKind kind;
     std::string_view name;         // on the command line and in sessions
     std::string_view description;  // one line
     SizeMeasure measure;
 };
-std::span<const KindInfo> tool_kinds();
-const KindInfo& info_of(ToolKind kind);
+std::span<const KindInfo> model_kinds();
+const KindInfo& info_of(ModelKind kind);
 
 // Fails if there is no such kind; the error suggests the nearest name.
-Result<ToolKind> kind_named(std::string_view name);
+Result<ModelKind> kind_named(std::string_view name);
 
-// The head of a ratchet or a torque wrench. The other kinds have one head of their own.
-enum class DriveEnd : std::uint8_t { usual, open_end, socket, hex_bit };
+// The head of a ratchet or a torque wrench; every other kind has only its standard head. The standard head of
+// a ratchet is a socket, that of a torque wrench an open end.
+enum class ModelHead : std::uint8_t { standard, open_end, socket, hex_bit };
 
 // Metres and radians. 0: the standard value.
 struct ToolParameters {
-    ToolKind kind = ToolKind::open_end;
+    ModelKind kind = ModelKind::open_end_wrench;
     double size = 0.0;     // across flats of the nut or the socket screw, or the width of the drive
     double opening = 0.0;  // between the flats of the tool: size + play; of keys: size
     double length = 0.0;   // from the origin to the far end
     double drive = 0.0;    // width of the square drive
     int teeth = 0;         // of the ratchet
-    DriveEnd end = DriveEnd::usual;
+    ModelHead head = ModelHead::standard;
     double extension = 0.0;  // length of the bar between a ratchet and its socket or bit; 0: none
     // Open ends and the inserts of torque wrenches; jaw dimensions as in haptics/collision/jaw.hpp.
     std::optional<double> head_angle = {};
@@ -64,7 +67,7 @@ struct ToolParameters {
 
 SizeMeasure measure_of(const ToolParameters& parameters);
 
-// A socket or a bit on the square drive of a ratchet.
+// Returns true if the tool is a socket or a bit on the square drive of a ratchet.
 bool has_ratchet(const ToolParameters& completed);
 
 // The sizes of a kind in mm, ascending.
@@ -81,14 +84,14 @@ struct KeyArms {
 KeyArms key_arms(double size);
 
 // A test torque, N·m, with its origin.
-enum class TorqueSource : std::uint8_t { none, read, interpolated, estimated };
+enum class TorqueSource : std::uint8_t { none, tabulated, interpolated, estimated };
 struct TestTorque {
     double torque = 0.0;
     TorqueSource source = TorqueSource::none;
 };
-TestTorque test_torque(ToolKind kind, double size);
+TestTorque test_torque(ModelKind kind, double size);
 
-// Play of the jaws of generated tools, m, as of the shipped wrenches.
+// m, play of the jaws of generated tools; the shipped wrenches have the same.
 inline constexpr double standard_play = 0.2e-3;
 inline constexpr double longest_tool = 2.5;  // m
 inline constexpr std::array ratchet_teeth = {24, 72, 90};

@@ -58,7 +58,7 @@ ToolParts open_end_parts(const ToolParameters& p, Detail detail);
 ToolParts ring_parts(const ToolParameters& p, Detail detail);
 ToolParts combination_parts(const ToolParameters& p, Detail detail);
 ToolParts hex_key_parts(const ToolParameters& p, Detail detail);
-ToolParts socket_parts(const ToolParameters& p, Detail detail);
+ToolParts ratchet_parts(const ToolParameters& p, Detail detail);
 ToolParts extension_bar_parts(const ToolParameters& p, Detail detail);
 ToolParts adaptor_parts(const ToolParameters& p, Detail detail);
 ToolParts hex_bit_parts(const ToolParameters& p, Detail detail);
@@ -76,16 +76,17 @@ struct KeyGrip {
 };
 KeyGrip key_grip(const ToolParameters& p);
 
-// Socket or bit with a ratchet head, for a torque wrench. mm: radius, middle and height of the head.
-struct RatchetOnEnd {
+// A ratchet head with its socket or bit, for a torque wrench. mm: radius, middle and height of the ratchet
+// head.
+struct RatchetWithAttachment {
     ToolParts parts;
     double radius = 0.0, middle = 0.0, high = 0.0;
 };
-RatchetOnEnd ratchet_on_end(const ToolParameters& p, Detail detail);
+RatchetWithAttachment ratchet_with_attachment(const ToolParameters& p, Detail detail);
 
 ToolParts parts_of(const ToolParameters& completed, Detail detail);
 
-// A size as it stands on a tool: "24", "12.5".
+// A size as it is written on a tool: "24", "12.5".
 std::string size_text(double size_mm);
 
 // A part "size" with raised strokes at the height z of a level face, read along +X; none in a contact model.

@@ -58,8 +58,9 @@ struct ProfilePoint {
     RadiusOfAngle shape = {};
 };
 
-// Turned parts about Z and about X. Drawn with the axis upwards and the radius to the right, the solid is to
-// the left of the profile's direction. So a profile runs up the outside, over the rim and down the bore.
+// Turned parts about Z and about X. If a profile is drawn with the axis upwards and the radius to the right,
+// the solid lies to the left of the profile's direction. So a profile runs up the outside, over the rim and
+// down the bore.
 Shell lathe_z(std::span<const ProfilePoint> profile, int segments);
 Shell lathe_x(std::span<const ProfilePoint> profile, int segments);
 Shell closed_lathe_z(std::span<const ProfilePoint> profile, int segments);

@@ -136,24 +136,24 @@ void add_node(assets::Model& model, const std::string& name, assets::Primitive p
 
 ToolParts parts_of(const ToolParameters& p, Detail detail) {
     switch (p.kind) {
-        case ToolKind::open_end:
+        case ModelKind::open_end_wrench:
             return open_end_parts(p, detail);
-        case ToolKind::ring:
+        case ModelKind::ring_wrench:
             return ring_parts(p, detail);
-        case ToolKind::combination:
+        case ModelKind::combination_wrench:
             return combination_parts(p, detail);
-        case ToolKind::hex_key:
+        case ModelKind::hex_key:
             return hex_key_parts(p, detail);
-        case ToolKind::socket:
-            return socket_parts(p, detail);
-        case ToolKind::extension_bar:
+        case ModelKind::ratchet:
+            return ratchet_parts(p, detail);
+        case ModelKind::extension_bar:
             return extension_bar_parts(p, detail);
-        case ToolKind::adaptor:
+        case ModelKind::adaptor:
             return adaptor_parts(p, detail);
-        case ToolKind::hex_bit:
+        case ModelKind::hex_bit:
             return hex_bit_parts(p, detail);
-        case ToolKind::torque_wrench:
-        case ToolKind::electronic_torque_wrench:
+        case ModelKind::click_torque_wrench:
+        case ModelKind::electronic_torque_wrench:
             break;
     }
     return torque_wrench_parts(p, detail);
@@ -192,7 +192,7 @@ constexpr double beyond_grip = 50.0 * mm;  // half the width of a hand
 ToolParameters open_end_parameters(const content::WrenchDesign& design) {
     constexpr double click_beyond_grip = 73.5 * mm, click_parts = 330.0 * mm;  // as in torque_wrenches.cpp
     ToolParameters p;
-    p.kind = design.click_swing > 0.0 ? ToolKind::torque_wrench : ToolKind::open_end;
+    p.kind = design.click_swing > 0.0 ? ModelKind::click_torque_wrench : ModelKind::open_end_wrench;
     p.opening = design.jaw;
     // The nominal size is the greatest whole or half millimetre that the jaw fits with play.
     p.size = std::floor(2.0 * (design.jaw / mm - 0.05)) / 2.0 * mm;
@@ -204,7 +204,7 @@ ToolParameters open_end_parameters(const content::WrenchDesign& design) {
     p.jaw_tip = design.jaw_tip;
     const OpenEndHead head = open_end_head(p);
     const double reach = (head.middle + head.radius) * mm;
-    if (p.kind == ToolKind::open_end) {
+    if (p.kind == ModelKind::open_end_wrench) {
         p.length = std::max(design.handle_length + beyond_grip, 1.6 * reach + 30.0 * mm);
         return p;
     }
@@ -217,7 +217,7 @@ ToolParameters open_end_parameters(const content::WrenchDesign& design) {
 }
 
 double adjusted_length(const ToolParameters& p, double handle_length) {
-    const bool clicks = p.kind == ToolKind::torque_wrench;
+    const bool clicks = p.kind == ModelKind::click_torque_wrench;
     return std::clamp(handle_length + (clicks ? 73.5 * mm : beyond_grip), shortest_length(p), longest_tool);
 }
 
@@ -229,20 +229,20 @@ ToolParameters parameters_of(const content::WrenchDesign& design) {
     p.size = design.size;
     p.teeth = design.teeth;
     p.extension = design.extension;
-    if (design.head == content::ToolHead::hex_bit) p.end = DriveEnd::hex_bit;
+    if (design.head == content::ToolHead::hex_bit) p.head = ModelHead::hex_bit;
     switch (design.kind) {
         case content::ToolKind::ring_wrench:
-            p.kind = ToolKind::ring;
+            p.kind = ModelKind::ring_wrench;
             break;
         case content::ToolKind::hex_key:
-            p.kind = ToolKind::hex_key;
+            p.kind = ModelKind::hex_key;
             break;
         case content::ToolKind::ratchet:
-            p.kind = ToolKind::socket;
+            p.kind = ModelKind::ratchet;
             break;
         default:
-            p.kind = ToolKind::torque_wrench;
-            if (p.end == DriveEnd::usual) p.end = DriveEnd::socket;
+            p.kind = ModelKind::click_torque_wrench;
+            if (p.head == ModelHead::standard) p.head = ModelHead::socket;
             break;
     }
     const auto sizes = standard_sizes(measure_of(p));
@@ -262,13 +262,13 @@ Result<GrippingHead> gripping_head(const ToolParameters& p) {
         const double r = 0.6 * p.drive;
         gripping.twist_stiffness = 79.3e9 * 0.5 * pi * square(square(r)) / p.extension;
     }
-    if (p.kind == ToolKind::ring) {
+    if (p.kind == ModelKind::ring_wrench) {
         const RingHead ring = ring_head(p);
         const double half = 0.5 * ring.thickness * mm, lead = 0.05 * p.opening;
         gripping.head = Ring{p.opening, 12, -half, half, lead, ring.outside * mm, false, 0.0};
         return gripping;
     }
-    if (p.kind == ToolKind::hex_key || measure_of(p) == SizeMeasure::socket_screw) {
+    if (p.kind == ModelKind::hex_key || measure_of(p) == SizeMeasure::socket_screw) {
         const KeyGrip key = key_grip(p);
         gripping.head = Key{p.opening, key.tip * mm, key.chamfer * mm, key.length * mm, tooth};
         gripping.head_angle = pi / 6.0;

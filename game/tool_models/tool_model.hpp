@@ -19,11 +19,11 @@ assets::Model drawn_model(const ToolParameters& completed);
 // The model for contact: closed meshes without normals and materials, a node for each, with fewer triangles.
 assets::Model contact_model(const ToolParameters& completed);
 
-// The tool of an assembly: an open-end wrench or a click torque wrench with its dimensions. Every design
-// that the assembly's reader accepts has one.
+// The parameters of a tool of an assembly, of any kind that an assembly may have. Every design that the
+// assembly's reader accepts has parameters.
 ToolParameters parameters_of(const content::WrenchDesign& design);
 
-// The part of the tool that grips, for contacts and torque, and the direction of its handle.
+// The part of a tool that grips, for contacts and torque, and its direction relative to the handle.
 struct GrippingHead {
     collision::ToolHead head;
     double head_angle = 0.0;       // rad, as servo::Wrench::head_angle

@@ -1,4 +1,5 @@
-// Torque wrenches with an open-end insert: one that clicks, and an electronic one with a display and a light.
+// Torque wrenches with an open-end insert, or with a ratchet and a socket or a bit: one that clicks, and an
+// electronic one with a display and a light.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -227,12 +228,12 @@ ToolParts electronic_parts(const TorqueWrenchEnds& x, Detail detail) {
 namespace {
 
 ToolParts body_parts(const ToolParameters& p, const TorqueWrenchEnds& x, Detail detail) {
-    return p.kind == ToolKind::torque_wrench ? click_parts(x, detail) : electronic_parts(x, detail);
+    return p.kind == ModelKind::click_torque_wrench ? click_parts(x, detail) : electronic_parts(x, detail);
 }
 
 // A torque wrench with a ratchet head; its handle is at the height of this head.
 ToolParts ratchet_torque_wrench_parts(const ToolParameters& p, Detail detail) {
-    RatchetOnEnd head = ratchet_on_end(p, detail);
+    RatchetWithAttachment head = ratchet_with_attachment(p, detail);
     const TorqueWrenchEnds x = ends_of(head.radius, p.length / mm);
     ToolParts body = body_parts(p, x, detail);
     const double thickness = 0.8 * head.high;

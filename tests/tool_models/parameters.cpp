@@ -15,7 +15,7 @@ std::string error_of(ToolParameters p) {
     return made ? "" : made.error().message();
 }
 
-ToolParameters tool(ToolKind kind, double size_mm) {
+ToolParameters tool(ModelKind kind, double size_mm) {
     ToolParameters p;
     p.kind = kind;
     p.size = size_mm * mm;
@@ -28,7 +28,7 @@ TEST_CASE("Tool parameters: an unknown kind gives the nearest name, and every ki
     CHECK(kind_named("rign").error().message() ==
           "there is no tool of the kind \"rign\"; did you mean \"ring\"?");
     CHECK(kind_named("hammer").error().message().find("expected open_end, ring") != std::string::npos);
-    for (const KindInfo& info : tool_kinds()) {
+    for (const KindInfo& info : model_kinds()) {
         CHECK(*kind_named(info.name) == info.kind);
         CHECK(info_of(info.kind).name == info.name);
     }
@@ -41,33 +41,33 @@ TEST_CASE("Tool parameters: every hexagon of an assembly's fasteners has a wrenc
         CAPTURE(std::string(fastener.name));
         CHECK(std::any_of(sizes.begin(), sizes.end(),
                           [&](double size) { return std::abs(size * mm - fastener.across_flats) < 1e-9; }));
-        CHECK(error_of(tool(ToolKind::open_end, fastener.across_flats / mm)) == "");
+        CHECK(error_of(tool(ModelKind::open_end_wrench, fastener.across_flats / mm)) == "");
     }
 }
 
 TEST_CASE("Tool parameters: impossible values are refused with the nearest valid one") {
-    CHECK(error_of(tool(ToolKind::ring, 65)) ==
+    CHECK(error_of(tool(ModelKind::ring_wrench, 65)) ==
           "ring of 65 mm: the size is out of range; expected 5.5 to 60 mm; the nearest is 60");
-    CHECK(error_of(tool(ToolKind::hex_key, 1)) ==
+    CHECK(error_of(tool(ModelKind::hex_key, 1)) ==
           "hex_key of 1 mm: the size is out of range; expected 2 to 22 mm; the nearest is 2");
-    CHECK(error_of(tool(ToolKind::extension_bar, 12)) ==
+    CHECK(error_of(tool(ModelKind::extension_bar, 12)) ==
           "extension_bar of 12 mm: there is no such square drive; expected 12.5 mm, the nearest of 6.3, 10, "
           "12.5, 20, 25");
-    CHECK(error_of(tool(ToolKind::ring, bolt::nan)).find("out of range") != std::string::npos);
-    ToolParameters p = tool(ToolKind::socket, 24);
+    CHECK(error_of(tool(ModelKind::ring_wrench, bolt::nan)).find("out of range") != std::string::npos);
+    ToolParameters p = tool(ModelKind::ratchet, 24);
     p.teeth = 73;
     CHECK(error_of(p) == "a ratchet of 73 teeth is unknown; expected 24, 72, 90");
     p.teeth = 24;
     CHECK(error_of(p) == "");
     p.drive = 11.0 * mm;
     CHECK(error_of(p) == "there is no square drive of 11 mm; expected 6.3, 10, 12.5, 20, 25 mm");
-    p = tool(ToolKind::open_end, 24);
+    p = tool(ModelKind::open_end_wrench, 24);
     p.teeth = 24;
     CHECK(error_of(p) == "open_end has no ratchet, so it has no teeth; expected no number of teeth");
-    p = tool(ToolKind::open_end, 24);
+    p = tool(ModelKind::open_end_wrench, 24);
     p.length = 50.0 * mm;
     CHECK(error_of(p) == "open_end of 24 mm: a length of 50 mm is impossible; expected 122 to 2500 mm");
-    p = tool(ToolKind::adaptor, 10);
+    p = tool(ModelKind::adaptor, 10);
     p.drive = 10.0 * mm;
     CHECK(error_of(p) == "an adaptor from 10 mm to the same drive; expected another drive");
 }
@@ -93,20 +93,20 @@ TEST_CASE("Tool parameters: the shortest and a long tool of each kind are closed
 }
 
 TEST_CASE("Tool parameters: test torques are those that were read, and a power law between them") {
-    const auto torque = [](ToolKind kind, double size) { return test_torque(kind, size * mm); };
-    CHECK(torque(ToolKind::open_end, 24).torque == 359.0);
-    CHECK(torque(ToolKind::open_end, 24).source == TorqueSource::read);
-    CHECK(torque(ToolKind::ring, 13).torque == 107.0);
-    CHECK(torque(ToolKind::socket, 13).torque == 107.0);
-    const TestTorque between = torque(ToolKind::ring, 17);
+    const auto torque = [](ModelKind kind, double size) { return test_torque(kind, size * mm); };
+    CHECK(torque(ModelKind::open_end_wrench, 24).torque == 359.0);
+    CHECK(torque(ModelKind::open_end_wrench, 24).source == TorqueSource::tabulated);
+    CHECK(torque(ModelKind::ring_wrench, 13).torque == 107.0);
+    CHECK(torque(ModelKind::ratchet, 13).torque == 107.0);
+    const TestTorque between = torque(ModelKind::ring_wrench, 17);
     CHECK(between.source == TorqueSource::interpolated);
     CHECK(between.torque > 175.0);
     CHECK(between.torque < 230.0);
-    CHECK(torque(ToolKind::ring, 30).source == TorqueSource::estimated);
-    CHECK(torque(ToolKind::hex_key, 8).source == TorqueSource::none);
-    CHECK(torque(ToolKind::extension_bar, 12.5).torque == 340.0);
+    CHECK(torque(ModelKind::ring_wrench, 30).source == TorqueSource::estimated);
+    CHECK(torque(ModelKind::hex_key, 8).source == TorqueSource::none);
+    CHECK(torque(ModelKind::extension_bar, 12.5).torque == 340.0);
     // The power law through its neighbours predicts each inner row within 1 %.
-    for (const auto kind : {ToolKind::open_end, ToolKind::ring})
+    for (const auto kind : {ModelKind::open_end_wrench, ModelKind::ring_wrench})
         for (const auto& [before, row, after] :
              {std::tuple{10.0, 13.0, 16.0}, {13.0, 16.0, 18.0}, {16.0, 18.0, 24.0}}) {
             const double low = torque(kind, before).torque, high = torque(kind, after).torque;
@@ -116,9 +116,9 @@ TEST_CASE("Tool parameters: test torques are those that were read, and a power l
         }
     double last = 0.0;
     for (double size = 5.5; size <= 60.0; size += 0.5) {
-        CHECK(torque(ToolKind::open_end, size).torque > last);
-        CHECK(torque(ToolKind::open_end, size).torque <= torque(ToolKind::ring, size).torque);
-        last = torque(ToolKind::open_end, size).torque;
+        CHECK(torque(ModelKind::open_end_wrench, size).torque > last);
+        CHECK(torque(ModelKind::open_end_wrench, size).torque <= torque(ModelKind::ring_wrench, size).torque);
+        last = torque(ModelKind::open_end_wrench, size).torque;
     }
 }
 

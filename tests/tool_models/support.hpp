@@ -36,7 +36,7 @@ inline bool all_finite(const Shell& shell) {
 }
 
 // Standard parameters of a kind and a size, mm.
-inline ToolParameters standard(ToolKind kind, double size_mm) {
+inline ToolParameters standard(ModelKind kind, double size_mm) {
     ToolParameters p;
     p.kind = kind;
     p.size = size_mm * mm;
@@ -56,7 +56,7 @@ inline std::vector<double> nut_sizes() {
 // Every kind in each of its sizes.
 inline std::vector<ToolParameters> all_tools() {
     std::vector<ToolParameters> tools;
-    for (const KindInfo& info : tool_kinds()) {
+    for (const KindInfo& info : model_kinds()) {
         const auto listed = standard_sizes(info.measure);
         const std::vector<double> sizes = info.measure == SizeMeasure::nut
                                               ? nut_sizes()

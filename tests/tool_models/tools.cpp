@@ -109,7 +109,7 @@ TEST_CASE("Tools: the same parameters give the same bytes, and other parameters 
 TEST_CASE("Tools: the jaw is exactly as wide as the size and the play, at the head's angle") {
     for (const double size : nut_sizes()) {
         CAPTURE(size);
-        const ToolParameters p = standard(ToolKind::open_end, size);
+        const ToolParameters p = standard(ModelKind::open_end_wrench, size);
         const std::vector<Shell> wrench{shell_of(open_end_parts(p, Detail::drawn), "head"),
                                         shell_of(open_end_parts(p, Detail::drawn), "handle")};
         const double angle = to_radians(15.0);
@@ -136,7 +136,8 @@ TEST_CASE("Tools: the closed forms of rings, sockets and keys agree with the gen
     };
     for (const double size : {8.0, 13.0, 24.0, 46.0}) {
         CAPTURE(size);
-        const ToolParameters ring = standard(ToolKind::ring, size), socket = standard(ToolKind::socket, size);
+        const ToolParameters ring = standard(ModelKind::ring_wrench, size),
+                             socket = standard(ModelKind::ratchet, size);
         for (const ToolParameters& p : {ring, socket}) {
             CAPTURE(info_of(p.kind).name);
             const auto gripping = gripping_head(p);
@@ -147,7 +148,7 @@ TEST_CASE("Tools: the closed forms of rings, sockets and keys agree with the gen
             const double corner = 0.5 * head.opening / std::cos(pi / 6.0);
             std::size_t inside = 0, wall = 0;
             const ToolParts drawn = parts_of(p, Detail::drawn);
-            for (const Vec3& point : points_of(drawn, p.kind == ToolKind::ring ? "ring" : "socket")) {
+            for (const Vec3& point : points_of(drawn, p.kind == ModelKind::ring_wrench ? "ring" : "socket")) {
                 const Vec3 at = point * mm;
                 const double out = std::hypot(at.x, at.y);
                 if (at.z < head.low + 1e-6 || at.z > head.high - 1e-6) continue;
@@ -159,14 +160,14 @@ TEST_CASE("Tools: the closed forms of rings, sockets and keys agree with the gen
             }
             CHECK(inside == 0);
             CHECK(wall > 90);
-            for (const Vec3& point :
-                 points_of(parts_of(p, Detail::contact), p.kind == ToolKind::ring ? "ring" : "socket"))
+            for (const Vec3& point : points_of(parts_of(p, Detail::contact),
+                                               p.kind == ModelKind::ring_wrench ? "ring" : "socket"))
                 CHECK(point.z * mm > head.low - 1e-6);
         }
     }
     for (const double size : {3.0, 6.0, 14.0, 22.0}) {
         CAPTURE(size);
-        const ToolParameters p = standard(ToolKind::hex_key, size);
+        const ToolParameters p = standard(ModelKind::hex_key, size);
         const auto gripping = gripping_head(p);
         REQUIRE(gripping);
         const auto& key = std::get<collision::Key>(gripping->head);
@@ -179,13 +180,13 @@ TEST_CASE("Tools: the closed forms of rings, sockets and keys agree with the gen
         CHECK(lowest == doctest::Approx(key.tip).epsilon(1e-6));
         CHECK(widest == doctest::Approx(0.5 * key.width).epsilon(1e-6));  // a flat faces the handle
     }
-    CHECK_FALSE(gripping_head(standard(ToolKind::extension_bar, 12.5)));
+    CHECK_FALSE(gripping_head(standard(ModelKind::extension_bar, 12.5)));
 }
 
 TEST_CASE("Tools: the closed form of the jaw covers the generated jaw") {
     for (const double size : nut_sizes()) {
         CAPTURE(size);
-        const ToolParameters p = standard(ToolKind::open_end, size);
+        const ToolParameters p = standard(ModelKind::open_end_wrench, size);
         const collision::Jaw jaw = collision::make_jaw(p.opening, *p.head_angle);
         const auto parts = collision::jaw_parts(jaw);
         REQUIRE(parts);
@@ -207,7 +208,7 @@ TEST_CASE("Tools: the closed form of the jaw covers the generated jaw") {
 TEST_CASE("Tools: rings and sockets grip a hexagon every 30 degrees with half the play at each flat") {
     for (const double size : nut_sizes()) {
         CAPTURE(size);
-        for (const ToolKind kind : {ToolKind::ring, ToolKind::socket}) {
+        for (const ModelKind kind : {ModelKind::ring_wrench, ModelKind::ratchet}) {
             const std::string name(info_of(kind).name);
             CAPTURE(name);
             const std::vector<Shell> bore{shell_of(parts_of(standard(kind, size), Detail::drawn), name)};
@@ -222,7 +223,7 @@ TEST_CASE("Tools: rings and sockets grip a hexagon every 30 degrees with half th
                       doctest::Approx(half / std::cos(pi / 6.0)).epsilon(1e-4));
             }
         }
-        const RingHead ring = ring_head(standard(ToolKind::ring, size));
+        const RingHead ring = ring_head(standard(ModelKind::ring_wrench, size));
         CHECK(ring.outside == doctest::Approx(1.55 * size));
         CHECK(ring.thickness == doctest::Approx(0.72 * size));
     }
@@ -231,7 +232,7 @@ TEST_CASE("Tools: rings and sockets grip a hexagon every 30 degrees with half th
 TEST_CASE("Tools: a hexagon key has the volume of its hexagon along its arms") {
     for (const double size : standard_sizes(SizeMeasure::socket_screw)) {
         CAPTURE(size);
-        const ToolParameters p = standard(ToolKind::hex_key, size);
+        const ToolParameters p = standard(ModelKind::hex_key, size);
         const KeyArms arms = key_arms(p.size);
         CHECK(arms.tabulated);
         const double bend = std::max(1.5 * size, 3.0), area = 0.5 * std::sqrt(3.0) * size * size;
@@ -248,8 +249,8 @@ TEST_CASE("Tools: a tool reaches as far as its length says") {
         for (const ToolPart& part : parts_of(p, Detail::contact))
             for (const Shell& shell : part.shells)
                 for (const Vec3& point : shell.points) x = std::max(x, point.x), z = std::max(z, point.z);
-        const bool upright =
-            p.kind == ToolKind::extension_bar || p.kind == ToolKind::adaptor || p.kind == ToolKind::hex_bit;
+        const bool upright = p.kind == ModelKind::extension_bar || p.kind == ModelKind::adaptor ||
+                             p.kind == ModelKind::hex_bit;
         CHECK(upright * z + !upright * x == doctest::Approx(p.length / mm).epsilon(0.012));
     }
 }
@@ -259,8 +260,9 @@ TEST_CASE("Tools: materials are those of materials.json") {
     REQUIRE(text);
     const nlohmann::json materials = nlohmann::json::parse(*text)["materials"];
     std::set<std::string> compared;
-    for (const ToolParameters& p : {standard(ToolKind::torque_wrench, 24), standard(ToolKind::hex_key, 8),
-                                    standard(ToolKind::electronic_torque_wrench, 24)})
+    for (const ToolParameters& p :
+         {standard(ModelKind::click_torque_wrench, 24), standard(ModelKind::hex_key, 8),
+          standard(ModelKind::electronic_torque_wrench, 24)})
         for (const assets::Material& made : drawn_model(p).materials) {
             CAPTURE(made.name);
             if (made.name == "screen" || made.name == "light") continue;

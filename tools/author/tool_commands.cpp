@@ -114,7 +114,7 @@ Status write_all(const std::vector<std::pair<fs::path, std::string>>& files) {
 
 std::string torque_text(const tool_models::TestTorque& torque) {
     using tool_models::TorqueSource;
-    const char* mark = torque.source == TorqueSource::read           ? ""
+    const char* mark = torque.source == TorqueSource::tabulated      ? ""
                        : torque.source == TorqueSource::interpolated ? "~"
                                                                      : "?";
     if (torque.source == TorqueSource::none) return "-";
@@ -205,7 +205,7 @@ namespace {
 std::string tool_table() {
     using namespace tool_models;
     std::string text;
-    for (const KindInfo& info : tool_kinds()) {
+    for (const KindInfo& info : model_kinds()) {
         const auto sizes = standard_sizes(info.measure);
         text += fmt::format("{:<25}{}, {:g} to {:g} mm\n", info.name, info.description, sizes.front(),
                             sizes.back());
@@ -213,12 +213,12 @@ std::string tool_table() {
     text += "\nTest torques, N·m    open end      ring, socket\n";
     for (const double size : standard_sizes(SizeMeasure::nut))
         text += fmt::format("{:>4g} mm {:>21} {:>17}\n", size,
-                            torque_text(test_torque(ToolKind::open_end, size * mm)),
-                            torque_text(test_torque(ToolKind::ring, size * mm)));
+                            torque_text(test_torque(ModelKind::open_end_wrench, size * mm)),
+                            torque_text(test_torque(ModelKind::ring_wrench, size * mm)));
     text += "\nSquare drive         N·m\n";
     for (const double size : standard_sizes(SizeMeasure::drive))
         text += fmt::format("{:>4g} mm {:>15}\n", size,
-                            torque_text(test_torque(ToolKind::extension_bar, size * mm)));
+                            torque_text(test_torque(ModelKind::extension_bar, size * mm)));
     text += "\nHexagon keys         arms, mm (ISO 2936)\n";
     for (const double size : standard_sizes(SizeMeasure::socket_screw)) {
         const KeyArms arms = key_arms(size * mm);

@@ -123,21 +123,21 @@ ToolStrength strength_of(const content::WrenchDesign& design) {
     const auto kind_of_head = [&] {
         switch (design.head) {
             case content::ToolHead::ring:
-                return ToolKind::ring;
+                return ModelKind::ring_wrench;
             case content::ToolHead::socket:
-                return ToolKind::socket;
+                return ModelKind::ratchet;
             case content::ToolHead::hex_key:
-                return ToolKind::hex_key;
+                return ModelKind::hex_key;
             case content::ToolHead::hex_bit:
-                return ToolKind::hex_bit;
+                return ModelKind::hex_bit;
             default:
-                return ToolKind::open_end;
+                return ModelKind::open_end_wrench;
         }
     };
     ToolStrength strength{test_torque(kind_of_head(), p.size), false, 0.0};
     if (!has_ratchet(p)) return strength;
     const ToolParameters whole = completed(p).value_or(p);
-    const TestTorque drive = test_torque(ToolKind::extension_bar, whole.drive);
+    const TestTorque drive = test_torque(ModelKind::extension_bar, whole.drive);
     const bool is_weaker =
         strength.limit.source == TorqueSource::none || drive.torque < strength.limit.torque;
     if (drive.source != TorqueSource::none && is_weaker) strength = {drive, true, whole.drive};
@@ -171,7 +171,7 @@ std::string strong_tools(const joint::JointDesign& design, double torque) {
 
 std::string origin_of(const ToolStrength& strength) {
     switch (strength.limit.source) {
-        case tool_models::TorqueSource::read:
+        case tool_models::TorqueSource::tabulated:
             return "ISO 1711-1, from a catalogue";
         case tool_models::TorqueSource::interpolated:
             return "interpolated between sizes of ISO 1711-1";
