@@ -1,4 +1,5 @@
-// The search for a free path by which a tool can leave a joint, and so be brought onto it.
+// The search for a free path by which a tool can leave a joint. In reverse, the path brings the tool onto the
+// joint.
 #pragma once
 
 #include "tools/author/geometry/bvh.hpp"

@@ -85,8 +85,9 @@ struct RigidMotion {
     [[nodiscard]] Vec3 operator()(const Vec3& p) const { return turn * p + shift; }
 };
 
-// The motions in the neighbourhood of one: the moving triangles are first rotated about their own +Y by at
-// most `turn` rad to either side, and at last shifted by at most `slide` m forwards or backwards.
+// The motions in the neighbourhood of a given motion: the moving triangles are first rotated about their own
+// +Y by at most `turn` rad to either side, then moved by the given motion, and at last shifted along `slide`
+// (m), forwards or backwards, by at most its length.
 struct Sweep {
     double turn = 0.0;
     Vec3 slide{0.0};

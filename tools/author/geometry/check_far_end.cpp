@@ -139,7 +139,7 @@ void check_tapped_diameter(const JointCheck& s, const TappedWall& wall) {
     for (const auto& [part, corners] : wall.corners) {
         const auto circle = fit_circle(corners);
         if (!circle || circle->residual > offset_tolerance) continue;
-        if (check_hole_on_axis(s, part, *circle, "tapped hole")) continue;
+        if (report_hole_off_axis(s, part, *circle, "tapped hole")) continue;
         if (2.0 * circle->radius < least)
             s.error(fmt::format("the tapped hole in {} measures {:.2f} mm", s.name_of(part),
                                 2.0 * circle->radius / mm),

@@ -132,7 +132,7 @@ std::set<std::uint32_t> check_hole(const JointCheck& s) {
                                 2.0 * circle->radius / mm, s.size().d / mm),
                     fmt::format("{:g} mm (ISO 273 medium)", s.size().hole / mm));
         } else {
-            check_hole_on_axis(s, part, *circle, "hole");
+            report_hole_off_axis(s, part, *circle, "hole");
         }
     }
     return tight;

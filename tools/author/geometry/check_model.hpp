@@ -61,7 +61,7 @@ void check_triangles(const FlattenedModel& scene, std::size_t budget, std::strin
 void check_names(const FlattenedModel& near, const FlattenedModel& far, const Messages& messages);
 void check_contact(const FlattenedModel& contact, const FlattenedModel& near, const Messages& messages);
 
-// An open end in messages, and its opening, m.
+// An open end: its name for messages, and its opening, m.
 struct Jaw {
     std::string owner;  // empty, or " (the tool "torque_wrench")"
     double opening = 0.0;

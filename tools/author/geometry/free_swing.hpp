@@ -17,7 +17,7 @@ struct Arc {
     [[nodiscard]] double width() const { return to - from; }
 };
 
-// A range of handle angles, to a degree, in which the same part collides with the tool.
+// A range of handle angles, accurate to a degree, in which the same part collides with the tool.
 struct BlockedArc {
     double from = 0.0, to = 0.0;  // rad, from < to
     std::uint32_t part = no_part;

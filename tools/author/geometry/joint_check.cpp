@@ -98,7 +98,7 @@ std::optional<CircleFit> fit_circle(const std::vector<Vec3>& points) {
     return circle;
 }
 
-bool check_hole_on_axis(const JointCheck& s, std::uint32_t part, const CircleFit& hole, const char* noun) {
+bool report_hole_off_axis(const JointCheck& s, std::uint32_t part, const CircleFit& hole, const char* noun) {
     const double off = std::hypot(hole.x, hole.z);
     if (off <= offset_tolerance) return false;
     s.error(fmt::format("the {} in {} is {:.3g} mm beside the joint's axis", noun, s.name_of(part), off / mm),

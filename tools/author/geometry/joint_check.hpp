@@ -48,13 +48,13 @@ struct JointCheck {
     }
 };
 
-// Reports a fastener that is no hexagon about the axis, or has another width than `across_flats`. `noun`:
-// "nut" or "head". Returns the measured width; nullopt without a hexagon.
+// Reports a fastener that has no hexagon about the axis, or a hexagon of another width than `across_flats`.
+// `noun`: "nut" or "head". Returns the measured width; nullopt without a hexagon.
 std::optional<double> check_hexagon(const JointCheck& s, const Fastener& fastener, double across_flats,
                                     const char* noun);
 
-// Reports a socket head that is drawn with another socket or another height than ISO 4762 has, because the
-// key takes its place in the lesson from the standard. Implemented in check_socket.cpp.
+// Reports a socket head whose model has another socket or another height than ISO 4762 states, because the
+// lesson places the key by the standard. Implemented in check_socket.cpp.
 void check_socket(const JointCheck& s, const joint::TurnedPartSize& size);
 
 // Reports a gap or a penetration between the part `upper`, which begins at the height `bottom`, and the part
@@ -80,8 +80,8 @@ struct CircleFit {
 // fewer than six points or points on a line.
 std::optional<CircleFit> fit_circle(const std::vector<Vec3>& points);
 
-// Reports a hole that is beside the joint's axis. Returns true if it is.
-bool check_hole_on_axis(const JointCheck& s, std::uint32_t part, const CircleFit& hole, const char* noun);
+// Reports a hole that is beside the joint's axis. Returns true if it has reported the hole.
+bool report_hole_off_axis(const JointCheck& s, std::uint32_t part, const CircleFit& hole, const char* noun);
 
 // Checks the end of the bolt that is not turned: the head of a bolt, the nut of a bolt that is turned at its
 // head, or the tapped hole of a screw or a stud. Returns the parts that the thread is screwed into.

@@ -12,9 +12,10 @@
 
 namespace bolt::geometry {
 
-// Indices in Assembly::tools of the tools that a joint is checked with: its own one; without one the default
-// tool and those that no joint names, each replaced by the tool that it names instead. The first one is the
-// tool of a lesson that chooses none.
+// Indices in Assembly::tools of the tools that a joint is checked with. A joint with a tool of its own is
+// checked with this tool. Any other joint is checked with the default tool and with the tools that no joint
+// names, each replaced by the tool that its `instead` names for this joint. The first index is the tool of a
+// lesson whose user has chosen none.
 std::vector<std::size_t> tools_of_joint(const content::Assembly& assembly, std::size_t joint);
 
 // The part that the tool of a joint grips, as lessons represent it.
@@ -32,16 +33,16 @@ std::string name_of_tool(const content::Assembly& assembly, std::size_t tool);
 // Designs of common tools, with common lengths, of the kinds that can turn the part of a joint.
 std::vector<content::WrenchDesign> usual_tools(const joint::JointDesign& design);
 
-// The test torque of a tool, or that of its square drive if it is smaller.
+// The test torque of a tool, or that of its square drive if the drive bears less.
 struct ToolStrength {
     tool_models::TestTorque limit;
-    bool of_drive = false;
-    double drive = 0.0;  // m
+    bool of_drive = false;  // `limit` is that of the drive
+    double drive = 0.0;     // m, width of that drive
 };
 ToolStrength strength_of(const content::WrenchDesign& design);
 
-// Reports each tool that cannot grip the part of a joint, has another size, or is weaker than the joint's
-// target torque. Once for each type of joint and tool.
+// Reports each tool that cannot grip the part of a joint, has another size, or bears less than the joint's
+// target torque. Reports each pair of joint type and tool once.
 void check_tools(const content::Assembly& assembly, const Messages& messages);
 
 // Returns true if the tool can grip the part and is made for its size.

@@ -20,22 +20,25 @@ class Obstacles {
   public:
     // One set of triangles in the joint's frame, which must outlive the object.
     Obstacles(const Bvh& all);  // NOLINT(google-explicit-constructor): a set of triangles is obstacles
-    // The parts of a model, except those in `left_out`. `trees`: of build_part_trees(); must outlive it.
+    // The parts of a model, except those in `left_out`. `trees`: of build_part_trees(); they must outlive the
+    // object.
     Obstacles(const std::vector<Bvh>& trees, const glm::dmat4& to_joint, const glm::dmat4& to_assembly,
               const std::set<std::uint32_t>& left_out);
 
-    // Those that may have a point within `radius` m of the joint's axis at a height (m) from `low` to `high`.
+    // The parts that may have a point within `radius` m of the joint's axis at a height (m) from `low` to
+    // `high`.
     [[nodiscard]] Obstacles near_axis(double radius, double low, double high) const;
 
-    // Those that may have a point in the way of a tool that is turned about the axis. `height`: m, of the
+    // The parts that may have a point in the way of a tool that is turned about the axis. `height`: m, of the
     // tool's origin.
     [[nodiscard]] Obstacles in_swing_of(const Bvh& tool, double height) const;
 
     [[nodiscard]] bool empty() const { return parts_.empty(); }
     [[nodiscard]] double top() const;  // m, largest height above the joint's origin; -∞ if empty
 
-    // Returns the part of a triangle that crosses one of `tool`, which `pose` places in the joint's frame;
-    // no_part if there is none. Of several the smallest one: its name says more than that of a casing.
+    // Returns a part with a triangle that crosses a triangle of `tool`, which `pose` places in the joint's
+    // frame; no_part if there is none. If there are several such parts, returns the smallest, because its
+    // name tells the author more than that of a casing.
     [[nodiscard]] std::uint32_t first_hit_by(const Bvh& tool, const RigidMotion& pose) const;
     // Returns false only if the tool collides in no motion of the sweep about `pose`.
     [[nodiscard]] bool may_be_hit(const Bvh& tool, const RigidMotion& pose, const Sweep& sweep) const;

@@ -1,5 +1,5 @@
-// Tools that would fit a joint on which the tool of the file does not: with an extension bar, other tools of
-// the file, or other kinds.
+// The tools that would fit a joint which the tool of the file does not fit: the same tool with a longer
+// extension bar, other tools of the file, or other kinds of tools.
 #pragma once
 
 #include <map>

@@ -66,9 +66,9 @@ struct JointParts {
     [[nodiscard]] bool owns(std::uint32_t part) const;
 };
 
-// Finds the nodes ID_bolt, ID_washer_head, ID_washer_nut and ID_nut under the joint's node; those that are
-// missing have no triangles. A head that is turned is the part of ID_bolt above its bearing face or wider
-// than its shank.
+// Finds the nodes ID_bolt, ID_washer_head, ID_washer_nut and ID_nut under the joint's node; a missing node
+// gives a fastener without triangles. A head that is turned is the part of ID_bolt that is above the bearing
+// face or wider than the shank.
 JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design);
 
 // The axis-aligned box around a transformed box.

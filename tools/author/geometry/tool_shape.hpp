@@ -31,15 +31,16 @@ struct ToolShape {
     [[nodiscard]] bool is_open_end() const { return std::holds_alternative<collision::Jaw>(head); }
 };
 
-// The frame of a tool's model: found from its flat side, which is normal to Y (as import-step writes it) or
-// to Z, or the tool frame.
+// The frame of a tool's model. `found`: determined from the model's flat side, which is normal to Y (as
+// import-step writes it) or to Z. `tool`: the tool frame.
 enum class ModelFrame : std::uint8_t { found, tool };
 
-// The tool of a model. Fails if the measured width of its jaw, hole or key does not agree with the design.
+// The tool that a model shows. Fails if the measured width of the jaw, hole or key does not agree with the
+// design.
 Result<ToolShape> tool_from_model(const FlattenedModel& scene, const content::WrenchDesign& design,
                                   ModelFrame frame = ModelFrame::found);
 
-// The tool that the trainer generates for a design; its model, if it names one, is ignored.
+// The tool that the trainer generates for a design. If the design names a model, this model is ignored.
 Result<ToolShape> generated_tool(const content::WrenchDesign& design);
 
 // The tool on a joint with the axis +Y, its handle along +X. `turned_over`: rotated by 180° about the handle.

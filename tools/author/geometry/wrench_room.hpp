@@ -19,10 +19,9 @@ struct WrenchRoom {
     Aabb turned;                    // the nut or head that is turned; empty if the model has none
     std::set<std::uint32_t> parts;  // the joint's fasteners, as indices into FlattenedModel::parts
     std::size_t tool = 0;           // index into Assembly::tools and WrenchRooms::tools
-    // The following need a part that the tool grips; `gripped` is false without one.
-    bool gripped = false;
-    FreeSwing swing;           // of the tool; of an open end with the face up that has more room
-    bool turned_over = false;  // that face is the other one
+    bool gripped = false;      // the joint has a part that the tool grips; the following are set only then
+    FreeSwing swing;           // of the tool; of an open end: of the orientation with more room
+    bool turned_over = false;  // in that orientation the open end is turned over
     double handle = 0.0;       // rad, the middle of the widest free arc; 0 without an arc
     double height = 0.0;       // m, of the tool's origin
     double turn = 0.0;         // rad by which the hexagon has to turn to fit the head at `handle`
