@@ -13,7 +13,7 @@ namespace {
 // True if the samples differ at most in their time.
 bool same_reading(const CurvePoint& a, const CurvePoint& b) {
     return a.angle == b.angle && a.torque == b.torque && a.clamp == b.clamp && a.stage == b.stage &&
-           a.stroke == b.stroke;
+           a.hold == b.hold;
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ void CurveBuilder::end_visit(JointBuilder& joint) {
     if (joint.curve.visits.empty()) return;
     joint.curve.visits.back().points = joint.points.points();
     joint.points = CurveDecimator();
-    joint.gripped = false;
+    joint.held = false;
 }
 
 // Updates the run-down, the stages and the snug angle. Only angles beyond all previous ones extend a stage.
@@ -140,9 +140,9 @@ void CurveBuilder::advance(JointBuilder& joint, const CurvePoint& point, double 
 
 void CurveBuilder::add_sample(JointBuilder& joint, CurvePoint point, double snug_torque) {
     Visit& visit = joint.curve.visits.back();
-    if (!joint.gripped) ++visit.strokes;
-    joint.gripped = true;
-    point.stroke = static_cast<std::uint16_t>(std::min(visit.strokes, 65535));
+    if (!joint.held) ++visit.holds;
+    joint.held = true;
+    point.hold = static_cast<std::uint16_t>(std::min(visit.holds, 65535));
     advance(joint, point, snug_torque);
     visit.end = point.time;
     if (sign_ * point.torque > sign_ * visit.peak.torque) visit.peak = point;
@@ -157,7 +157,7 @@ void CurveBuilder::add(std::uint64_t first_tick, std::span<const session::TickRe
     for (std::size_t i = 0; i < ticks.size(); ++i) {
         const session::TickRecord& tick = ticks[i];
         if (!usable(tick, joints_.size())) {
-            if (open_joint_ >= 0) joints_[static_cast<std::size_t>(open_joint_)].gripped = false;
+            if (open_joint_ >= 0) joints_[static_cast<std::size_t>(open_joint_)].held = false;
             continue;
         }
         const std::uint64_t at = first_tick + i;

@@ -21,7 +21,7 @@ struct CurvePoint {
     double torque = 0.0;  // N·m at the wrench, tightening positive
     double clamp = 0.0;   // N
     joint::Stage stage = joint::Stage::navigation;
-    std::uint16_t stroke = 0;  // number of the grip in its visit, from 1; plots draw no line between strokes
+    std::uint16_t hold = 0;  // number of the hold in its visit, from 1; plots draw no line between holds
 };
 
 // Decimates a stream of samples of unknown length to a fixed size and keeps all peaks. Each bucket holds the
@@ -48,16 +48,16 @@ class CurveDecimator {
     std::vector<Bucket> buckets_;
 };
 
-// All grips of a nut until another nut is gripped or the next pass begins. `end` is the end of the last grip.
+// All holds of a nut until another nut is held or the next pass begins. `end` is the end of the last hold.
 struct Visit {
     int pass = 0;              // counted from 0
     double begin = 0.0;        // s
     double end = 0.0;          // s
     double begin_angle = 0.0;  // rad
-    int strokes = 0;           // grips
-    bool worked = false;       // the nut turned or the wrench was loaded
-    CurvePoint peak;           // highest torque in the direction of work
-    CurvePoint release;        // last sample
+    int holds = 0;
+    bool worked = false;  // the nut turned or the wrench was loaded
+    CurvePoint peak;      // highest torque in the direction of work
+    CurvePoint release;   // last sample
     std::vector<CurvePoint> points;
 };
 
@@ -83,7 +83,7 @@ struct JointCurve {
     // rad, from which the tightening angle counts: where the snug torque was first met, or the mark at the
     // beginning of the first pass that turns by an angle. NaN: neither was reached.
     double snug_angle = std::numeric_limits<double>::quiet_NaN();
-    double start_angle = 0.0;  // rad, when first gripped
+    double start_angle = 0.0;  // rad, when first held
     double end_angle = 0.0;    // rad, furthest in the direction of work
 };
 
@@ -107,7 +107,7 @@ class CurveBuilder {
     struct JointBuilder {
         JointCurve curve;
         CurveDecimator points;
-        bool gripped = false;  // in the tick before
+        bool held = false;  // in the tick before
         bool started = false;
         bool contact = false;  // the run-down is over
     };

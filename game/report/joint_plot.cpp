@@ -47,7 +47,7 @@ std::vector<plot::SvgPoint> visit_line(const analysis::Visit& visit, const Joint
     std::vector<plot::SvgPoint> points;
     for (std::size_t i = 0; i < visit.points.size(); ++i) {
         const analysis::CurvePoint& p = visit.points[i];
-        if (i > 0 && p.stroke != visit.points[i - 1].stroke) points.push_back({nan, nan});
+        if (i > 0 && p.hold != visit.points[i - 1].hold) points.push_back({nan, nan});
         points.push_back({drawn_angle(frame, p.angle, loosening), value(p)});
     }
     return points;
@@ -217,7 +217,7 @@ std::optional<analysis::CurvePoint> judged_point(const analysis::SessionData& se
             if (i == 0) continue;
             const analysis::CurvePoint &a = visit.points[i - 1], &b = visit.points[i];
             const double from = std::abs(a.torque) - torque, to = std::abs(b.torque) - torque;
-            if (a.stroke != b.stroke || a.angle == b.angle || from * to > 0.0 || from == to) continue;
+            if (a.hold != b.hold || a.angle == b.angle || from * to > 0.0 || from == to) continue;
             crossing = a;
             crossing->angle += from / (from - to) * (b.angle - a.angle);
             crossing->torque = b.torque;

@@ -133,7 +133,7 @@ void Viewer::draw_curve(float scale) {
     for (const analysis::Visit& visit : curve.visits)
         for (std::size_t i = 1; i < visit.points.size(); ++i) {
             const analysis::CurvePoint &a = visit.points[i - 1], &b = visit.points[i];
-            if (a.stroke != b.stroke || a.stage == joint::Stage::navigation || b.time > time_) continue;
+            if (a.hold != b.hold || a.stage == joint::Stage::navigation || b.time > time_) continue;
             draw.AddLine(at(a.angle, a.torque), at(b.angle, b.torque), curve_color, 1.4F * scale);
         }
     draw.AddCircleFilled(at(now->angle, now->torque), 4.0F * scale, now_color);

@@ -33,11 +33,11 @@ CurveBuilder builder_for(std::size_t joints, double snug = 10.0) {
 
 }  // namespace
 
-TEST_CASE("Joint curves: re-grips are strokes of one visit, which ends at another nut") {
+TEST_CASE("Joint curves: consecutive holds of one nut are one visit, which ends at another nut") {
     CurveBuilder builder = builder_for(2);
     std::vector<session::TickRecord> ticks;
-    for (int stroke = 0; stroke < 3; ++stroke) {
-        for (int i = 0; i < 50; ++i) ticks.push_back(tick(0, 30.0 * stroke + 0.6 * i, 20.0 + stroke));
+    for (int hold = 0; hold < 3; ++hold) {
+        for (int i = 0; i < 50; ++i) ticks.push_back(tick(0, 30.0 * hold + 0.6 * i, 20.0 + hold));
         for (int i = 0; i < 10; ++i) ticks.push_back(tick(-1, 0.0, 0.0));
     }
     for (int i = 0; i < 50; ++i) ticks.push_back(tick(1, 0.6 * i, 5.0));
@@ -46,8 +46,8 @@ TEST_CASE("Joint curves: re-grips are strokes of one visit, which ends at anothe
     const std::vector<JointCurve> curves = builder.finish();
     REQUIRE(curves.size() == 2);
     REQUIRE(curves[0].visits.size() == 2);
-    CHECK(curves[0].visits[0].strokes == 3);
-    CHECK(curves[0].visits[1].strokes == 1);
+    CHECK(curves[0].visits[0].holds == 3);
+    CHECK(curves[0].visits[1].holds == 1);
     CHECK(curves[0].visits[0].begin == doctest::Approx(1.0));
     CHECK(curves[0].visits[0].peak.torque == doctest::Approx(22.0));
     CHECK(curves[0].visits[1].peak.torque == doctest::Approx(40.0));
