@@ -43,7 +43,7 @@ struct AnswerScale {
 
 struct QuestionnaireItem {
     std::string id;                            // answers are stored under it
-    std::map<std::string, std::string> texts;  // by language; empty where only the key may be shipped
+    std::map<std::string, std::string> texts;  // by language; empty if only the scoring may be shipped
     AnswerLabels labels;                       // empty: those of the answer scale
     std::optional<AnswerScale> answer_scale;   // without labels; none: that of the questionnaire
 };

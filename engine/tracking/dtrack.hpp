@@ -7,7 +7,7 @@
 //   0.99]
 //
 // A body in a 6d line has an id and a quality, its position in mm and three angles (which are not used), and
-// the columns of its rotation matrix. A body that is not seen is missing or has the quality -1.
+// the columns of its rotation matrix. A body that the cameras do not see is missing or has the quality -1.
 #pragma once
 
 #include <cstdint>

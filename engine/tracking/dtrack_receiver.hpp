@@ -25,8 +25,8 @@ class DtrackReceiver {
     DtrackReceiver& operator=(DtrackReceiver&& other) noexcept;
     ~DtrackReceiver();
 
-    // The newest frame that has arrived since the last call; none: no new one. Reads at most
-    // max_packets_per_poll packets, so that a flood of them cannot stop the caller.
+    // The newest frame that has arrived since the last call; nullopt if there is none. Reads at most
+    // max_packets_per_poll packets, so that a flood of packets cannot stop the caller.
     std::optional<DtrackFrame> poll();
 
     [[nodiscard]] const DtrackCounts& counts() const { return counts_; }

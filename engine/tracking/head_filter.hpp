@@ -21,13 +21,14 @@ struct HeadFilterSettings {
     double fade = 2.0;          // s, from the held pose to the fixed head
     double max_speed = 4.0;     // m/s; a faster change is a jump
     double max_turn = 20.0;     // rad/s, likewise; people turn their heads at up to 12 rad/s
-    // s. After a jump, poses are accepted once they have agreed for this long, or earlier, once a head at
+    // s. After a jump, poses are accepted when they have agreed for this long, or earlier, when a head at
     // max_speed and max_turn could have moved there since the last accepted sample.
     double jump_time = 0.3;
-    double return_time = 0.3;  // s, from the shown pose to the tracked one after a dropout or a jump
+    double return_time = 0.3;  // s, from the shown pose to the tracked pose after a dropout or a jump
 };
 
-// A change within these is never a jump: noise, and samples that arrive at nearly the same time.
+// A change of the pose within these limits never counts as a jump: it may be noise between samples that
+// arrive at nearly the same time.
 inline constexpr double jump_slack = 0.02;     // m
 inline constexpr double turn_slack = 0.1;      // rad
 inline constexpr double max_sample_age = 0.1;  // s; without a sample for longer the head is not tracked

@@ -11,7 +11,8 @@ struct BodySample {
     Pose pose;
 };
 
-// The pose of the head is that of the point between the eyes, which looks along −z with y up.
+// The transform from the tracker's frame to the room, and from the tracked body to the head. The pose of the
+// head is at the point between the eyes, and the head looks along −z with y up.
 struct TrackerRegistration {
     Quat axes_rotation{1.0, 0.0, 0.0, 0.0};  // from the tracker's axes to axes that point like the room's
     double scale = 1.0;                      // m of the room per m of the tracker

@@ -65,7 +65,7 @@ std::string title_of(const content::Assembly& assembly);
 // A visit in the actual order of the joints.
 struct OrderEntry {
     std::size_t joint = 0;
-    bool out_of_turn = false;  // in the smallest set of visits whose removal leaves the planned order
+    bool out_of_turn = false;  // in the smallest set of visits without which the rest is in the planned order
     bool repeated = false;     // the joint was visited before in this pass
 };
 

@@ -108,7 +108,8 @@ void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown
 Status draw_in_room(render::Renderer& renderer, gpu::FrameContext& frame, const render::Scene& scene,
                     const Pose& scene_in_room, const view::ImmersiveFrame& immersive);
 
-// Moves the eyes of the pictures that draw_in_room() has recorded in this frame.
+// Updates the poses of the eyes in the draw commands that draw_in_room() has recorded in this frame (late
+// update of the head's pose).
 void move_eyes_in_room(render::Renderer& renderer, const Pose& scene_in_room,
                        const view::ImmersiveFrame& immersive);
 
