@@ -119,7 +119,7 @@ HeadFit jaw_fit(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
     const Vec3 along = direction(azimuth - off), out = direction(azimuth - off + 0.5 * pi);
 
     HeadFit fit;
-    fit.misalignment = -off;  // tightening turns about −Z
+    fit.misalignment = -off;
     fit.tilt = std::asin(std::clamp(across.z, -1.0, 1.0));
     const Vec3 middle(0.0, 0.0, wrench.position.z);
     fit.lateral_offset = glm::dot(middle - wrench.position, across);

@@ -55,8 +55,10 @@ Result<Convex> hexagon(const HexagonPrism& prism);
 
 // The position of the head of a tool on a hexagon (tool_head.hpp), described for a jaw.
 struct HeadFit {
-    double misalignment = 0.0;  // rad, −30° … 30°, of the jaw to the hexagon, tightening positive
-    double overlap = 0.0;       // m, height over which the flats bear at each loaded corner
+    // rad, −30° … 30°, by which the jaw is turned off the hexagon, clockwise positive, seen against +Z: the
+    // direction that tightens a right-hand thread
+    double misalignment = 0.0;
+    double overlap = 0.0;  // m, height over which the flats bear at each loaded corner
     // m along the flats from the axis to the two ends of the contact.
     double toward_throat = 0.0, toward_mouth = 0.0;
     double lateral_offset = 0.0;  // m, from the middle of the slot to the bolt's axis

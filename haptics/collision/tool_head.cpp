@@ -144,7 +144,6 @@ HeadFit fit_of(Hold hold, double tooth_angle, const Pose& given) {
     const Pose tool = with_fitting_head(hold, tooth_angle, given);
     choose_hexagon(hold, tool);
     HeadFit fit = fit_in_hole(hold.hole, hold.prism, hold.hole_in_tool ? inverse(tool) : tool);
-    // Tightening turns about −Z.
     fit.misalignment = -angle_off(tool, hold.corner, hold.period);
     return fit;
 }

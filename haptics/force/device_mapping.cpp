@@ -128,8 +128,9 @@ TorqueRendering make_torque_rendering(const OutputLimits& limits, double max_tor
     return {0.0, std::min(1.0 / handle_length, used_torque_share * limits.force / range)};
 }
 
-OutputCommand render_torque(const TorqueRendering& r, double torque, const Vec3& axis, const Vec3& handle) {
-    return {glm::cross(axis, handle) * (torque * r.as_force), axis * (torque * r.scale)};
+OutputCommand render_torque(const TorqueRendering& r, double torque, const Vec3& loosening_axis,
+                            const Vec3& handle) {
+    return {glm::cross(loosening_axis, handle) * (torque * r.as_force), loosening_axis * (torque * r.scale)};
 }
 
 double stored_torque_energy(const TorqueRendering& r, double torque, double stiffness, double handle_length) {

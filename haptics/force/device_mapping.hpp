@@ -102,9 +102,9 @@ struct TorqueRendering {
 // 1 counts as 1; `handle_length` in m.
 TorqueRendering make_torque_rendering(const OutputLimits& limits, double max_torque, double handle_length);
 
-// `torque` in N·m about `axis` (unit): positive torque, which resists tightening of a right-hand thread,
-// turns the hand about +axis. `handle` is the unit vector from the bolt to the end of the handle.
-OutputCommand render_torque(const TorqueRendering& rendering, double torque, const Vec3& axis,
+// `torque` in N·m; positive torque, which resists tightening, turns the hand about `loosening_axis` (unit),
+// right-handed. `handle` is the unit vector from the bolt to the end of the handle.
+OutputCommand render_torque(const TorqueRendering& rendering, double torque, const Vec3& loosening_axis,
                             const Vec3& handle);
 
 // The part, J, of the energy in a spring of `stiffness` (N·m/rad) under this torque that the device can

@@ -68,6 +68,22 @@ constexpr std::optional<HeadShape> head_shape_named(std::string_view text) {
     return std::nullopt;
 }
 
+// A right-hand thread is tightened clockwise, seen from the side of the tool.
+enum class ThreadDirection : std::uint8_t { right, left };
+inline constexpr std::array all_thread_directions{ThreadDirection::right, ThreadDirection::left};
+
+// The name in assembly files.
+constexpr std::string_view name(ThreadDirection direction) {
+    constexpr std::array<std::string_view, all_thread_directions.size()> names{"right", "left"};
+    return names.at(static_cast<std::size_t>(direction));
+}
+// None if no direction has this name.
+constexpr std::optional<ThreadDirection> thread_direction_named(std::string_view text) {
+    for (const ThreadDirection direction : all_thread_directions)
+        if (name(direction) == text) return direction;
+    return std::nullopt;
+}
+
 // The part that a tool turns.
 enum class TurnedPart : std::uint8_t { nut, head };
 
@@ -85,6 +101,8 @@ struct JointDesign {
     TurnedPart turned = TurnedPart::nut;  // a screw in a tapped hole: head
     TappedHole hole;                      // of a tapped hole or a stud
     ThreadSize thread;
+    // The joint laws do not depend on it: their angle is positive in the direction that tightens.
+    ThreadDirection thread_direction = ThreadDirection::right;
     PropertyClass bolt_class;
     double nut_strength = 0.0;      // Pa, proof stress of the nut (ISO 898-2); 0: matched to the bolt
     double bolt_length = 0.0;       // m, under the head; a stud: without its end in the hole

@@ -119,11 +119,10 @@ Vec3 nut_centre(const NutGeometry& nut, double nut_angle) {
 }
 
 double tool_azimuth(const Setup& setup, const NutGeometry& nut, const ToolPose& tool, Grip grip) {
-    // Counter-clockwise about the axis loosens a right-hand thread, hence the sign.
-    const double handle = -std::atan2(glm::dot(tool.handle, nut.e2), glm::dot(tool.handle, nut.e1));
+    const double handle = angle_of(nut, tool.handle);
     if (grip != Grip::wrench) return handle;
-    return handle +
-           (glm::dot(tool.normal, nut.axis) < 0.0 ? setup.wrench.head_angle : -setup.wrench.head_angle);
+    const bool turned_over = glm::dot(tool.normal, nut.axis) < 0.0;
+    return handle + nut.sense * (turned_over ? setup.wrench.head_angle : -setup.wrench.head_angle);
 }
 
 void update_pose_engagement(const Setup& setup, std::span<const joint::JointState> joints,
@@ -207,7 +206,7 @@ double play_of(const Setup& setup, const NutGeometry& nut, double rounded) {
 double azimuth_of(const Setup& setup, const NutGeometry& nut, const ToolPose& tool) {
     const double head = setup.wrench.head_angle;
     const Vec3 to_throat = tool.orientation * Vec3(std::cos(head), std::sin(head), 0.0);
-    return -std::atan2(glm::dot(to_throat, nut.e2), glm::dot(to_throat, nut.e1));
+    return angle_of(nut, to_throat);
 }
 
 }  // namespace
@@ -254,7 +253,7 @@ void update_contact_engagement(const Setup& setup, std::span<const joint::JointS
         e.joint = static_cast<int>(i);
         e.grip = Grip::wrench;
         e.azimuth = azimuth_of(setup, nut, tool);
-        e.hand_angle = nut_angle + fit.misalignment;
+        e.hand_angle = nut_angle + nut.sense * fit.misalignment;
         e.fit = fit;
         return;
     }

@@ -24,6 +24,7 @@ NutGeometry nut_geometry(const joint::JointDesign& design) {
     nut.e2 = glm::cross(nut.axis, nut.e1);
     const joint::TurnedPartSize part = joint::turned_part_size(design);
     nut.is_head = design.turned == joint::TurnedPart::head;
+    nut.sense = design.thread_direction == joint::ThreadDirection::left ? -1.0 : 1.0;
     nut.height = part.height;
     nut.across_flats = part.across_flats;
     nut.bearing_diameter = part.bearing;
@@ -39,11 +40,21 @@ NutGeometry nut_geometry(const joint::JointDesign& design) {
 
 }  // namespace
 
+Vec3 loosening_axis(const NutGeometry& nut) { return nut.sense * nut.axis; }
+
+Vec3 direction_at(const NutGeometry& nut, double angle) {
+    const double about_axis = -nut.sense * angle;
+    return std::cos(about_axis) * nut.e1 + std::sin(about_axis) * nut.e2;
+}
+
+double angle_of(const NutGeometry& nut, const Vec3& direction) {
+    return -nut.sense * std::atan2(glm::dot(direction, nut.e2), glm::dot(direction, nut.e1));
+}
+
 Pose nut_pose(const NutGeometry& nut, double nut_angle) {
     const double gap = std::max(0.0, nut.start_gap - nut.lead * nut_angle);
     const Quat seat = glm::normalize(glm::quat_cast(glm::dmat3(nut.e1, nut.e2, nut.axis)));
-    // Tightening a right-hand thread turns about −axis.
-    return {nut.seat + gap * nut.axis, seat * glm::angleAxis(-nut_angle, Vec3(0, 0, 1))};
+    return {nut.seat + gap * nut.axis, seat * glm::angleAxis(-nut.sense * nut_angle, Vec3(0, 0, 1))};
 }
 
 collision::TurnedShape shape_of(const NutGeometry& nut) {

@@ -14,10 +14,17 @@
 
 namespace bolt::servo {
 
-// Geometry of a nut, or of a head that is turned, with a right-hand thread, in the assembly's frame. All axes
-// are unit vectors; `axis` points from the members to the nut; e1 × e2 = axis.
+// Geometry of a nut, or of a head that is turned, in the assembly's frame. All axes are unit vectors; `axis`
+// points from the members to the nut; e1 × e2 = axis.
+//
+// Angles about the bolt are positive in the direction that tightens, for both directions of thread. So the
+// joint laws do not depend on the direction; only the functions below map these angles to rotations about
+// `axis`.
 struct NutGeometry {
     bool is_head = false;  // its shank lies below the bearing face
+    // +1: a right-hand thread, which a rotation about −axis tightens; −1: a left-hand thread, which a
+    // rotation about +axis tightens.
+    double sense = 1.0;
     Vec3 seat{0.0};
     Vec3 axis{0.0, 1.0, 0.0};
     Vec3 e1{1.0, 0.0, 0.0};
@@ -45,6 +52,15 @@ struct Ratchet {
     double least_drag_share = 0.4;  // of `drag`, at the foot of a tooth: the pawl's spring is preloaded
     bool loosens = false;  // the lever's position: the direction in which the head turns with the handle
 };
+
+// The unit vector about which a right-handed rotation loosens the nut.
+Vec3 loosening_axis(const NutGeometry& nut);
+
+// The unit vector across the bolt at `angle` (rad, tightening positive) from e1.
+Vec3 direction_at(const NutGeometry& nut, double angle);
+
+// The angle, rad, −π … π, tightening positive, from e1 to the part of `direction` across the bolt.
+double angle_of(const NutGeometry& nut, const Vec3& direction);
 
 // Pose of the nut's frame in the assembly: origin on the bearing face, +Z along the bolt away from the
 // members, +X through a corner of the hexagon. `nut_angle` in rad, tightening positive.

@@ -72,7 +72,7 @@ force::ForceRequest hold_request(const Setup& setup, State& state, const ToolPos
     const double torque = state.joints[i].torque;
     const Vec3 target = nut_centre(nut, state.joints[i].nut.angle) + state.engagement.offset_at_engagement;
     force::ForceRequest request;
-    request.command = force::render_torque(setup.torque_rendering, torque, nut.axis, tool.handle);
+    request.command = force::render_torque(setup.torque_rendering, torque, loosening_axis(nut), tool.handle);
     const double stiffness =
         state.engagement.grip == Grip::wrench ? setup.wrench.stiffness : setup.finger_stiffness;
     request.stored_energy =
@@ -351,9 +351,9 @@ force::GuideTarget guide_target(const Setup& setup, std::span<const joint::Joint
     target.axis = nut.axis;
     // The ball that the target's own nut and bolt end fill; the nut's corners are 0.58 across_flats away.
     target.bounding_radius = 1.2 * std::max(nut.height, nut.across_flats);
-    // Tightening a right-hand thread turns about −axis.
-    target.hexagon = {nut.axis, std::cos(angle) * nut.e1 - std::sin(angle) * nut.e2,
-                      std::sin(angle) * nut.e1 + std::cos(angle) * nut.e2};
+    // `across` is axis × flat.
+    target.hexagon = {nut.axis, std::cos(angle) * nut.e1 - nut.sense * std::sin(angle) * nut.e2,
+                      nut.sense * std::sin(angle) * nut.e1 + std::cos(angle) * nut.e2};
     return target;
 }
 

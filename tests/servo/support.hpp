@@ -26,7 +26,7 @@ inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis
 // positive), upright or flipped.
 inline servo::CommandedTool tool_at(const servo::NutGeometry& nut, const Vec3& position, double angle,
                                     bool flipped = false) {
-    const Vec3 x = std::cos(-angle) * nut.e1 + std::sin(-angle) * nut.e2;
+    const Vec3 x = servo::direction_at(nut, angle);
     const Vec3 z = flipped ? -nut.axis : nut.axis;
     const Quat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));
     servo::CommandedTool commanded;
