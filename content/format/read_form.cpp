@@ -1,4 +1,5 @@
-// The form of a joint: through-bolt, screw in a tapped hole, or stud; head, turned part, locking nut.
+// The form of a joint: through-bolt, screw in a tapped hole, or stud; head, turned part, direction of the
+// thread, locking nut.
 #include <fmt/format.h>
 
 #include <optional>
@@ -75,6 +76,8 @@ void read_form(const LayeredObject& layers, joint::JointDesign& design) {
     if (!hole.objects().empty()) design.hole.material = read_tapped_material(hole);
     design.hole.engagement = hole.number("engagement_mm").value_or(0.0) * mm;
     design.hole.depth = hole.number("depth_mm").value_or(0.0) * mm;
+    design.thread_direction = read_name(layers, "thread_direction", joint::thread_direction_named)
+                                  .value_or(joint::ThreadDirection::right);
     design.locking_insert = layers.boolean("locking_insert").value_or(false);
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,6 +59,18 @@ std::string_view first_number(std::string_view text) {
     return {begin, end};
 }
 
+// The size in a standard designation of a left-hand thread, such as M12x1.75-LH (ISO 965-1), in its
+// normalised spelling; none if it is not such a designation.
+std::optional<std::string> size_of_left_hand(std::string_view normal_text) {
+    for (const std::string_view suffix : {"-LH", "LH", "-lh", "lh"})
+        if (normal_text.ends_with(suffix)) {
+            normal_text.remove_suffix(suffix.size());
+            if (joint::parse_thread(normal_text)) return std::string(normal_text);
+            return std::nullopt;
+        }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Result<joint::ThreadSize> read_thread(std::string_view text) {
@@ -69,6 +82,9 @@ Result<joint::ThreadSize> read_thread(std::string_view text) {
     if (normal_thread)
         return fail(ErrorCode::bad_content, std::move(what),
                     fmt::format("did you mean \"{}\"?", normal_text));
+    if (const auto size = size_of_left_hand(normal_text))
+        return fail(ErrorCode::bad_content, std::move(what),
+                    fmt::format("\"size\": \"{}\" and \"thread_direction\": \"left\"", *size));
     const auto sizes = joint::fastener_sizes();
     const std::string_view name = std::string_view(normal_text).substr(0, normal_text.find('x'));
     if (std::any_of(sizes.begin(), sizes.end(), [&](const auto& size) { return size.name == name; }))

@@ -38,7 +38,7 @@ struct JointType {
 JointType read_joint_type(const LayeredObject& layers, const YoungsModuli& moduli,
                           double smallest_pass_fraction);
 
-// Reads the form of the joint, the part that is turned, and the tapped hole.
+// Reads the form of the joint, the part that is turned, the direction of the thread, and the tapped hole.
 void read_form(const LayeredObject& layers, joint::JointDesign& design);
 
 // N·m, of a locking nut whose file gives no value: half of the most that ISO 2320 allows.

@@ -227,6 +227,8 @@ namespace {
 // Adds the members that distinguish a joint from a through-bolt whose nut is turned.
 void add_form(const joint::JointDesign& d, nlohmann::ordered_json& type) {
     if (d.head != joint::HeadShape::hexagon) type["head"] = name(d.head);
+    if (d.thread_direction != joint::ThreadDirection::right)
+        type["thread_direction"] = name(d.thread_direction);
     if (d.locking_insert) type["locking_insert"] = true;
     if (!d.is_tapped()) {
         if (d.turned == joint::TurnedPart::head) type["turned"] = "head";

@@ -76,6 +76,28 @@ TEST_CASE("Joint forms: a file without a form is a through-bolt whose nut is tur
     CHECK(d.prevailing_torque == 0.0);
 }
 
+TEST_CASE("Joint forms: a thread is right-handed unless its type, or the override of its joint, says left") {
+    using joint::ThreadDirection;
+    CHECK(design_of(R"("bolt_length_mm": 30)").thread_direction == ThreadDirection::right);
+    CHECK(design_of(R"("bolt_length_mm": 30, "thread_direction": "right")").thread_direction ==
+          ThreadDirection::right);
+    const joint::JointDesign left = design_of(R"("bolt_length_mm": 30, "thread_direction": "left")");
+    CHECK(left.thread_direction == ThreadDirection::left);
+    CHECK(left.thread.thread.pitch == doctest::Approx(1.25e-3));
+    for (const char* form :
+         {R"("form": "stud", "tapped_hole": {"material": "C45", "engagement_mm": 8}, "bolt_length_mm": 30)",
+          R"("form": "tapped_hole", "tapped_hole": {"material": "C45"}, "bolt_length_mm": 30)",
+          R"("turned": "head", "bolt_length_mm": 30)", R"("locking_insert": true, "bolt_length_mm": 30)"})
+        CHECK(design_of(std::string(form) + R"(, "thread_direction": "left")").thread_direction ==
+              ThreadDirection::left);
+    std::string text = with_type(R"("bolt_length_mm": 30)");
+    const std::string_view place = R"("position_mm": [0, 0, 0])";
+    text.insert(text.find(place), R"("override": {"thread_direction": "left"}, )");
+    const content::LoadedAssembly loaded = content::parse_assembly(text, "f");
+    REQUIRE(loaded.ok());
+    CHECK(loaded.assembly.joints[0].design.thread_direction == ThreadDirection::left);
+}
+
 TEST_CASE("Joint forms: forms and shapes of heads have the names that the schema permits") {
     const auto& properties = content::assembly_schema().json().at(
         nlohmann::json::json_pointer("/definitions/joint_type/properties"));
@@ -86,6 +108,7 @@ TEST_CASE("Joint forms: forms and shapes of heads have the names that the schema
     };
     CHECK(properties.at("form").at("enum") == names(joint::all_joint_forms));
     CHECK(properties.at("head").at("enum") == names(joint::all_head_shapes));
+    CHECK(properties.at("thread_direction").at("enum") == names(joint::all_thread_directions));
     for (const joint::HeadShape shape : joint::all_head_shapes)
         CHECK(design_of(R"("bolt_length_mm": 30, "head": ")" + std::string(name(shape)) + '"').head == shape);
 }
@@ -98,6 +121,11 @@ TEST_CASE("Joint forms: mistakes are reported with their place and what would fi
     const Mistake mistakes[] = {
         {R"("form": "tapped", "bolt_length_mm": 30)",
          R"(4:10: /joint_types/T/form: "tapped" is not known here; expected one of through_bolt, tapped_hole, stud)"},
+        {R"("bolt_length_mm": 30, "thread_direction": "lefthand")",
+         R"(4:44: /joint_types/T/thread_direction: "lefthand" is not known here; expected one of right, left)"},
+        {R"("bolt_length_mm": 30, "thread_direction": true)", R"(4:44: /joint_types/T/thread_direction: )"},
+        {R"("bolt_length_mm": 30, "thread_directon": "left")",
+         R"(4:24: /joint_types/T/thread_directon: unknown property "thread_directon"; did you mean "thread_direction"?)"},
         {R"("form": "tapped_hole", "bolt_length_mm": 30)",
          R"(4:10: /joint_types/T/form: a joint of this form needs its tapped hole; expected tapped_hole with its material)"},
         {R"("tapped_hole": {"material": "C45"}, "bolt_length_mm": 30)",
