@@ -7,7 +7,7 @@
 namespace bolt::motion {
 
 Quat tool_orientation(const servo::NutGeometry& nut, double handle_angle, bool flipped) {
-    const Vec3 x = std::cos(-handle_angle) * nut.e1 + std::sin(-handle_angle) * nut.e2;
+    const Vec3 x = servo::direction_at(nut, handle_angle);
     const Vec3 z = flipped ? -nut.axis : nut.axis;
     return glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));
 }
@@ -115,7 +115,7 @@ struct FreeSpace {
     [[nodiscard]] bool handle_is_free(std::size_t joint, double nut_angle, double angle, double above) const {
         const servo::NutGeometry& nut = setup.nuts[joint];
         const Vec3 centre = servo::nut_centre(nut, nut_angle) + (above + handle_height()) * nut.axis;
-        const Vec3 out = std::cos(-angle) * nut.e1 + std::sin(-angle) * nut.e2;
+        const Vec3 out = servo::direction_at(nut, angle);
         const Vec3 across = glm::cross(nut.axis, out);
         for (const double side : {-half_width, 0.0, half_width})
             for (const double height : {-0.35, 0.0, 0.35}) {
@@ -213,7 +213,8 @@ GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* conta
     const int half = static_cast<int>(std::lround(pi / step));
     for (const bool flip : {false, true}) {
         if (flip && !reversible(setup.wrench)) break;
-        const double head = flip ? setup.wrench.head_angle : -setup.wrench.head_angle;
+        const double head =
+            setup.nuts[joint].sense * (flip ? setup.wrench.head_angle : -setup.wrench.head_angle);
         const double nearest = preferred + wrap(nut_angle - head - preferred, period);
         for (int k = -half; k < half; ++k) {
             const double candidate = nearest + (contact != nullptr ? k * step : 0.0);

@@ -130,8 +130,10 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     held.rest = hand.rest;
     held.pinches = hand.pinches;
     held.closing = hand.closing;
-    held.fingers = glove != nullptr ? hand.rest
-                                    : frame_towards(hand.pose, context.shoulder, -wrist_share * hand.twisted);
+    const double sense = hand.nut ? context.setup.nuts[*hand.nut].sense : 1.0;
+    held.fingers = glove != nullptr
+                       ? hand.rest
+                       : frame_towards(hand.pose, context.shoulder, -sense * wrist_share * hand.twisted);
     held.grip = context.grip;
     held.seconds = context.seconds;
     held.effort = context.effort;

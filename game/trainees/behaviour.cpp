@@ -242,7 +242,7 @@ void choose_grip_angle(TraineeState& t) {
     const double other_side = in_vain ? t.random.uniform(-1.0, 1.0) * pi : 0.0;
     const motion::GripAngle grip =
         motion::choose_grip(*t.setup, t.obstacles(), t.plan.joint, t.joint().nut.angle,
-                            0.5 * pi - 0.5 * sign + other_side, sign, t.profile.stroke);
+                            t.nut().sense * 0.5 * pi - 0.5 * sign + other_side, sign, t.profile.stroke);
     t.handle_angle = grip.handle + t.profile.angle_noise * t.random.normal();
     t.flipped = grip.flipped;
     t.free_swing = grip.free_swing;
@@ -270,7 +270,7 @@ void start_lift(TraineeState& t, const Pose& pose, double seconds) {
 void adopt_wrench_pose(TraineeState& t) {
     const servo::NutGeometry& nut = t.nut();
     const Vec3 x = t.hand.orientation * Vec3(1, 0, 0);
-    t.handle_angle += wrap(-std::atan2(glm::dot(x, nut.e2), glm::dot(x, nut.e1)) - t.handle_angle, 2.0 * pi);
+    t.handle_angle += wrap(servo::angle_of(nut, x) - t.handle_angle, 2.0 * pi);
     // Along the bolt the intended pose stays: the jaw has only begun to slide onto the nut.
     const Vec3 offset = t.hand.position - servo::nut_centre(nut, t.joint().nut.angle);
     t.placement_error = offset + nut.axis * glm::dot(nut.axis, t.placement_error - offset);

@@ -63,9 +63,10 @@ constexpr double stick_rate = 0.2;  // of the hand's rate; a nut that turns more
 
 double felt_torque(const force::TorqueRendering& rendering, const servo::NutGeometry& nut, const Vec3& handle,
                    const force::OutputCommand& output) {
-    if (rendering.scale > 0.0) return glm::dot(output.torque, nut.axis) / rendering.scale;
+    const Vec3 axis = servo::loosening_axis(nut);
+    if (rendering.scale > 0.0) return glm::dot(output.torque, axis) / rendering.scale;
     if (rendering.as_force <= 0.0) return 0.0;
-    return glm::dot(output.force, glm::cross(nut.axis, handle)) / rendering.as_force;
+    return glm::dot(output.force, glm::cross(axis, handle)) / rendering.as_force;
 }
 
 DelayedPerception::DelayedPerception(double reaction, double dt, double stiffness)

@@ -87,7 +87,7 @@ struct WorkingHand {
     Pose pose;                       // commanded pose of the tool or the empty hand
     Pose to;                         // end of a reach
     Pose rest;                       // of the wrench while it is not in the hand
-    double twisted = 0.0;            // rad that the fingers have turned since they gripped the nut
+    double twisted = 0.0;  // rad that the fingers have turned since they gripped the nut, tightening positive
     double free_swing =
         std::numeric_limits<double>::infinity();  // angle by which the hand can still turn the tool
 };

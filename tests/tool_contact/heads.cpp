@@ -34,50 +34,9 @@ content::WrenchDesign ratchet() {
 }
 content::WrenchDesign key() { return tool(content::ToolKind::hex_key, content::ToolHead::hex_key, 0.006); }
 
-// A plate with its upper face at y = 0, and the head of a screw on it. The head's socket is closed form.
-assets::Model plate_and_head(double head_radius, double head_height) {
-    assets::Model model;
-    const auto add = [&](const std::string& name, double radius, double low, double high, int sides,
-                         int parent) {
-        assets::Primitive prism;
-        for (const double y : {low, high})
-            for (int i = 0; i < sides; ++i) {
-                const double angle = (i + 0.5) * 2.0 * pi / sides;
-                prism.positions.emplace_back(radius * std::cos(angle), y, -radius * std::sin(angle));
-            }
-        const auto n = static_cast<std::uint32_t>(sides);
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t j = (i + 1) % n;
-            for (const std::uint32_t k : {i, j, n + j, i, n + j, n + i}) prism.indices.push_back(k);
-            if (i == 0 || j == 0) continue;
-            for (const std::uint32_t k : {0U, j, i, n, n + i, n + j}) prism.indices.push_back(k);
-        }
-        assets::Node node;
-        node.name = name;
-        node.mesh = static_cast<int>(model.meshes.size());
-        assets::Mesh mesh;
-        mesh.name = name;
-        mesh.primitives.push_back(std::move(prism));
-        model.meshes.push_back(std::move(mesh));
-        const int index = static_cast<int>(model.nodes.size());
-        if (parent >= 0)
-            model.nodes[static_cast<std::size_t>(parent)].children.push_back(index);
-        else
-            model.roots.push_back(index);
-        model.nodes.push_back(std::move(node));
-    };
-    add("plate", 0.1, -0.03, 0.0, 4, -1);
-    assets::Node joint;
-    joint.name = "B1";
-    model.roots.push_back(static_cast<int>(model.nodes.size()));
-    model.nodes.push_back(joint);
-    add("B1_bolt", head_radius, 0.0, head_height, 24, 1);
-    return model;
-}
-
 // One M8 socket screw in a tapped hole, tightened with a key of 6 mm.
 content::Assembly screw_with(const content::WrenchDesign& design, const std::filesystem::path& model) {
-    REQUIRE(assets::write_glb(model, plate_and_head(6.5e-3, 8e-3)));
+    REQUIRE(assets::write_glb(model, test::plate_with({"B1_bolt", 6.5e-3, 8e-3, 24})));
     content::LoadedAssembly loaded = content::parse_assembly(
         R"({"title": {"en": "Screw"}, "lesson": {"en": "Tighten."},
             "tool": {"kind": "hex_key", "size_mm": 6, "handle_length_mm": 150},

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "content/format/assembly.hpp"
+#include "engine/assets/model.hpp"
 #include "engine/base/math.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/lesson_session.hpp"
@@ -25,6 +26,17 @@ struct Workbench {
                               const Vec3& beside = Vec3(0.0), const Vec3& towards = Vec3(0, 0, 1)) const;
     servo::Output step(const Pose& hand, servo::Grip grip = servo::Grip::wrench);
 };
+
+// The turned part of the joint B1, drawn as a prism on its seat: m, `sides` corners at `radius`.
+struct PartOnPlate {
+    const char* node;
+    double radius = 0.0, height = 0.0;
+    int sides = 6;
+};
+
+// A plate with its upper face at y = 0, and the part on it. The socket of a head is closed form and not
+// drawn.
+assets::Model plate_with(const PartOnPlate& part);
 
 // Moves the hand from one pose to another in a minimum-jerk motion. Calls `visit` with the output of every
 // tick.

@@ -206,8 +206,8 @@ PenetrationRun run_onto_nuts(const servo::Setup& setup, servo::State& state, con
         };
         bool free = false;
         for (int turn = 0; turn < 6 && !free; ++turn) {
-            const double handle = angle + setup.wrench.head_angle + turn * pi / 3.0;
-            const Vec3 x = std::cos(handle) * nut.e1 - std::sin(handle) * nut.e2;
+            const double handle = angle + nut.sense * setup.wrench.head_angle + turn * pi / 3.0;
+            const Vec3 x = servo::direction_at(nut, handle);
             over.orientation =
                 glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(nut.axis, x), nut.axis)));
             over.position = above(35 * mm, Vec3(0.0));
