@@ -177,15 +177,15 @@ std::string format_number(const Words& words, const Number& number) {
     return text;
 }
 
-std::string format_text(const Words& words, TextKey key, std::span<const TextArgument> arguments) {
-    const std::string& text = words[key];
+std::string replace_placeholders(const Words& words, std::string_view text,
+                                 std::span<const TextArgument> arguments) {
     std::string result;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t open = std::min(text.find('{', at), text.size());
         result.append(text, at, open - at);
         if (open == text.size()) break;
         const std::size_t close = text.find('}', open);
-        const Placeholder placeholder(std::string_view(text).substr(open + 1, close - open - 1));
+        const Placeholder placeholder(text.substr(open + 1, close - open - 1));
         const auto argument =
             std::find_if(arguments.begin(), arguments.end(),
                          [&](const TextArgument& candidate) { return candidate.name == placeholder.name; });
@@ -200,6 +200,10 @@ std::string format_text(const Words& words, TextKey key, std::span<const TextArg
         at = close + 1;
     }
     return result;
+}
+
+std::string format_text(const Words& words, TextKey key, std::span<const TextArgument> arguments) {
+    return replace_placeholders(words, words[key], arguments);
 }
 
 std::string format_text(const Words& words, TextKey key, std::initializer_list<TextArgument> arguments) {

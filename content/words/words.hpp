@@ -74,6 +74,9 @@ struct Words {
 // ignored.
 std::string format_text(const Words& words, TextKey key, std::span<const TextArgument> arguments);
 std::string format_text(const Words& words, TextKey key, std::initializer_list<TextArgument> arguments = {});
+// The same for a text that is not of the table, such as an argument that has placeholders of its own.
+std::string replace_placeholders(const Words& words, std::string_view text,
+                                 std::span<const TextArgument> arguments);
 std::string format_number(const Words& words, const Number& number);
 
 // A torque with the decimals that a torque wrench shows, for example 20 and 7.5.

@@ -6,16 +6,18 @@ namespace bolt::lesson {
 
 namespace {
 
-// In the order of the texts of {fasteners: ...}.
-enum class TurnedFasteners : std::uint8_t { nuts, screws, both };
-
 bool is_screw(const joint::JointDesign& design) { return design.turned == joint::TurnedPart::head; }
 
-TurnedFasteners fasteners_of(const content::Assembly& assembly) {
-    const auto screws = std::count_if(assembly.joints.begin(), assembly.joints.end(),
-                                      [](const auto& joint) { return is_screw(joint.design); });
-    if (screws == 0) return TurnedFasteners::nuts;
-    return screws == std::ssize(assembly.joints) ? TurnedFasteners::screws : TurnedFasteners::both;
+bool is_left_handed(const joint::JointDesign& design) {
+    return design.thread_direction == joint::ThreadDirection::left;
+}
+
+// The text of a choice about all joints: 0 if none has the property, 1 if all have it, 2 if some have it.
+std::size_t choice_of_all(const content::Assembly& assembly, bool (*has)(const joint::JointDesign&)) {
+    const auto count = std::count_if(assembly.joints.begin(), assembly.joints.end(),
+                                     [has](const auto& joint) { return has(joint.design); });
+    if (count == 0) return 0;
+    return count == std::ssize(assembly.joints) ? 1 : 2;
 }
 
 }  // namespace
@@ -26,7 +28,7 @@ std::string_view fastener_name(const joint::JointDesign& design) {
 
 std::string_view fastener_name(const content::Assembly& assembly) {
     constexpr std::string_view names[] = {"nut", "screw", "joint"};
-    return names[static_cast<std::size_t>(fasteners_of(assembly))];
+    return names[choice_of_all(assembly, is_screw)];
 }
 
 words::TextArgument fastener_argument(const joint::JointDesign& design) {
@@ -34,7 +36,15 @@ words::TextArgument fastener_argument(const joint::JointDesign& design) {
 }
 
 words::TextArgument fasteners_argument(const content::Assembly& assembly) {
-    return {"fasteners", words::Choice{static_cast<std::size_t>(fasteners_of(assembly))}};
+    return {"fasteners", words::Choice{choice_of_all(assembly, is_screw)}};
+}
+
+words::TextArgument thread_argument(const joint::JointDesign& design) {
+    return {"thread", words::Choice{is_left_handed(design) ? 1U : 0U}};
+}
+
+words::TextArgument threads_argument(const content::Assembly& assembly) {
+    return {"threads", words::Choice{choice_of_all(assembly, is_left_handed)}};
 }
 
 }  // namespace bolt::lesson

@@ -1,4 +1,5 @@
-// Names of the part of a joint that is turned: a nut, or a screw if it is turned at its head.
+// Names of the part of a joint that is turned, a nut, or a screw if it is turned at its head, and the
+// direction of its thread.
 #pragma once
 
 #include <string_view>
@@ -16,5 +17,8 @@ std::string_view fastener_name(const content::Assembly& assembly);
 // The choices {fastener: ...} of one joint and {fasteners: ...} of all joints (content/words/key_rows.hpp).
 words::TextArgument fastener_argument(const joint::JointDesign& design);
 words::TextArgument fasteners_argument(const content::Assembly& assembly);
+// The choices {thread: ...} of one joint and {threads: ...} of all joints.
+words::TextArgument thread_argument(const joint::JointDesign& design);
+words::TextArgument threads_argument(const content::Assembly& assembly);
 
 }  // namespace bolt::lesson

@@ -52,6 +52,7 @@ std::optional<Mistake> mistake_of(const Lesson& lesson, const LessonEvent& event
         Mistake mistake{event.mistake, event.joint, row.text, row.remedy, {}};
         mistake.arguments = {{"held", joint.design.id},
                              fastener_argument(joint.design),
+                             thread_argument(joint.design),
                              {"most", words::torque_number(joint.spec.torque.high)},
                              {"most_angle", words::Number{to_degrees(joint.spec.angle.high), 0}},
                              {"rounded", words::Number{1e3 * event.value, 2}}};
@@ -154,6 +155,7 @@ void add(std::vector<AdviceCost>& costs, TextKey advice, double points) {
 
 Review review(const content::Assembly& assembly, const LessonResult& result) {
     Review review;
+    review.arguments = {fasteners_argument(assembly), threads_argument(assembly)};
     std::vector<AdviceCost> costs;
     for (const Deduction& reason : result.reasons) {
         DeductionText deduction{

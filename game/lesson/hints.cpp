@@ -101,6 +101,7 @@ std::vector<words::TextArgument> text_arguments(const ObservedLesson& work) {
         {"joint", joints[due->joint].design.id},
         fastener_argument(joints[due->joint].design),
         fasteners_argument(*work.lesson.assembly),
+        thread_argument(joints[due->joint].design),
         {"size", words::Number{1e3 * work.setup.nuts[due->joint].across_flats, 0}},
         {"percent", words::Number{100.0 * due->fraction, 0}},
         {"torque", words::torque_number(due->torque)},
@@ -154,7 +155,7 @@ std::string motion_text(const words::Words& words, const Hint& hint, const Contr
     if (hint.level < 3 || hint.motion == HintMotion::none) return {};
     const auto motion = static_cast<std::size_t>(hint.motion);
     std::vector<words::TextArgument> arguments = hint.arguments;
-    arguments.push_back({"control", controls[motion]});
+    arguments.push_back({"control", words::replace_placeholders(words, controls[motion], hint.arguments)});
     return words::format_text(words, motion_keys[motion], arguments);
 }
 

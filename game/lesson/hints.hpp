@@ -54,7 +54,7 @@ struct Hint {
 // arrow.
 Hint make_hint(Situation situation, Situation underlying, int level, const ObservedLesson& work);
 
-// The control for each motion as text ("hold F and drag").
+// The control for each motion as text ("hold F and drag"). motion_text() selects the texts of its choices.
 using ControlNames = std::array<std::string, motion_count>;
 
 std::string hint_text(const words::Words& words, const Hint& hint);

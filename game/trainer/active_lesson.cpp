@@ -39,13 +39,22 @@ void press(ActiveLesson& active, MouseCommand& command) {
     }
 }
 
+// rad, tightening positive, by which a drag turns the handle of a wrench that the hand holds on a nut.
 double handle_turn(const ActiveLesson& active, const Projection& projection, const glm::dvec2& drag) {
     if (!hand_of(active).nut || hand_of(active).action != HandAction::holding || !hand_of(active).wrench)
         return 0.0;
     const servo::Setup& setup = active.session->setup();
-    const glm::dvec2 lever = lever_on_screen(
-        projection, tool_of(active).pose, setup.nuts[*hand_of(active).nut].axis, setup.wrench.handle_length);
-    return drag_angle(lever, drag);
+    const servo::NutGeometry& nut = setup.nuts[*hand_of(active).nut];
+    const glm::dvec2 lever =
+        lever_on_screen(projection, tool_of(active).pose, nut.axis, setup.wrench.handle_length);
+    return nut.sense * drag_angle(lever, drag);
+}
+
+// −1 … 1 of the fastest twist of the fingers, tightening positive. A drag to the right turns clockwise.
+double finger_twist(const ActiveLesson& active, double drag) {
+    const auto& nut = hand_of(active).nut;
+    const double sense = nut ? active.session->setup().nuts[*nut].sense : 1.0;
+    return sense * drag / full_spin_drag;
 }
 
 // The rotation about the vertical from the viewer's frame to the assembly's.
@@ -150,7 +159,7 @@ void handle_mouse_input(ActiveLesson& active, const FrameInput& input, const Pro
         (hand_of(active).wrench ? command.lay_down : command.take_wrench) = true;
     if (command.button_down) {
         command.turn = handle_turn(active, projection, input.left_drag);
-        command.spin = (input.pointer.x - active.pointer.press_position.x) / full_spin_drag;
+        command.spin = finger_twist(active, input.pointer.x - active.pointer.press_position.x);
     }
     if (active.undo.target && hand_of(active).nut) command.retreat = true;
     if (active.clock.finished || active.clock.paused) command = {};

@@ -93,7 +93,6 @@ Vec3 along_bolt(const DragScene& scene, const Vec3& axis, double notches) {
 HandShift swing_on_bolt(const DragInput& input, const DragScene& scene) {
     const Vec3& axis = scene.nut->axis;
     const glm::dvec2 lever = lever_on_screen(scene.projection, scene.tool, axis, scene.handle_length);
-    // Tightening a right-hand thread turns about −axis.
     const double angle = -drag_angle(lever, input.mouse.left_drag);
     const Vec3 handle = handle_end(scene) - scene.tool.position;
     return {angle * glm::cross(axis, handle) + along_bolt(scene, axis, input.mouse.scroll), Vec3(0.0)};

@@ -86,8 +86,7 @@ void choose_side(HelpedHand& hand, const servo::Setup& setup, const servo::State
     // 60°.
     const Vec3 to_trainee = hand.rest.position - nut.seat;
     const double aside = (hand.misses % 2 == 1 ? 1.0 : -1.0) * to_radians(60.0) * (hand.misses / 2);
-    const double wanted = -std::atan2(glm::dot(to_trainee, nut.e2), glm::dot(to_trainee, nut.e1)) -
-                          0.5 * sign * preferred_stroke + aside;
+    const double wanted = servo::angle_of(nut, to_trainee) - 0.5 * sign * preferred_stroke + aside;
     const auto grip =
         motion::choose_grip(setup, state.tool_contact ? &*state.tool_contact : nullptr, *hand.nut,
                             state.joints[*hand.nut].nut.angle, wanted, sign, preferred_stroke);

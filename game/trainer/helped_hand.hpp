@@ -27,7 +27,7 @@ struct MouseCommand {
     bool button_down = false;
     bool loosens = false;  // direction of the next pull; determines on which side the handle needs room
     double turn = 0.0;     // rad by which the handle was dragged since the last frame, tightening positive
-    double spin = 0.0;     // −1 … 1 of the fastest twist of the fingers
+    double spin = 0.0;     // −1 … 1 of the fastest twist of the fingers, tightening positive
 };
 
 struct HelpedHand {

@@ -28,7 +28,7 @@ MotionArrow up_from(const Vec3& at, const Vec3& up, double width) {
 // `sense`: 1 tightens.
 MotionArrow handle_arrow(const MotionGeometry& geometry, double sense, double height,
                          const glm::vec4& color) {
-    const Vec3 axis = -sense * geometry.nut.axis;
+    const Vec3 axis = -sense * servo::loosening_axis(geometry.nut);
     return scene::round_arrow(
         {geometry.nut_centre + height * geometry.nut.axis, axis, geometry.tool.orientation * Vec3(1, 0, 0),
          handle_radius * geometry.handle_length},
@@ -36,10 +36,10 @@ MotionArrow handle_arrow(const MotionGeometry& geometry, double sense, double he
 }
 
 MotionArrow finger_arrow(const MotionGeometry& geometry, double sense, const glm::vec4& color) {
-    return scene::round_arrow(
-        {geometry.nut_centre + finger_height * geometry.nut.axis, -sense * geometry.nut.axis, geometry.nut.e1,
-         finger_radius * geometry.nut.across_flats},
-        color);
+    return scene::round_arrow({geometry.nut_centre + finger_height * geometry.nut.axis,
+                               -sense * servo::loosening_axis(geometry.nut), geometry.nut.e1,
+                               finger_radius * geometry.nut.across_flats},
+                              color);
 }
 
 // Shows the hand where it should work: fingers on the nut, or around the wrench at rest.

@@ -55,7 +55,6 @@ glm::dvec2 lever_on_screen(const Projection& projection, const Pose& tool, const
                            double handle_length) {
     constexpr double step = 1e-3;  // rad
     const Vec3 arm = handle_length * (tool.orientation * Vec3(1, 0, 0));
-    // Tightening turns about -axis.
     const Quat turn = glm::angleAxis(-step, axis);
     const auto now = project(projection, tool.position + arm),
                then = project(projection, tool.position + turn * arm);

@@ -28,14 +28,14 @@ std::optional<std::size_t> nut_at(const Projection& projection, const glm::dvec2
 std::optional<double> pixels_to_segment(const Projection& projection, const glm::dvec2& pointer,
                                         const Vec3& from, const Vec3& to);
 
-// Movement of the end of the handle in the picture per radian of tightening, px/rad, for a wrench at `tool`
-// on a nut with this axis. At least `min_lever` long, because otherwise a handle seen end-on would turn
-// at the slightest drag.
+// Movement of the end of the handle in the picture, px, per radian by which a wrench at `tool` turns
+// clockwise about `axis`, seen against it. At least `min_lever` long, because otherwise a handle seen end-on
+// would turn at the slightest drag.
 inline constexpr double min_lever = 160.0;
 glm::dvec2 lever_on_screen(const Projection& projection, const Pose& tool, const Vec3& axis,
                            double handle_length);
 
-// Angle in rad by which a drag, in px, turns the handle.
+// Angle in rad, clockwise positive, by which a drag, in px, turns the handle.
 double drag_angle(const glm::dvec2& lever, const glm::dvec2& drag);
 
 }  // namespace bolt::trainer

@@ -169,7 +169,8 @@ ScreenAction draw_result(const ScreenContext& context, const content::Assembly& 
         draw_text((reason.points != 0.0 ? fmt::format("{:+.0f}  ", reason.points) : std::string()) +
                   lesson::deduction_text(words, reason));
     ImGui::Separator();
-    for (const words::TextKey advice : review.advice) draw_text(words[advice]);
+    for (const words::TextKey advice : review.advice)
+        draw_text(words::format_text(words, advice, review.arguments));
     ImGui::PopTextWrapPos();
     ImGui::End();
     return action;

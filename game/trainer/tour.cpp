@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "game/lesson/fastener_names.hpp"
+
 namespace bolt::trainer {
 
 namespace {
@@ -12,8 +14,12 @@ constexpr double enough_turn = 0.25;  // rad, of the view
 
 bool& done(Tour& tour, TourTask task) { return tour.done.at(static_cast<std::size_t>(task)); }
 
-std::string motion(const lesson::ControlNames& controls, lesson::HintMotion motion) {
-    return controls.at(static_cast<std::size_t>(motion));
+// The control for a motion at the joint of the tour.
+std::string control_of(const words::Words& words, const ActiveLesson& active,
+                       const lesson::ControlNames& controls, lesson::HintMotion motion) {
+    const words::TextArgument thread =
+        lesson::thread_argument(active.session->assembly().joints.front().design);
+    return words::replace_placeholders(words, controls.at(static_cast<std::size_t>(motion)), {&thread, 1});
 }
 
 // The angle by which a drag of this frame turns the view, rad; the speed is that of view::turn.
@@ -61,6 +67,7 @@ std::string tour_text(const words::Words& words, TourTask task, const ActiveLess
                       const lesson::ControlNames& controls) {
     using lesson::HintMotion;
     const auto key = [&](Action action) { return key_name(active.input.keys, action); };
+    const auto control = [&](HintMotion motion) { return control_of(words, active, controls, motion); };
     switch (task) {
         case TourTask::look:
             return words["tour.look"];
@@ -69,22 +76,22 @@ std::string tour_text(const words::Words& words, TourTask task, const ActiveLess
         case TourTask::find:
             return words::format_text(words, "tour.find", {{"key", key(Action::find_view)}});
         case TourTask::run_down:
-            return words::format_text(words, "tour.run_down",
-                                      {{"grip", motion(controls, HintMotion::grip_nut)},
-                                       {"turn", motion(controls, HintMotion::spin)}});
+            return words::format_text(
+                words, "tour.run_down",
+                {{"grip", control(HintMotion::grip_nut)}, {"turn", control(HintMotion::spin)}});
         case TourTask::help:
             return words::format_text(words, "tour.help", {{"key", key(Action::hint)}});
         case TourTask::pause:
             return words::format_text(words, "tour.pause", {{"key", key(Action::pause)}});
         case TourTask::take:
-            return words::format_text(words, "tour.take", {{"control", motion(controls, HintMotion::take)}});
+            return words::format_text(words, "tour.take", {{"control", control(HintMotion::take)}});
         case TourTask::tighten:
             return words::format_text(
                 words, "tour.tighten",
                 {{"torque",
                   words::torque_number(active.session->assembly().joints.front().spec.torque.target)},
-                 {"set_on", motion(controls, HintMotion::set_on)},
-                 {"pull", motion(controls, HintMotion::pull_on)}});
+                 {"set_on", control(HintMotion::set_on)},
+                 {"pull", control(HintMotion::pull_on)}});
     }
     return {};
 }

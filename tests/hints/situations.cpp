@@ -353,7 +353,8 @@ TEST_CASE("Hints: guided: every situation has a complete hint for the due joint 
                     const std::string motion = motion_text(language, at, controls);
                     CHECK(motion.empty() == (level < 3 || c.motion == HintMotion::none));
                     CHECK(motion.find('{') == std::string::npos);
-                    const std::string& pressed = controls[static_cast<std::size_t>(c.motion)];
+                    const std::string pressed = words::replace_placeholders(
+                        language, controls[static_cast<std::size_t>(c.motion)], hint.arguments);
                     CHECK(pressed.empty() == (c.motion == HintMotion::none));
                     CHECK((motion.empty() || motion.find(pressed) != std::string::npos));
                 }

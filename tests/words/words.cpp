@@ -127,6 +127,10 @@ TEST_CASE("Words: placeholders are filled in, and numbers follow the language") 
     // Placeholders in a value are not replaced.
     CHECK(format_text(en, "hint.next", {{"joint", "{joint}"}}) == "{joint} is next.");
     CHECK(format_text(en, "hint.set_back", {{"joint", "B7"}}) == en["hint.set_back"]);
+    // A text that is not of the table.
+    const TextArgument thread{"thread", Choice{1}};
+    CHECK(replace_placeholders(en, "drag to the {thread: right|left} {control}", {&thread, 1}) ==
+          "drag to the left {control}");
 }
 
 TEST_CASE("Words: a choice selects the text for a nut or a screw") {
@@ -135,7 +139,10 @@ TEST_CASE("Words: a choice selects the text for a nut or a screw") {
     const Words zh = load_words(words_folder(), "zh").words;
     const auto text = [](const Words& words, TextKey key, std::size_t index) {
         return format_text(words, key,
-                           {{"joint", "B7"}, {"fastener", Choice{index}}, {"fasteners", Choice{index}}});
+                           {{"joint", "B7"},
+                            {"thread", Choice{0}},
+                            {"fastener", Choice{index}},
+                            {"fasteners", Choice{index}}});
     };
     CHECK(text(en, "hint.set_on", 0) ==
           "Slide the jaw fully onto the nut of B7, straight and square to the bolt.");
@@ -145,6 +152,14 @@ TEST_CASE("Words: a choice selects the text for a nut or a screw") {
     CHECK(text(de, "hint.grip_nut", 1) == "Fassen Sie den Schraubenkopf von B7 mit den Fingern.");
     CHECK(text(zh, "hint.run_down", 1) == "顺时针旋转 B7 的螺钉，直到贴合。");
     CHECK(text(en, "hint.all_done", 2) == "All nuts and screws are done. Put the wrench down.");
+    const auto direction = [&](const Words& words, std::size_t index) {
+        return format_text(words, "how.pull_on",
+                           {{"control", "X"}, {"fastener", Choice{0}}, {"thread", Choice{index}}});
+    };
+    CHECK(direction(en, 0) == "Swing the handle clockwise about the bolt, seen from the nut's side: X.");
+    CHECK(direction(en, 1) == "Swing the handle anticlockwise about the bolt, seen from the nut's side: X.");
+    CHECK(direction(de, 1) ==
+          "Schwenken Sie den Griff gegen den Uhrzeigersinn um die Schraube, mit Blick auf die Mutter: X.");
     // Without a value the choice stays in the text.
     CHECK(format_text(en, "hint.twist_back") == en["hint.twist_back"]);
     const std::string given = "{fastener: nut|screw} again";
