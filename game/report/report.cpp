@@ -342,8 +342,9 @@ std::string bolt_text(const content::AssemblyJoint& joint) {
     const joint::JointDesign& d = joint.design;
     const double coarse = d.thread.size.coarse_pitch, pitch = d.thread.thread.pitch;
     const bool fine = coarse > 0.0 && std::abs(pitch - coarse) > 1e-6;
-    return fmt::format("{}{}×{} · {}", d.thread.size.name, fine ? fmt::format("×{:.4g}", 1e3 * pitch) : "",
-                       plot::number(1e3 * d.bolt_length, 0), d.bolt_class.name);
+    return fmt::format("{}{}×{}{} · {}", d.thread.size.name, fine ? fmt::format("×{:.4g}", 1e3 * pitch) : "",
+                       plot::number(1e3 * d.bolt_length, 0), joint::size_suffix(d.thread_direction),
+                       d.bolt_class.name);
 }
 
 std::string session_section(const analysis::SessionData& session, std::size_t number,

@@ -68,9 +68,11 @@ std::string summary_table(const content::Assembly& assembly, const lesson::Lesso
             verdict += fmt::format(" ({})", joint::name(joint.condition));
         if (joint.out_of_turn > 0) verdict += fmt::format(", {}× out of turn", joint.out_of_turn);
         if (joint.done_already > 0) verdict += fmt::format(", {}× again", joint.done_already);
-        table += fmt::format("{:<8} {:<8} {:>8.1f} {:>9.2f} {:>8.1f} {:>8.1f}  {}\n", joint.id,
-                             planned.design.thread.size.name, joint.torque, joint.clamp / 1e3,
-                             planned.spec.torque.target, to_degrees(joint.angle), verdict);
+        const std::string size = fmt::format("{}{}", planned.design.thread.size.name,
+                                             joint::size_suffix(planned.design.thread_direction));
+        table +=
+            fmt::format("{:<8} {:<8} {:>8.1f} {:>9.2f} {:>8.1f} {:>8.1f}  {}\n", joint.id, size, joint.torque,
+                        joint.clamp / 1e3, planned.spec.torque.target, to_degrees(joint.angle), verdict);
     }
     table += fmt::format("{:.1f} s, score {:.1f} of 100\n", result.duration, result.score);
     for (const lesson::Deduction& reason : result.reasons)

@@ -84,6 +84,11 @@ constexpr std::optional<ThreadDirection> thread_direction_named(std::string_view
     return std::nullopt;
 }
 
+// Follows the size of a thread in tables: " LH" (ISO 965-1), or empty for a right-hand thread.
+constexpr std::string_view size_suffix(ThreadDirection direction) {
+    return direction == ThreadDirection::left ? " LH" : "";
+}
+
 // The part that a tool turns.
 enum class TurnedPart : std::uint8_t { nut, head };
 
