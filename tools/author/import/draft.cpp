@@ -366,8 +366,8 @@ class DraftWriter {
             "their thickness, washers, positions and axes; the material of members by their colour or "
             "name{}. "
             "Defaults, to be replaced by what your drawing says: property class 8.8 (A2-70 where the bolt is "
-            "stainless), coarse thread unless the nut's hole shows a fine one, friction {:g} (oiled, VDI "
-            "2230 class "
+            "stainless), right-hand threads, coarse unless the nut's hole shows a fine one, friction {:g} "
+            "(oiled, VDI 2230 class "
             "B), strategy torque with {:g} % of the torque at {:g} % of yield, tolerance 10 %, risk class C, "
             "the "
             "tools, the order and the passes{}.",
