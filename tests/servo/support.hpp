@@ -8,10 +8,14 @@
 
 namespace bolt::test {
 
-inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis = Vec3(0, 1, 0)) {
+inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis = Vec3(0, 1, 0),
+                               joint::ThreadDirection thread = joint::ThreadDirection::right) {
     std::vector<joint::JointDesign> designs(2, m16_flange_joint());
     designs[1].seat = Vec3(0.2, 0.0, 0.0);
-    for (joint::JointDesign& d : designs) d.axis = axis;
+    for (joint::JointDesign& d : designs) {
+        d.axis = axis;
+        d.thread_direction = thread;
+    }
     servo::SetupDescription description;
     description.joints = designs;
     description.tool.head = collision::make_jaw(24.2e-3, to_radians(15.0));

@@ -1,4 +1,6 @@
 // Devices that move the tool by rates or rotations: puck, keys, wheel.
+#include <utility>
+
 #include "tests/station/test_station.hpp"
 
 using namespace bolt;
@@ -50,25 +52,32 @@ TEST_CASE("Puck: the tool moves at the puck's rate while that is valid, and stop
     }
 }
 
-TEST_CASE("Wheel: clockwise as the user sees it tightens, whatever the sign of the device's axis") {
-    for (const Vec3 axis : {Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
+TEST_CASE("Wheel: clockwise as the user sees it tightens, at a left-hand thread it loosens, for any axis") {
+    using joint::ThreadDirection;
+    for (const auto& [axis, thread] : {std::pair{Vec3(0, 0, -1), ThreadDirection::right},
+                                       {Vec3(0, 0, 1), ThreadDirection::right},
+                                       {Vec3(0, 1, 0), ThreadDirection::right},
+                                       {Vec3(0, -1, 0), ThreadDirection::right},
+                                       {Vec3(0, 0, -1), ThreadDirection::left},
+                                       {Vec3(0, 1, 0), ThreadDirection::left}}) {
         CAPTURE(axis.y);
         CAPTURE(axis.z);
         DeviceLayout layout;
         layout.mover = test::puck();
         layout.wheel = test::wheel_of(10.0, axis);
-        Rig rig = on_nut(layout);
+        Rig rig = on_nut(layout, thread);
         // The user looks along −z, or down. Clockwise is right-handed about the viewing direction.
         const double with_clock = axis.y + axis.z < 0.0 ? 1.0 : -1.0;
+        const double tightens = thread == ThreadDirection::left ? -with_clock : with_clock;
         DeviceCommands answer;
         for (int i = 0; i < 30'000 && rig.state.output.wrench_torque < 100.0; ++i) {
-            rig.inputs.wheel.sample.angle += with_clock * 1e-3;
+            rig.inputs.wheel.sample.angle += tightens * 1e-3;
             answer = rig.tick();
         }
         REQUIRE(rig.state.output.wrench_torque > 99.0);
         CHECK(rig.state.output.nut_angle > 0.5);
         // The wheel renders the nut's torque, scaled to its motor, against its rotation.
-        const double felt = glm::dot(answer.wheel.torque, axis) * -with_clock;
+        const double felt = glm::dot(answer.wheel.torque, axis) * -tightens;
         CHECK(
             felt ==
             doctest::Approx(rig.state.output.wrench_torque * rig.setup.torque_rendering.scale).epsilon(0.02));

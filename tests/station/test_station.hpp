@@ -19,9 +19,10 @@ inline station::DeviceLayout with_arm() {
 
 // A station whose devices send the samples set by a test, every millisecond.
 struct Rig {
-    explicit Rig(const station::DeviceLayout& l)
+    explicit Rig(const station::DeviceLayout& l,
+                 joint::ThreadDirection thread = joint::ThreadDirection::right)
         : layout(l),
-          setup(two_joints(station::limits_of(l))),
+          setup(two_joints(station::limits_of(l), Vec3(0, 1, 0), thread)),
           servo(servo::initial_state(setup)),
           state(station::initial_state(l)) {
         for (device::DeviceSnapshot* snapshot : {&inputs.mover, &inputs.wheel}) {
@@ -58,13 +59,15 @@ struct Rig {
 };
 
 // A station with the tool engaged on the first nut. Only a puck can move the tool.
-inline Rig on_nut(station::DeviceLayout layout) {
-    const servo::Setup setup = two_joints(station::limits_of(layout));
+inline Rig on_nut(station::DeviceLayout layout,
+                  joint::ThreadDirection thread = joint::ThreadDirection::right) {
+    const servo::Setup setup = two_joints(station::limits_of(layout), Vec3(0, 1, 0), thread);
     const servo::NutGeometry& nut = setup.nuts[0];
-    const servo::CommandedTool at = tool_at(nut, servo::nut_centre(nut, 0.0), setup.wrench.head_angle);
+    const servo::CommandedTool at =
+        tool_at(nut, servo::nut_centre(nut, 0.0), nut.sense * setup.wrench.head_angle);
     const servo::ToolPose pose = servo::tool_pose(at);
     layout.home = {pose.position, pose.orientation};
-    Rig rig(layout);
+    Rig rig(layout, thread);
     rig.ticks(700);  // until the output is ramped up
     REQUIRE(rig.state.output.joint == 0);
     return rig;

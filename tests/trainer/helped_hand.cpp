@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "tests/lesson/left_threads.hpp"
 #include "tests/lesson/three_tools.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"
@@ -67,6 +68,19 @@ TEST_CASE("Helped hand: it changes the tool at rest when a nut needs another one
         options.obstacles = obstacles;
         const Outcome out = play_through(test::cover_with_three_tools(), options, 400.0);
         REQUIRE(out.result.joints.size() == 4);
+        for (const lesson::JointResult& joint : out.result.joints)
+            CHECK(joint.torque_verdict == lesson::Verdict::ok);
+        CHECK(out.longest_jump < 5e-3);
+    }
+}
+
+TEST_CASE("Helped hand: it tightens left-hand threads beside right-hand ones") {
+    for (const char* tool : {"", "ratchet"}) {
+        const test::Folder folder;
+        session::LessonOptions options;
+        options.obstacles = session::Obstacles::required;
+        const Outcome out = play_through(test::cover_with_left_threads(folder, tool), options, 400.0);
+        CHECK(out.result.finished);
         for (const lesson::JointResult& joint : out.result.joints)
             CHECK(joint.torque_verdict == lesson::Verdict::ok);
         CHECK(out.longest_jump < 5e-3);

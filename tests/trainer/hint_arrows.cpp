@@ -34,10 +34,12 @@ servo::NutGeometry some_nut(Random& random) {
 }  // namespace
 
 TEST_CASE(
-    "Hint arrows: a round arrow follows the handle, clockwise to tighten and counterclockwise to loosen") {
+    "Hint arrows: a round arrow follows the handle, clockwise to tighten a right-hand thread and "
+    "counterclockwise to loosen it, the other way at a left-hand thread") {
     Random random(7, 1);
     for (int i = 0; i < 50; ++i) {
-        const servo::NutGeometry nut = some_nut(random);
+        servo::NutGeometry nut = some_nut(random);
+        nut.sense = i % 2 == 0 ? 1.0 : -1.0;
         MotionGeometry place{nut, nut.seat, {}, {}, 0.3, false};
         place.tool.position = nut.seat;
         place.tool.orientation = glm::normalize(glm::quat_cast(glm::dmat3(nut.e2, -nut.e1, nut.axis)));
@@ -54,7 +56,7 @@ TEST_CASE(
             // r² sin(sweep), with the sign of the rotation.
             const double area = glm::dot(glm::cross(tail, tip), nut.axis);
             CHECK(std::abs(area) == doctest::Approx(r * r * std::sin(scene::arrow_sweep)));
-            return area;
+            return nut.sense * area;
         };
         CHECK(turned(HintMotion::pull_on, false) < 0.0);
         CHECK(turned(HintMotion::spin, false) < 0.0);

@@ -7,13 +7,14 @@
 
 namespace bolt::test {
 
-OneJoint::OneJoint(const char* assembly) {
+OneJoint::OneJoint(const char* assembly, const char* thread_direction) {
     namespace fs = std::filesystem;
     const fs::path one = folder_ / "one";
     fs::copy(content::content_folder() / "assemblies" / assembly, one);
     nlohmann::json file = nlohmann::json::parse(std::ifstream(one / "assembly.json"));
     nlohmann::json& joints = file["joints"];
     joints = {joints[0]};
+    joints[0]["override"]["thread_direction"] = thread_direction;
     file["order"] = {joints[0]["id"]};
     nlohmann::json passes = nlohmann::json::array();
     for (const nlohmann::json& pass : file["passes"])

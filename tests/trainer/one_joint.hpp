@@ -8,7 +8,8 @@ namespace bolt::test {
 
 class OneJoint {
   public:
-    explicit OneJoint(const char* assembly);
+    // `thread_direction`: "right" or "left".
+    explicit OneJoint(const char* assembly, const char* thread_direction = "right");
     // For content::load_assembly.
     [[nodiscard]] std::string name() const { return (folder_ / "one").string(); }
     [[nodiscard]] const Folder& folder() const { return folder_; }

@@ -67,6 +67,23 @@ TEST_CASE("Trainer: a lesson is played by mouse from the menu to the result") {
     CHECK(driver.app().closed());
 }
 
+TEST_CASE("Trainer: a left-hand thread is run down and tightened by drags the other way") {
+    if (test::sanitized) return test::skip_rest("playing a lesson takes minutes under a sanitizer");
+    const test::OneJoint one("cover-m8", "left");
+    AppOptions o = options(one.name().c_str(), false);
+    o.out = one.folder() / "out";
+    HeadlessTrainer driver(o);
+    driver.frame();
+    driver.key(platform::Key::i);  // as above
+    SimulatedUser user(driver);
+    user.play(200.0, 1);
+    CHECK(driver.lesson().session->lesson().current == 1);
+    CHECK(driver.lesson().session->setup().nuts.front().sense == -1.0);
+    user.play(200.0);
+    REQUIRE(driver.outcome());
+    CHECK(driver.outcome()->result.joints.front().overall == lesson::Verdict::ok);
+}
+
 TEST_CASE("Trainer: the ticks and the picture of a frame include the input of that frame") {
     HeadlessTrainer driver(options("cover-m8", false));
     driver.frame();

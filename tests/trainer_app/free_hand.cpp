@@ -67,6 +67,19 @@ TEST_CASE("Free hand: a simulated user aligns and tightens the nut by dragging a
     CHECK(user.presses < 20);  // the picture is small, and at its edge the user presses anew
 }
 
+TEST_CASE("Free hand: a left-hand thread is tightened by dragging and turning the other way") {
+    if (test::sanitized) return test::skip_rest("a nut by hand takes minutes under a sanitizer");
+    const test::OneJoint one("cover-m8", "left");
+    AppOptions o = free_hand(one.name().c_str());
+    o.out = one.folder() / "out";
+    HeadlessTrainer driver(o, {{320, 180}, 0.3F, 0.05});
+    driver.frame();
+    test::FreeHandUser user(driver);
+    user.play(120.0);
+    REQUIRE(driver.outcome());
+    CHECK(driver.outcome()->result.joints.front().overall == lesson::Verdict::ok);
+}
+
 TEST_CASE("Free hand: fingers and wrench leave a nut without a mistake, and go to the next among obstacles") {
     if (test::sanitized) return test::skip_rest("four nuts by hand take minutes under a sanitizer");
     HeadlessTrainer driver(free_hand("cover-m8"), {{320, 180}, 0.3F, 0.05});

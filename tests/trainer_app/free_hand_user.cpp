@@ -201,10 +201,11 @@ void FreeHandUser::run_down() {
     if (!lead_to({nut(), hand().orientation}, 0.008, 8.0) && engaged() < 0) return;
     hold(false);
     hold(true, nut());  // beside the nut: now the fingers close
+    const double sense = setup().nuts[joint].sense;
     for (const double until = now() + 30.0; going_on(joint) && now() < until &&
                                             lesson().session->lesson().current == step &&
                                             state().joints[joint].stage == joint::Stage::navigation;)
-        frame(glm::dvec2(0.0), engaged() >= 0 ? spin_rate * seconds_ : 0.0);
+        frame(glm::dvec2(0.0), engaged() >= 0 ? sense * spin_rate * seconds_ : 0.0);
     hold(false);
     wait(0.25);
     if (!going()) return;
@@ -231,12 +232,11 @@ motion::GripAngle FreeHandUser::choose_side() const {
     const bool loosens = due()->kind == lesson::StepKind::loosen;
     const double sign = loosens ? -1.0 : 1.0;
     const Vec3 near = hand_of(lesson()).rest.position - geometry.seat;
-    const double preferred =
-        -std::atan2(glm::dot(near, geometry.e2), glm::dot(near, geometry.e1)) - 0.5 * sign * stroke;
+    const double preferred = servo::angle_of(geometry, near) - 0.5 * sign * stroke;
     const auto& contact = state().tool_contact;
     std::vector<std::pair<double, motion::GripAngle>> sides;
     for (int sixth = 0; sixth < 6; ++sixth) {
-        const double fits = nut_angle + setup().wrench.head_angle + sixth * pi / 3.0;
+        const double fits = nut_angle + geometry.sense * setup().wrench.head_angle + sixth * pi / 3.0;
         const motion::GripAngle side =
             motion::choose_grip(setup(), contact ? &*contact : nullptr, joint, nut_angle, fits, sign, stroke);
         if (side.flipped) continue;
@@ -308,7 +308,7 @@ bool FreeHandUser::lower(const Pose& seated) {
             setup().wrench.head, servo::shape_of(geometry),
             servo::pose_in_nut_frame(geometry, state().joints[joint].nut.angle, servo::tool_pose(tool)));
         const Vec3 handle = handle_end(tool) - tool.position;
-        // Turning about −axis tightens; the misalignment is positive if the jaw is ahead.
+        // The misalignment is positive if the jaw is turned too far clockwise, about −axis.
         const Vec3 swing = seat.misalignment * glm::cross(up, handle);
         const bool fits = std::abs(seat.misalignment) < aligned && glm::length(level) < level_error;
         // A jaw that does not fit would rest on the nut: align it above.
@@ -359,8 +359,9 @@ void FreeHandUser::pull() {
         const double angle = state().engagement.hand_angle;
         if (angle > furthest + 0.01) furthest = angle, moved = now();
         if (angle - begin > std::min(room_, stroke) || now() > moved + 2.0) break;
-        const glm::dvec2 lever = lever_on_screen(driver_.projection(), tool_of(lesson()).pose, axis(),
-                                                 setup().wrench.handle_length);
+        const glm::dvec2 lever =
+            setup().nuts[joint].sense * lever_on_screen(driver_.projection(), tool_of(lesson()).pose, axis(),
+                                                        setup().wrench.handle_length);
         frame(lever * (pull_speed * seconds_ * std::clamp(1.0 - torque / until, slowest_pull, 1.0)));
     }
     hold(false);

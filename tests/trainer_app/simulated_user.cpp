@@ -14,8 +14,8 @@ constexpr double fastest_drag = 0.9;    // rad/s of the handle
 constexpr double slowest_share = 0.08;  // of fastest_drag, just below the target torque
 constexpr double longest_hold = 12.0;   // s
 constexpr double spent = 0.03;          // fraction of the room left at which the handle is set back
-constexpr double twist_of_width =
-    0.34;                     // drag to the right that spins a nut, relative to the picture's width
+// Drag that spins a nut, relative to the picture's width: to the right, at a left-hand thread to the left.
+constexpr double twist_of_width = 0.34;
 constexpr double edge = 4.0;  // px
 
 }  // namespace
@@ -75,7 +75,8 @@ std::optional<glm::dvec2> SimulatedUser::nut_on_screen() {
 }
 
 bool SimulatedUser::spin(const glm::dvec2& from, glm::dvec2& pointer) {
-    pointer = from + glm::dvec2(twist_of_width * driver_.size().x, 0.0);
+    const double sense = lesson().session->setup().nuts[due()->joint].sense;
+    pointer = from + glm::dvec2(sense * twist_of_width * driver_.size().x, 0.0);
     driver_.move(pointer);
     return !hand_of(lesson()).nut ||
            lesson().session->state().joints[*hand_of(lesson()).nut].stage != joint::Stage::navigation;
@@ -96,8 +97,10 @@ bool SimulatedUser::pull(std::size_t joint, glm::dvec2& pointer) {
     const double until = torque_share * step_due.torque;
     if (lesson::requires_yield(session.lesson(), step_due) ? yields : torque >= until) return true;
     if (hand_of(lesson()).free_swing < spent * lesson().helped_hand.free_swing) return true;
-    const glm::dvec2 lever = lever_on_screen(driver_.projection(), tool_of(lesson()).pose,
-                                             setup.nuts[joint].axis, setup.wrench.handle_length);
+    // A drag along the lever turns the handle clockwise.
+    const servo::NutGeometry& nut = setup.nuts[joint];
+    const glm::dvec2 lever = nut.sense * lever_on_screen(driver_.projection(), tool_of(lesson()).pose,
+                                                         nut.axis, setup.wrench.handle_length);
     const double share = std::max(slowest_share, 1.0 - torque / until);
     pointer += lever * (fastest_drag * share * (now() - since));
     driver_.move(pointer);

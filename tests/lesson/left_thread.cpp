@@ -1,0 +1,148 @@
+// Lessons with left-hand and right-hand threads, by simulated trainees, and their replay.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "game/motion/path_planning.hpp"
+#include "game/session/export.hpp"
+#include "game/session/replay.hpp"
+#include "game/session/session_file.hpp"
+#include "game/trainees/trainee.hpp"
+#include "tests/lesson/left_threads.hpp"
+#include "tests/support/sanitized.hpp"
+#include "tests/support/skip.hpp"
+
+namespace bolt::lesson::left_thread {
+
+namespace {
+
+struct Played {
+    LessonResult result;
+    std::uint64_t mismatches = 0;
+    int wrong_turns = 0;  // ticks in which a pull turned the handle against the direction of the thread
+    int pulls = 0;        // ticks in which a pull turned the nut
+};
+
+bool is_left(std::size_t joint) {
+    return std::find(test::left_threads.begin(), test::left_threads.end(), joint) != test::left_threads.end();
+}
+
+// Plays the lesson of a file and replays its session from its own text.
+Played play(const content::Assembly& cover, const char* profile, const session::LessonOptions& options) {
+    const test::Folder folder;
+    trainees::TrainOptions train;
+    train.lesson = options;
+    train.trainee = trainees::find_profile(profile).value();
+    const auto outcome = trainees::train(cover, train, folder / "lesson.boltwright",
+                                         [](const trainees::TrainingProgress&) { return true; });
+    REQUIRE_MESSAGE(outcome, (outcome ? "" : outcome.error().message()));
+    const auto reader = session::SessionReader::open(folder / "lesson.boltwright");
+    REQUIRE(reader);
+    auto start = session::restore_setup(*reader);
+    REQUIRE(start);
+    const std::string table = session::summary_table(cover, outcome->result);
+    CHECK(table.find("\nB1       M8 LH ") != std::string::npos);
+    CHECK(table.find("\nB2       M8    ") != std::string::npos);
+    Played played;
+    played.result = outcome->result;
+    Pose before;
+    double angle_before = 0.0;
+    int held = -1;
+    const auto replayed = session::replay(*reader, std::move(*start), [&](const session::ReplayTick& tick) {
+        const servo::Output& out = tick.output;
+        const bool pulls = out.joint >= 0 && out.joint == held && tick.input.grip == servo::Grip::wrench;
+        if (pulls && std::abs(out.nut_angle - angle_before) > 1e-5) {
+            const auto joint = static_cast<std::size_t>(out.joint);
+            const Vec3 turn = turn_between(before.orientation, out.constrained_tool.orientation);
+            // Seen against the axis, a turn about it is counter-clockwise.
+            const double counter_clockwise = glm::dot(turn, tick.setup.nuts[joint].axis);
+            const double tightening = is_left(joint) ? counter_clockwise : -counter_clockwise;
+            ++played.pulls;
+            if (tightening * (out.nut_angle - angle_before) < 0.0) ++played.wrong_turns;
+        }
+        held = out.joint;
+        angle_before = out.nut_angle;
+        before = out.constrained_tool;
+        return true;
+    });
+    REQUIRE(replayed);
+    played.mismatches = replayed->mismatches;
+    return played;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "Left-hand thread: every trainee finishes with each tool, and the session replays to the same bits") {
+    for (const char* tool : {"", "ring", "ratchet"}) {
+        const test::Folder folder;
+        const content::Assembly cover = test::cover_with_left_threads(folder, tool);
+        for (std::size_t i = 0; i < cover.joints.size(); ++i)
+            REQUIRE((cover.joints[i].design.thread_direction == joint::ThreadDirection::left) == is_left(i));
+        for (const char* profile : {"expert", "novice", "clumsy"})
+            for (const auto obstacles : {session::Obstacles::none, session::Obstacles::required}) {
+                const bool among_obstacles = obstacles == session::Obstacles::required;
+                if (among_obstacles && profile != std::string_view("expert")) continue;  // takes long
+                if (test::sanitized && among_obstacles) {
+                    test::skip_part("a lesson among obstacles takes minutes under a sanitizer");
+                    continue;
+                }
+                CAPTURE(tool);
+                CAPTURE(profile);
+                session::LessonOptions options;
+                options.seed = 2;
+                options.obstacles = obstacles;
+                const Played played = play(cover, profile, options);
+                CHECK(played.result.finished);
+                REQUIRE(played.result.joints.size() == 4);
+                for (const JointResult& joint : played.result.joints)
+                    CHECK(joint.torque_verdict != Verdict::low);
+                CHECK(played.mismatches == 0);
+                CHECK(played.pulls > 1000);
+                // A trembling hand turns back by a little now and then.
+                CHECK(played.wrong_turns < 0.05 * played.pulls);
+            }
+    }
+}
+
+TEST_CASE("Left-hand thread: a lesson is taken apart with the ratchet's lever the other way") {
+    const test::Folder folder;
+    const content::Assembly cover = test::cover_with_left_threads(folder, "ratchet");
+    session::LessonOptions options;
+    options.task = Task::loosen;
+    const Played played = play(cover, "expert", options);
+    CHECK(played.result.finished);
+    CHECK(played.mismatches == 0);
+    CHECK(played.wrong_turns < 0.05 * played.pulls);
+}
+
+TEST_CASE("Left-hand thread: a pull to the wrong side loosens, and is reported as a mistake") {
+    // The lesson sees only angles that are positive in the direction that tightens, so a trainee that turns
+    // every thread clockwise loosens the left-hand ones.
+    const test::Folder folder;
+    const content::Assembly cover = test::cover_with_left_threads(folder);
+    auto prepared = session::prepare_session(cover, {});
+    REQUIRE(prepared);
+    REQUIRE(session::pretighten(prepared->assembly, prepared->setup, prepared->state));
+    const servo::NutGeometry& nut = prepared->setup.nuts[0];
+    const double angle = prepared->state.joints[0].nut.angle;
+    const double fits = angle + nut.sense * prepared->setup.wrench.head_angle;
+    servo::TickInput input;
+    input.dead_man = true;
+    input.grip = servo::Grip::wrench;
+    const auto hold = [&](double clockwise) {
+        const Pose held{servo::nut_centre(nut, prepared->state.joints[0].nut.angle),
+                        glm::normalize(glm::angleAxis(-clockwise, nut.axis) *
+                                       motion::tool_orientation(nut, fits, false))};
+        input.commanded_tool = servo::to_commanded_tool(held);
+        return servo::tick(prepared->setup, prepared->state, input);
+    };
+    REQUIRE(hold(0.0).joint == 0);
+    servo::Output out;
+    for (int i = 1; i <= 600; ++i) out = hold(1e-3 * i);
+    CHECK(out.joint == 0);
+    CHECK(out.nut_angle < angle - 0.1);
+    CHECK(out.clamp < 100.0);
+}
+
+}  // namespace bolt::lesson::left_thread
