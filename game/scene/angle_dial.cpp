@@ -77,8 +77,15 @@ void add_mesh(assets::Model& model, std::string name, assets::Primitive mesh) {
     model.meshes.push_back({std::move(name), {std::move(mesh)}, {}});
 }
 
+DialWindow window_of(const content::Assembly& assembly, const lesson::LessonStep& step) {
+    const content::ToleranceWindow window = lesson::angle_window(assembly, step);
+    const joint::ThreadDirection thread = assembly.joints[step.joint].design.thread_direction;
+    if (thread == joint::ThreadDirection::left) return {-window.high, -window.low};
+    return {window.low, window.high};
+}
+
 // The window of a step in its list; the list's length if it is not there.
-std::size_t find_window(const std::vector<DialWindow>& windows, const content::ToleranceWindow& window) {
+std::size_t find_window(const std::vector<DialWindow>& windows, const DialWindow& window) {
     for (std::size_t i = 0; i < windows.size(); ++i)
         if (std::abs(windows[i].low - window.low) < same_angle &&
             std::abs(windows[i].high - window.high) < same_angle)
@@ -92,8 +99,8 @@ std::vector<DialWindow> dial_windows(const content::Assembly& assembly) {
     std::vector<DialWindow> windows;
     for (const lesson::LessonStep& step : lesson::make_plan(assembly, lesson::Task::tighten)) {
         if (step.kind != lesson::StepKind::turn) continue;
-        const content::ToleranceWindow window = lesson::angle_window(assembly, step);
-        if (find_window(windows, window) == windows.size()) windows.push_back({window.low, window.high});
+        const DialWindow window = window_of(assembly, step);
+        if (find_window(windows, window) == windows.size()) windows.push_back(window);
     }
     return windows;
 }
@@ -138,14 +145,15 @@ std::optional<Dial> dial_of(const lesson::Lesson& lesson, const servo::Setup& se
     Dial dial;
     dial.world = {glm::dvec4(radius * nut.e1, 0.0), glm::dvec4(radius * nut.e2, 0.0),
                   glm::dvec4(radius * nut.axis, 0.0), glm::dvec4(at, 1.0)};
-    dial.angle = lesson::angle_from_mark(lesson, joints, due->joint);
+    const double turned = lesson::angle_from_mark(lesson, joints, due->joint);
+    dial.angle = nut.sense * turned;
     const content::ToleranceWindow window = lesson::angle_window(*lesson.assembly, *due);
-    dial.window = find_window(dial_windows(*lesson.assembly), window);
+    dial.window = find_window(dial_windows(*lesson.assembly), window_of(*lesson.assembly, *due));
     dial.shows_window = lesson.mode != lesson::Mode::assessment;
     dial.window_color = palette.ok;
     dial.pointer_color = palette.due;
-    if (dial.shows_window && dial.angle >= window.low) dial.pointer_color = scale_color;
-    if (dial.shows_window && dial.angle > window.high) dial.pointer_color = palette.high;
+    if (dial.shows_window && turned >= window.low) dial.pointer_color = scale_color;
+    if (dial.shows_window && turned > window.high) dial.pointer_color = palette.high;
     return dial;
 }
 

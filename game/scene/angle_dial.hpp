@@ -12,7 +12,7 @@
 
 namespace bolt::scene {
 
-// rad from the mark, in the direction of tightening.
+// rad from the mark, clockwise seen from the side of the tool: negative at a left-hand thread.
 struct DialWindow {
     double low = 0.0, high = 0.0;
 };
@@ -27,7 +27,7 @@ assets::Model dial_model(const std::vector<DialWindow>& windows);
 // A protractor to show.
 struct Dial {
     glm::dmat4 world{1.0};  // from the meshes' frame to the assembly's
-    double angle = 0.0;     // rad, of the pointer
+    double angle = 0.0;     // rad, of the pointer, as in DialWindow
     std::size_t window = 0;
     bool shows_window = false;
     glm::vec4 window_color{1.0F}, pointer_color{1.0F};

@@ -15,9 +15,13 @@ using test::Script;
 
 struct TurnedScript : Script {
     servo::Setup setup;
-    explicit TurnedScript(lesson::Mode mode = lesson::Mode::guided) : Script(mode) {
-        for (content::AssemblyJoint& joint : assembly.joints)
+    explicit TurnedScript(lesson::Mode mode = lesson::Mode::guided,
+                          joint::ThreadDirection thread = joint::ThreadDirection::right)
+        : Script(mode) {
+        for (content::AssemblyJoint& joint : assembly.joints) {
             joint.spec.angle = {to_radians(60.0), to_radians(50.0), to_radians(70.0)};
+            joint.design.thread_direction = thread;
+        }
         content::Pass half{content::PassKind::turn, 0.5, {0, 1}}, whole{content::PassKind::turn, 1.0, {0, 1}};
         assembly.passes = {assembly.passes[0], assembly.passes[1], half, whole};
         lesson = lesson::begin(assembly, mode, lesson::Task::tighten);
@@ -26,6 +30,7 @@ struct TurnedScript : Script {
             nut.seat = Vec3(x, 0.0, 0.0);
             nut.across_flats = 0.024;
             nut.height = 0.014;
+            nut.sense = thread == joint::ThreadDirection::left ? -1.0 : 1.0;
             setup.nuts.push_back(nut);
         }
     }
@@ -70,7 +75,10 @@ TEST_CASE("Dial: an assessment shows no window") {
 }
 
 TEST_CASE("Dial: the pointer lies over the window exactly when the nut's angle is inside it") {
-    TurnedScript s;
+    joint::ThreadDirection thread = joint::ThreadDirection::right;
+    SUBCASE("a right-hand thread") {}
+    SUBCASE("a left-hand thread") { thread = joint::ThreadDirection::left; }
+    TurnedScript s(lesson::Mode::guided, thread);
     const std::vector<DialWindow> windows = dial_windows(s.assembly);
     const assets::Model model = dial_model(windows);
     REQUIRE(model.meshes.size() == 2 + windows.size());
@@ -84,13 +92,16 @@ TEST_CASE("Dial: the pointer lies over the window exactly when the nut's angle i
         CHECK(low == doctest::Approx(windows[w].low).epsilon(1e-5));
         CHECK(high == doctest::Approx(windows[w].high).epsilon(1e-5));
     }
-    // A nut that tightens turns clockwise seen from outside (servo::nut_pose); the pointer turns with it.
+    // The pointer turns with the nut, which turns clockwise seen from outside if it tightens on a right-hand
+    // thread (servo::nut_pose).
     s.seat_both();
     for (const int joint : {0, 1}) s.pull(joint, 35.0);
     const servo::NutGeometry& nut = s.setup.nuts[0];
     const double mark = s.state.joints[0].nut.angle;
     s.turn(40.0);
     const auto dial = dial_of(s.lesson, s.setup, s.present());
+    CHECK(windows[dial->window].low * nut.sense > 0.0);
+    CHECK(dial->angle * nut.sense == doctest::Approx(to_radians(40.0)));
     const Quat turned = servo::nut_pose(nut, s.state.joints[0].nut.angle).orientation *
                         glm::conjugate(servo::nut_pose(nut, mark).orientation);
     const Vec3 expected = turned * nut.e1;
