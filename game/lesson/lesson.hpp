@@ -26,10 +26,12 @@ constexpr std::string_view name(StepKind kind) {
 struct LessonStep {
     StepKind kind = StepKind::tighten;
     std::size_t joint = 0;
-    double torque = 0.0;    // N·m to reach; tighten and recheck. turn: the joint's target, not aimed at
+    // N·m to reach; tighten and recheck. turn: the joint's target torque, which does not end the step.
+    double torque = 0.0;
     double fraction = 1.0;  // of the joint's target
     int pass = 0;
-    // rad. turn: from the mark to reach. loosen: to turn back; 0: until the nut is free.
+    // rad. turn: the angle to reach, counted from the mark. loosen: the angle to turn back; 0: until the nut
+    // is free.
     double angle = 0.0;
 };
 
