@@ -8,8 +8,8 @@
 
 #include "engine/base/math.hpp"
 #include "engine/base/nearest.hpp"
+#include "game/analysis/same_joint.hpp"
 #include "game/analysis/session_data.hpp"
-#include "game/statistics/summary.hpp"
 
 namespace bolt::analysis {
 
@@ -189,8 +189,9 @@ CurveValue value_at(const TorqueCurve& curve, double angle) {
             curve.stage[part < 1.0 ? i - 1 : i]};
 }
 
-// Until finish_error(), mape and rmse hold sums. `above`: the measured torque is not below the floor.
-void add_error(StageError& error, double difference, double actual, bool above) {
+// Until finish_error(), mape and rmse hold sums. `above`: the measured torque is not below the floor;
+// `for_mre`: nor near zero.
+void add_error(StageError& error, double difference, double actual, bool above, bool for_mre) {
     error.rmse += difference * difference;
     if (!above) {
         ++error.below;
@@ -198,7 +199,7 @@ void add_error(StageError& error, double difference, double actual, bool above) 
     }
     const double relative = std::abs(difference) / std::abs(actual);
     ++error.count;
-    error.mre = std::max(error.mre, relative);
+    if (for_mre) error.mre = std::fmax(error.mre, relative);  // replaces NaN
     error.mape += relative;
 }
 
@@ -206,7 +207,6 @@ void finish_error(StageError& error) {
     const std::size_t samples = error.count + error.below;
     error.rmse = samples > 0 ? std::sqrt(error.rmse / static_cast<double>(samples)) : nan;
     error.mape = error.count > 0 ? error.mape / static_cast<double>(error.count) : nan;
-    if (error.count == 0) error.mre = nan;
 }
 
 StageError pool(const StageError& a, const StageError& b) {
@@ -216,7 +216,7 @@ StageError pool(const StageError& a, const StageError& b) {
         if (e.count + e.below > 0) sum.rmse += square(e.rmse) * static_cast<double>(e.count + e.below);
         if (e.count == 0) continue;
         sum.count += e.count;
-        sum.mre = std::max(sum.mre, e.mre);
+        sum.mre = std::fmax(sum.mre, e.mre);
         sum.mape += e.mape * static_cast<double>(e.count);
     }
     finish_error(sum);
@@ -226,7 +226,7 @@ StageError pool(const StageError& a, const StageError& b) {
 }  // namespace
 
 TorqueErrors torque_errors(const TorqueCurve& simulated, const TorqueCurve& measured, double shift,
-                           double floor) {
+                           double floor, double mre_floor) {
     TorqueErrors errors;
     errors.floor = floor;
     for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -241,7 +241,7 @@ TorqueErrors torque_errors(const TorqueCurve& simulated, const TorqueCurve& meas
         const double actual = measured.torque[i];
         const bool above = std::abs(actual) >= floor && actual != 0.0;
         for (StageError* error : {&errors.stage[static_cast<std::size_t>(value.stage)], &errors.all})
-            add_error(*error, value.torque - actual, actual, above);
+            add_error(*error, value.torque - actual, actual, above, std::abs(actual) >= mre_floor);
     }
     for (StageError& stage : errors.stage) finish_error(stage);
     finish_error(errors.all);
@@ -270,18 +270,6 @@ double slope_error(const TorqueCurve& simulated, const TorqueCurve& measured, do
     const double rise = n * sxy - sx * sy;
     if (n < 4.0 || !(n * sxx - sx * sx > 0.0) || !(rise > 0.0)) return nan;
     return (n * sxv - sx * sv) / rise - 1.0;
-}
-
-std::string different_peaks(const TorqueCurve& simulated, const std::vector<MeasuredCurve>& measured) {
-    std::vector<double> peaks;
-    for (const MeasuredCurve& cycle : measured) peaks.push_back(share_of_peak(cycle.curve, 1.0));
-    const double median = statistics::quartiles(peaks).median, own = share_of_peak(simulated, 1.0);
-    const double ratio = std::max(own / median, median / own);
-    if (ratio <= largest_peak_ratio) return {};
-    return fmt::format(
-        "the peak torques differ by a factor of {:.2f} (virtual {:.4g} N·m, measured {:.4g} N·m); expected "
-        "at most {:g} for one joint",
-        ratio, own, median, largest_peak_ratio);
 }
 
 TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b) {
@@ -332,23 +320,13 @@ namespace {
 void add_errors(const TorqueCurve& simulated, const TorqueCurve& measured, const ComparisonOptions& options,
                 CycleComparison& cycle) {
     const double shift = cycle.alignment.shift;
-    cycle.errors = torque_errors(simulated, measured, shift, share_of_peak(measured, options.floor_share));
+    cycle.errors = torque_errors(simulated, measured, shift, share_of_peak(measured, options.floor_share),
+                                 share_of_peak(measured, options.mre_floor_share));
     if (measured.direction == joint::Direction::loosen)
         cycle.breakaway_error =
             simulated.torque[breakaway_index(simulated)] / measured.torque[breakaway_index(measured)] - 1.0;
     else
         cycle.slope_error = slope_error(simulated, measured, shift);
-}
-
-// The thread of the record; none if the record does not name it.
-Result<std::optional<joint::ThreadSize>> thread_of(const MeasuredRecord& measured) {
-    if (measured.thread.empty()) return std::nullopt;
-    auto thread = joint::parse_thread(measured.thread);
-    if (thread) return *thread;
-    Error error = thread.error();
-    error.file = measured.file;
-    error.what = "the line \"# thread:\" is wrong: " + error.what;
-    return fail(std::move(error));
 }
 
 // Removes the errors of a joint that is another one.
@@ -361,12 +339,6 @@ void drop_errors(JointComparison& joint, const std::string& why) {
     }
 }
 
-std::string different_thread(const joint::ThreadSize& joint, const joint::ThreadSize& record) {
-    if (joint.thread.d == record.thread.d && joint.thread.pitch == record.thread.pitch) return {};
-    return fmt::format("the measured thread is {}×{:g}, the joint's {}×{:g}", record.size.name,
-                       record.thread.pitch * 1e3, joint.size.name, joint.thread.pitch * 1e3);
-}
-
 }  // namespace
 
 Result<JointComparison> compare_joint(std::string joint, TorqueCurve simulated,
@@ -375,15 +347,18 @@ Result<JointComparison> compare_joint(std::string joint, TorqueCurve simulated,
     JointComparison result;
     result.joint = std::move(joint);
     result.simulated = std::move(simulated);
-    if (!options.same_joint) result.other_joint = different_peaks(result.simulated, measured);
     for (const MeasuredCurve& cycle : measured) {
         CycleComparison one;
         BOLT_TRY_ASSIGN(const auto alignment, align(result.simulated, cycle.curve, options.share));
         one.alignment = alignment;
-        if (result.other_joint.empty()) add_errors(result.simulated, cycle.curve, options, one);
+        add_errors(result.simulated, cycle.curve, options, one);
         result.errors = pool(result.errors, one.errors);
         result.cycles.push_back(one);
     }
+    if (options.same_joint) return result;
+    std::string other = different_peaks(result.simulated, measured);
+    if (other.empty()) other = different_slopes(result.simulated, measured, result.cycles);
+    if (!other.empty()) drop_errors(result, other);
     return result;
 }
 
@@ -394,7 +369,7 @@ Result<Comparison> compare(const session::SessionReader& session, const Measured
     if (!joint.empty() && std::find(ids.begin(), ids.end(), joint) == ids.end())
         return unknown_joint(joint, ids);
 
-    BOLT_TRY_ASSIGN(const auto thread, thread_of(measured));
+    BOLT_TRY_ASSIGN(const auto bolt, recorded_bolt(measured));
     BOLT_TRY_ASSIGN(auto simulated, torque_curves(session, ids.size(), measured.direction));
 
     Comparison result;
@@ -410,7 +385,7 @@ Result<Comparison> compare(const session::SessionReader& session, const Measured
     result.options = options;
     for (std::size_t j = 0; j < ids.size(); ++j) {
         if (!simulated[j] || (!joint.empty() && ids[j] != joint)) continue;
-        const std::string other = thread ? different_thread(assembly.joints[j].design.thread, *thread) : "";
+        const std::string other = different_bolt(assembly.joints[j].design, bolt);
         BOLT_TRY_ASSIGN(auto one, compare_joint(ids[j], std::move(*simulated[j]), result.measured, options));
         if (!other.empty()) drop_errors(one, other);
         result.errors = pool(result.errors, one.errors);

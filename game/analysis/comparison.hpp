@@ -88,9 +88,9 @@ Result<Alignment> align(const TorqueCurve& simulated, const TorqueCurve& measure
 struct StageError {
     std::size_t count = 0;  // samples used for the relative errors
     std::size_t below = 0;  // samples without one: |T_a| is below the floor, so it is meaningless
-    double mre = 0.0;       // NaN without samples
-    double mape = 0.0;
-    double rmse = 0.0;  // N·m, root of the mean of (T_v − T_a)² of all samples, below the floor too
+    double mre = nan;       // of the samples that are not near zero; NaN without any
+    double mape = 0.0;      // NaN without samples
+    double rmse = 0.0;      // N·m, root of the mean of (T_v − T_a)² of all samples, below the floor too
 };
 
 struct TorqueErrors {
@@ -104,10 +104,15 @@ struct TorqueErrors {
 // sensor.
 inline constexpr double default_floor_share = 0.01;
 
+// Share of a run's highest |T_a| below which a sample does not enter the MRE: 5 %, at which a joint counts as
+// released. Close to zero the maximum of relative errors shows only how close to zero a sample was.
+inline constexpr double near_zero_share = 0.05;
+
 // Errors at the measured samples. Interpolates the simulated torque; the stage is that of the simulated
-// sample before. Adds `shift` in rad to the measured angles; `floor` in N·m.
+// sample before. Adds `shift` in rad to the measured angles; `floor` and `mre_floor`, for the MRE only, in
+// N·m.
 TorqueErrors torque_errors(const TorqueCurve& simulated, const TorqueCurve& measured, double shift,
-                           double floor);
+                           double floor, double mre_floor = 0.0);
 
 // Combines errors: maximum of the maxima, mean over all samples.
 TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b);
@@ -115,15 +120,11 @@ TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b);
 // max |T| · share, N·m: with the default share the floor of the errors, with 1 the peak.
 double share_of_peak(const TorqueCurve& curve, double share = default_floor_share);
 
-// The peaks of one joint may differ by this factor. VDI 2230 table A1: at the same use of the bolt's
-// strength, friction from 0.08 to 0.24 changes the torque by a factor of 2.1, the class from 8.8 to 12.9
-// by 1.7; two coarse sizes further (M8, M12) it is 3.4. One cause alone does not reach 3.
-inline constexpr double largest_peak_ratio = 3.0;
-
 struct ComparisonOptions {
     double share = default_alignment_share;
     double floor_share = default_floor_share;
-    bool same_joint = false;  // the user asserts that the record is of this joint: no test by its peak
+    double mre_floor_share = near_zero_share;
+    bool same_joint = false;  // the user asserts that the record is of this joint: its curves are not judged
 };
 
 // One run of the measured file compared with one joint. Errors relative to the measured value, with sign;
@@ -164,10 +165,6 @@ struct Comparison {
     TorqueErrors errors;  // over all joints and cycles
     ComparisonOptions options;
 };
-
-// Why the measured curves cannot be of a joint with this simulated curve: their median peak differs by more
-// than largest_peak_ratio. Empty if they can.
-std::string different_peaks(const TorqueCurve& simulated, const std::vector<MeasuredCurve>& measured);
 
 // Compares a joint's curve with the measured curves.
 Result<JointComparison> compare_joint(std::string joint, TorqueCurve simulated,

@@ -146,7 +146,10 @@ struct CsvParser {
         if (is_blank(text)) return {};
         if (text[text.find_first_not_of(" \t")] == '#') {
             if (measured.source.empty()) measured.source = comment_value(text, "source");
-            if (measured.thread.empty()) measured.thread = comment_value(text, "thread");
+            for (const auto& [key, value] :
+                 {std::pair("thread", &measured.thread), std::pair("bolt_length_mm", &measured.bolt_length),
+                  std::pair("property_class", &measured.property_class)})
+                if (value->empty()) *value = comment_value(text, key);
             return {};
         }
         if (text.ends_with('\r')) text.remove_suffix(1);
@@ -221,6 +224,25 @@ Result<MeasuredRecord> parse_measured(std::string_view text, std::string_view fi
 Result<MeasuredRecord> read_measured(const std::filesystem::path& path) {
     BOLT_TRY_ASSIGN(const auto text, read_file(path, largest_file, ErrorCode::bad_content));
     return parse_measured(text, path.string());
+}
+
+Status select_runs(MeasuredRecord& record, const std::vector<std::string>& names) {
+    if (names.empty()) return {};
+    std::vector<std::string> known;
+    for (const Cycle& cycle : record.cycles)
+        if (!cycle.name.empty()) known.push_back(cycle.name);
+    for (const std::string& name : names)
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            const std::string near = nearest(name, known);
+            return fail(ErrorCode::usage, fmt::format("{}: there is no run \"{}\"", record.file, name),
+                        known.empty()   ? "a column \"cycle\" with the names of the runs"
+                        : !near.empty() ? fmt::format("did you mean \"{}\"?", near)
+                                        : fmt::format("one of {}", fmt::join(known, ", ")));
+        }
+    std::erase_if(record.cycles, [&](const Cycle& cycle) {
+        return std::find(names.begin(), names.end(), cycle.name) == names.end();
+    });
+    return {};
 }
 
 }  // namespace bolt::analysis

@@ -10,8 +10,10 @@
 
 #include "content/trainee/people.hpp"
 #include "engine/base/file.hpp"
+#include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
 #include "game/analysis/comparison.hpp"
+#include "game/analysis/same_joint.hpp"
 #include "game/analysis/session_data.hpp"
 #include "game/cli/commands.hpp"
 #include "game/measure/fit.hpp"
@@ -135,8 +137,29 @@ namespace {
 
 struct CompareOptions {
     std::string session, measured, joint, html = "out/compare.html", fit;
+    std::vector<std::string> runs;
     bool same_joint = false;
 };
+
+// Fails if the runs of a record differ as those of several joints do.
+Status check_same_slopes(const CompareOptions& options, const analysis::Comparison& comparison,
+                         const std::vector<measure::Landmarks>& runs) {
+    std::size_t least = runs.size(), most = runs.size();
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        if (!runs[i].linear) continue;
+        if (least == runs.size() || runs[i].linear->slope < runs[least].linear->slope) least = i;
+        if (most == runs.size() || runs[i].linear->slope > runs[most].linear->slope) most = i;
+    }
+    if (least == runs.size()) return {};
+    const double low = runs[least].linear->slope, high = runs[most].linear->slope;
+    if (high <= analysis::largest_slope_ratio * low) return {};
+    return fail(ErrorCode::usage,
+                fmt::format("{}: the slopes of its runs differ by a factor of {:.2f} (\"{}\" {:.3g} N·m/°, "
+                            "\"{}\" {:.3g} N·m/°), as those of several joints do",
+                            options.measured, high / low, comparison.measured[least].name, to_radians(low),
+                            comparison.measured[most].name, to_radians(high)),
+                "the runs of one joint, with --run, or --same-joint");
+}
 
 // Fits the mechanistic law to the record, from the design of the compared joint, and writes the joint type.
 Status fit_measured(const CompareOptions& options, const session::SessionReader& session,
@@ -159,6 +182,7 @@ Status fit_measured(const CompareOptions& options, const session::SessionReader&
     std::vector<measure::Landmarks> runs;
     for (const analysis::MeasuredCurve& run : comparison.measured)
         runs.push_back(measure::find_landmarks(run.curve));
+    if (!options.same_joint) BOLT_TRY(check_same_slopes(options, comparison, runs));
     BOLT_TRY_ASSIGN(const auto fit, measure::fit_joint(joint->design, runs, comparison.direction));
     BOLT_TRY(write_file(options.fit,
                         measure::joint_type_json(fit, joint->type + "-measured", joint->spec.torque.target)));
@@ -174,6 +198,8 @@ int run_compare(const CompareOptions& options) {
     if (!reader) return print_error(reader.error());
     Result<analysis::MeasuredRecord> measured = analysis::read_measured(options.measured);
     if (!measured) return print_error(measured.error());
+    if (Status selected = analysis::select_runs(*measured, options.runs); !selected)
+        return print_error(selected.error());
     analysis::ComparisonOptions comparing;
     comparing.same_joint = options.same_joint;
     Result<analysis::Comparison> comparison = analysis::compare(*reader, *measured, options.joint, comparing);
@@ -203,10 +229,15 @@ void add_compare(CLI::App& app, int& exit_code) {
         ->required();
     compare->add_option("--joint", options->joint,
                         "Id of one joint; default: all joints turned in the measured direction");
+    compare
+        ->add_option("--run", options->runs,
+                     "Name of a run of the record, as in its column cycle; may be given for several; "
+                     "default: all runs")
+        ->allow_extra_args(false);
     compare->add_option("--fit", options->fit,
                         "Fit friction, compliance and yield to the record, and write the joint type as JSON");
     compare->add_flag("--same-joint", options->same_joint,
-                      "Compare although the peak torques say that the record is of another joint");
+                      "Compare although the curves say that the record is of another joint");
     compare->add_option("--html", options->html, "HTML page to write")->capture_default_str();
     compare->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }

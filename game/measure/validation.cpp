@@ -134,8 +134,9 @@ Result<LooseningValidation> validate_loosening(const joint::JointDesign& design,
         if (angle > v.law_release + v.resolution) ++v.longer;
         if (angle < v.law_release - v.resolution) ++v.shorter;
     }
-    BOLT_TRY_ASSIGN(auto joint,
-                    analysis::compare_joint(design.id, std::move(law->curve), v.comparison.measured));
+    v.comparison.options.same_joint = true;  // the design describes the measured joint
+    BOLT_TRY_ASSIGN(auto joint, analysis::compare_joint(design.id, std::move(law->curve),
+                                                        v.comparison.measured, v.comparison.options));
     v.comparison.errors = joint.errors;
     v.comparison.joints.push_back(std::move(joint));
     return v;

@@ -108,7 +108,7 @@ plot::Plot cycle_plot(const analysis::Comparison& c, const analysis::JointCompar
 }
 
 std::string error_value(const analysis::StageError& e, double value) {
-    return e.count > 0 ? number(value, 5) : "–";
+    return e.count > 0 ? number(value, 5) : "–";  // number() gives NaN a dash too
 }
 
 // " [0.012 … 0.034]"; empty without an interval.
@@ -163,8 +163,8 @@ std::string feature_text(const analysis::RepetitionBands& bands) {
 // The text in place of errors if the record is of another joint.
 std::string other_joint_text(const analysis::JointComparison& joint) {
     return fmt::format(
-        "another joint, or tightened very differently: {}. Errors of torque, slope and breakaway would have "
-        "no meaning and are left out.",
+        "another joint, or the same one in another state: {}. Errors of torque, slope and breakaway would "
+        "have no meaning and are left out; --same-joint computes them.",
         joint.other_joint);
 }
 
@@ -336,12 +336,14 @@ std::string method_text(const analysis::Comparison& c) {
         "Only samples at which the nut turns beyond all earlier angles are used; measured curves are shifted "
         "to match the virtual one {}. Error: |virtual − measured| / |measured|; MRE is its maximum, MAPE its "
         "mean; stages are those of the virtual curve. RMSE is the root mean square of virtual − measured, in "
-        "N·m. Samples below {} % of their run’s highest measured torque count for the RMSE only; angles that "
-        "the virtual curve does not have are left out. Brackets: 95 % interval over the repetitions, "
+        "N·m. Samples below {} % of their run’s highest measured torque count for the RMSE only, those below "
+        "{} "
+        "% not for the MRE, because they are near zero; angles that the virtual curve does not have are left "
+        "out. Brackets: 95 % interval over the repetitions, "
         "bootstrap of whole runs with the seed {}, from {} runs on. Virtual torque: at the wrench, true and "
         "unscaled, law “{}”.",
-        aligned, number(100.0 * c.options.floor_share, 1), analysis::band_seed, analysis::min_repetitions,
-        c.law);
+        aligned, number(100.0 * c.options.floor_share, 1), number(100.0 * c.options.mre_floor_share, 1),
+        analysis::band_seed, analysis::min_repetitions, c.law);
 }
 
 std::string console_text(const analysis::Comparison& c) {
@@ -358,7 +360,7 @@ std::string console_text(const analysis::Comparison& c) {
         const auto row = [&](std::string_view stage, const analysis::StageError& e,
                              const std::string& outside) {
             const auto value = [&](double v) {
-                return e.count > 0 ? fmt::format("{:.5f}", v) : std::string("-");
+                return e.count > 0 && std::isfinite(v) ? fmt::format("{:.5f}", v) : std::string("-");
             };
             out +=
                 fmt::format("{:<12} {:<12} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", joint, stage, value(e.mre),

@@ -72,6 +72,24 @@ TEST_CASE("Torque errors: samples below the floor and outside the curve are excl
     CHECK(share_of_peak(measured) == doctest::Approx(0.09));
 }
 
+TEST_CASE("Torque errors: samples near zero count for the mean, and not for the maximum") {
+    analysis::TorqueCurve ours;
+    ours.angle = {0.0, 1.0, 2.0};
+    ours.torque = {-10.0, -5.0, -2.0};
+    ours.stage = {joint::Stage::linearity, joint::Stage::linearity, joint::Stage::transition};
+    analysis::TorqueCurve measured;
+    measured.angle = {0.0, 1.0, 2.0};
+    measured.torque = {-10.0, -4.0, -0.02};
+    const TorqueErrors errors = torque_errors(ours, measured, 0.0, 0.01, 0.5);
+    CHECK(errors.stage[1].count == 1);
+    CHECK(std::isnan(errors.stage[1].mre));
+    CHECK(errors.stage[1].mape == doctest::Approx(99.0));
+    CHECK(errors.all.mre == doctest::Approx(0.25));
+    CHECK(errors.all.mape == doctest::Approx((0.25 + 99.0) / 3.0));
+    CHECK(pool(errors, errors).all.mre == doctest::Approx(0.25));
+    CHECK(std::isnan(pool(errors, errors).stage[1].mre));
+}
+
 TEST_CASE("Torque errors: pooling keeps the maximum and weights the mean") {
     TorqueErrors a, b;
     a.stage[1] = a.all = {1, 2, 0.4, 0.4};

@@ -122,6 +122,25 @@ TEST_CASE("Measured file: the error for a missing file names it") {
     CHECK(read.error().message().starts_with("no/such/file.csv: cannot be opened"));
 }
 
+TEST_CASE("Measured file: the runs of one joint can be selected") {
+    std::string text = "# bolt_length_mm: 75\n# property_class: 8.8\ncycle,angle_deg,torque_Nm\n";
+    for (const char* cycle : {"B1", "B2", "F1"})
+        for (int i = 0; i < 6; ++i)
+            text += std::string(cycle) + "," + std::to_string(i) + "," + std::to_string(i) + ".5\n";
+    Result<MeasuredRecord> read = parse_measured(text, "m.csv");
+    REQUIRE(read);
+    CHECK(read->bolt_length == "75");
+    CHECK(read->property_class == "8.8");
+    REQUIRE(select_runs(*read, {}));
+    CHECK(read->cycles.size() == 3);
+    const Status unknown = select_runs(*read, {"B1", "F2"});
+    REQUIRE_FALSE(unknown);
+    CHECK(unknown.error().message() == "m.csv: there is no run \"F2\"; expected one of B1, B2, F1");
+    REQUIRE(select_runs(*read, {"F1", "B2"}));
+    REQUIRE(read->cycles.size() == 2);
+    CHECK(read->cycles[0].name == "B2");
+}
+
 TEST_CASE("Measured file: the published loosening runs are read with their source") {
     const Result<MeasuredRecord> read = read_measured(data_folder() / "m8_releasable.csv");
     REQUIRE_MESSAGE(read, (read ? "" : read.error().message()));

@@ -73,8 +73,9 @@ TEST_CASE("Comparison page: a record of another joint has a label and no errors"
     c.joints = {*joint};
     c.errors = joint->errors;
     for (const std::string& text : {console_text(c), comparison_page(c)}) {
-        CHECK(has(text,
-                  "another joint, or tightened very differently: the peak torques differ by a factor of 5"));
+        CHECK(
+            has(text,
+                "another joint, or the same one in another state: the peak torques differ by a factor of 5"));
         CHECK_FALSE(has(text, "MAPE 0"));
         CHECK_FALSE(has(text, "all stages"));
     }
@@ -95,4 +96,40 @@ TEST_CASE("Comparison page: closed-form curves have small errors, and every samp
           doctest::Approx(0.05).epsilon(0.1));
     CHECK(c.errors.stage[static_cast<std::size_t>(joint::Stage::linearity)].mape < 0.03);
     CHECK(c.errors.all.count + c.errors.all.below + c.errors.outside == c.measured[0].curve.size());
+}
+
+TEST_CASE("Comparison page: a joint with another slope has a label and no errors") {
+    Comparison c = comparison_of(4, "rig");
+    const analysis::TorqueCurve& ours = c.joints[0].simulated;
+    std::vector<MeasuredCurve> softer = c.measured;  // as high, but over 1.5 times the angle
+    for (MeasuredCurve& curve : softer)
+        for (double& angle : curve.curve.angle) angle *= 1.5;
+    auto joint = analysis::compare_joint("B1", ours, softer);
+    REQUIRE(joint);
+    CHECK(joint->other_joint ==
+          "the torque rises in linearity by a factor of 1.51 more steeply than measured; expected at most "
+          "1.4 for "
+          "one joint");
+    CHECK(joint->errors.all.count == 0);
+    CHECK(std::isnan(joint->cycles[0].slope_error));
+    analysis::ComparisonOptions asserted;
+    asserted.same_joint = true;
+    joint = analysis::compare_joint("B1", ours, softer, asserted);
+    REQUIRE(joint);
+    CHECK(joint->other_joint.empty());
+    CHECK(joint->errors.all.count > 0);
+}
+
+TEST_CASE("Comparison page: a joint that keeps its load over three times the angle has no errors") {
+    const analysis::TorqueCurve ours = curve_of(loosening_torque, 0.0, 120.0, 0.1, Direction::loosen);
+    const auto held = [](double at) { return loosening_torque(at / 3.0); };
+    const std::vector<MeasuredCurve> measured{{"1", curve_of(held, 0.0, 120.0, 5.0, Direction::loosen)}};
+    const auto joint = analysis::compare_joint("B1", ours, measured);
+    REQUIRE(joint);
+    CHECK_MESSAGE(has(joint->other_joint, "falls after the breakaway by a factor of 3."), joint->other_joint);
+    CHECK(joint->errors.all.count == 0);
+    const auto same = analysis::compare_joint(
+        "B1", ours, {{"1", curve_of(loosening_torque, 0.0, 120.0, 5.0, Direction::loosen)}});
+    REQUIRE(same);
+    CHECK_MESSAGE(same->other_joint.empty(), same->other_joint);
 }

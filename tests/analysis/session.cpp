@@ -96,6 +96,27 @@ TEST_CASE("Comparison: a record of another thread has no errors, however equal i
     CHECK(unknown.error().message().starts_with("rig.csv: the line \"# thread:\" is wrong: "));
 }
 
+TEST_CASE("Comparison: a record of a bolt of another length or class has no errors") {
+    const Loosened session;
+    const Result<session::SessionReader> reader = session::SessionReader::open(session.path);
+    REQUIRE(reader);
+    const auto why = [&](const char* length, const char* grade) {
+        MeasuredRecord measured = rig(30.0, 1.0);
+        measured.bolt_length = length;
+        measured.property_class = grade;
+        const Result<Comparison> c = analysis::compare(*reader, measured, "");
+        if (!c) return c.error().message();
+        CHECK((c->errors.all.count == 0) != c->joints[0].other_joint.empty());
+        return c->joints[0].other_joint;
+    };
+    CHECK(why("30", "8.8") == "");
+    CHECK(why("45", "") == "the measured bolt is 45 mm long, the joint's 30 mm");
+    CHECK(why("", "10.9") == "the measured property class is 10.9, the joint's 8.8");
+    CHECK(why("long", "") ==
+          "rig.csv: the line \"# bolt_length_mm:\" is wrong: 'long' is not a length; expected millimetres, "
+          "such as 75");
+}
+
 TEST_CASE("Comparison: errors name the joint and the direction") {
     const Loosened session;
     const Result<session::SessionReader> reader = session::SessionReader::open(session.path);
