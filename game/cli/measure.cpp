@@ -65,6 +65,18 @@ struct SimulateOptions {
     std::uint64_t seed = 1;
 };
 
+// The thread of all joints, as a rig names it; empty if they differ.
+std::string common_thread(const content::Assembly& assembly) {
+    const joint::ThreadSize& first = assembly.joints.front().design.thread;
+    for (const content::AssemblyJoint& joint : assembly.joints)
+        if (joint.design.thread.thread.d != first.thread.d ||
+            joint.design.thread.thread.pitch != first.thread.pitch)
+            return {};
+    return first.thread.pitch == first.size.coarse_pitch
+               ? std::string(first.size.name)
+               : fmt::format("{}x{:g}", first.size.name, first.thread.pitch * 1e3);
+}
+
 // Writes the sensor data of one run for each joint, and imports it again from the disk, as a laboratory's
 // data would be.
 Result<analysis::MeasuredRecord> simulate_record(const content::Assembly& assembly,
@@ -74,7 +86,7 @@ Result<analysis::MeasuredRecord> simulate_record(const content::Assembly& assemb
     const measure::SensorModel model;
     const std::filesystem::path rig_file = folder / "rig.json", record_file = folder / "record.csv";
     const std::string title = fmt::format("Simulated rig, {} {}", assembly.name, assembly.variant);
-    BOLT_TRY(write_file(rig_file, measure::simulated_rig_json(model, title, "")));
+    BOLT_TRY(write_file(rig_file, measure::simulated_rig_json(model, title, common_thread(assembly))));
     const measure::LoadedRig rig = measure::load_rig(rig_file);
     if (!rig.ok()) return fail(rig.errors.front());
     std::vector<measure::RigRun> runs;
@@ -107,6 +119,8 @@ Result<analysis::Comparison> compare_published(const content::Assembly& assembly
     c.variant = assembly.variant;
     c.measured_file = record.file;
     c.source = record.source;
+    c.options.same_joint = true;      // the runs are of these joints; the laws differ
+    c.options.mre_floor_share = 0.0;  // as in the paper's Table 2
     const std::vector<analysis::MeasuredCurve> all = analysis::measured_curves(record);
     for (std::size_t i = 0; i < all.size(); ++i)  // one run for each joint, in their order
         if (assembly.joints[i].type == type.type) c.measured.push_back(all[i]);

@@ -11,21 +11,18 @@
 #include "engine/base/file.hpp"
 #include "engine/base/math.hpp"
 #include "game/measure/butterworth.hpp"
+#include "game/measure/import_checks.hpp"
 #include "game/measure/table.hpp"
 
 namespace bolt::measure {
 
 namespace {
 
-constexpr double least_torque = 0.01, most_torque = 2e5;  // N·m, of M4 to M39 with a wide margin
-constexpr double least_turn = to_radians(1.0), most_turn = 2000.0 * pi;
 constexpr double gap_factor = 5.0;       // a longer step than this multiple of the median is a gap
 constexpr std::size_t clipped_run = 20;  // equal extreme values in a row
 
 // Rows of one run in a table.
 using Rows = std::vector<std::size_t>;
-
-std::string quantity(double value, std::string_view unit) { return fmt::format("{:.4g} {}", value, unit); }
 
 struct Sampling {
     std::vector<double> time;  // s
@@ -84,8 +81,9 @@ Status check_even(const Table& table, const Rows& rows, const Sampling& s) {
     return {};
 }
 
-Result<std::vector<double>> channel_values(const Rig& rig, const Table& table, const Rows& rows,
-                                           std::size_t column, const Channel& channel, const Sampling& s) {
+// The values of a channel before its low pass.
+Result<std::vector<double>> raw_values(const Rig& rig, const Table& table, const Rows& rows,
+                                       std::size_t column, const Channel& channel) {
     const std::string unit = unit_in_name(channel.column);
     if (!unit.empty() && unit != channel.unit_name)
         return fail(rig.error(
@@ -95,6 +93,11 @@ Result<std::vector<double>> channel_values(const Rig& rig, const Table& table, c
     std::vector<double> values;
     values.reserve(rows.size());
     for (const std::size_t row : rows) values.push_back(channel.value(table.columns[column][row]));
+    return values;
+}
+
+Result<std::vector<double>> filtered(const Rig& rig, const Table& table, const Rows& rows,
+                                     const Channel& channel, const Sampling& s, std::vector<double> values) {
     if (channel.low_pass == 0.0) return values;
     if (channel.low_pass > max_cut_off_share * s.rate)
         return fail(rig.error(channel.position,
@@ -103,6 +106,34 @@ Result<std::vector<double>> channel_values(const Rig& rig, const Table& table, c
                               fmt::format("at most {}", quantity(max_cut_off_share * s.rate, "Hz"))));
     BOLT_TRY(check_even(table, rows, s));
     return zero_phase_low_pass(values, channel.low_pass, s.rate);
+}
+
+Result<std::vector<double>> torque_values(const Rig& rig, const Table& table, const Rows& rows,
+                                          const Sampling& s) {
+    const Channel& channel = rig.torque.channel;
+    BOLT_TRY_ASSIGN(auto values, raw_values(rig, table, rows, 0, channel));
+    return filtered(rig, table, rows, channel, s, std::move(values));
+}
+
+// The angles of a column, as an encoder without an end would count them. Adds what was done to `notes`.
+Result<std::vector<double>> angle_values(const Rig& rig, const Table& table, const Rows& rows,
+                                         std::size_t column, const Sampling& s,
+                                         std::vector<std::string>& notes) {
+    const Channel& channel = rig.angle.channel;
+    BOLT_TRY_ASSIGN(auto values, raw_values(rig, table, rows, column, channel));
+    if (const std::size_t wraps = unwrap_turns(values); wraps > 0)
+        notes.push_back(
+            fmt::format("the angle jumps by nearly a whole turn {} times, as an encoder that starts again at "
+                        "0 does; the turns were added",
+                        wraps));
+    if (const auto jump = find_jump(values, rig.angle.largest_step))
+        return fail(table.error(
+            rows[jump->sample], column,
+            fmt::format("the angle jumps by {} from the sample before; the usual step is at most {}",
+                        quantity(to_degrees(jump->step), "degrees"),
+                        quantity(to_degrees(jump->usual), "degrees")),
+            "samples without gaps; cut the run there, or set \"largest_step_deg\" of the angle"));
+    return filtered(rig, table, rows, channel, s, std::move(values));
 }
 
 // Subtracts the mean of the time at rest from `torque`.
@@ -163,7 +194,7 @@ Status join_angles(const Table& table, const AngleTrack& track, RigRun& run) {
     return {};
 }
 
-Result<AngleTrack> second_track(const Rig& rig, const RunText& text) {
+Result<AngleTrack> second_track(const Rig& rig, const RunText& text, std::vector<std::string>& notes) {
     const AngleSource& source = rig.angle;
     std::vector<std::string> wanted{source.channel.column};
     if (!source.second_time.column.empty()) wanted.push_back(source.second_time.column);
@@ -173,7 +204,7 @@ Result<AngleTrack> second_track(const Rig& rig, const RunText& text) {
     BOLT_TRY_ASSIGN(auto s, sample_times(table, rows, 1, source.second_time));
     if (rows.size() < 2) return fail(table.error(0, "this file has only one row", "two or more"));
     AngleTrack track;
-    BOLT_TRY_ASSIGN(auto angles, channel_values(rig, table, rows, 0, source.channel, s));
+    BOLT_TRY_ASSIGN(auto angles, angle_values(rig, table, rows, 0, s, notes));
     track.angle = std::move(angles);
     for (double& time : s.time) time += source.delay;
     track.time = std::move(s.time);
@@ -186,7 +217,7 @@ Status add_angles(const Rig& rig, const Table& table, const Rows& rows, const Sa
     const double turning = rig.direction == joint::Direction::tighten ? 1.0 : -1.0;
     switch (source.kind) {
         case AngleKind::column: {
-            BOLT_TRY_ASSIGN(auto angles, channel_values(rig, table, rows, 1, source.channel, s));
+            BOLT_TRY_ASSIGN(auto angles, angle_values(rig, table, rows, 1, s, run.notes));
             run.angle = std::move(angles);
             return {};
         }
@@ -220,59 +251,6 @@ void add_uncertainty(const Rig& rig, RigRun& run) {
     }
     const Channel& a = rig.angle.channel;
     run.u_angle = std::sqrt(square(a.resolution) / 12.0 + square(a.uncertainty));
-}
-
-std::size_t extreme_index(const std::vector<double>& values) {
-    const auto it = std::max_element(values.begin(), values.end(),
-                                     [](double a, double b) { return std::abs(a) < std::abs(b); });
-    return static_cast<std::size_t>(it - values.begin());
-}
-
-std::string_view turning_of(const Rig& rig) {
-    return rig.direction == joint::Direction::tighten ? "tighten" : "loosen";
-}
-
-// Wrong units and signs: a person mistakes them often, and the numbers show it.
-Status check_torque(const Rig& rig, const RigRun& run) {
-    const Channel& channel = rig.torque.channel;
-    const double extreme = run.torque[extreme_index(run.torque)];
-    const bool tighten = rig.direction == joint::Direction::tighten;
-    if (std::abs(extreme) < least_torque || std::abs(extreme) > most_torque)
-        return fail(
-            rig.error(channel.unit_position,
-                      fmt::format("the largest torque of {} is {}", run.name, quantity(extreme, "N·m")),
-                      fmt::format("{} to {} N·m; check unit, gain and lever", least_torque, most_torque)));
-    if ((extreme > 0.0) != tighten)
-        return fail(rig.error(
-            channel.reversed_position,
-            fmt::format("the largest torque of {} is {}, but the rig is to {}", run.name,
-                        quantity(extreme, "N·m"), turning_of(rig)),
-            fmt::format("a torque that is {}; {} \"reversed\" of the torque, or check \"direction\"",
-                        tighten ? "positive" : "negative", channel.reversed ? "remove" : "set")));
-    return {};
-}
-
-Status check_angle(const Rig& rig, const RigRun& run) {
-    const auto [low, high] = std::minmax_element(run.angle.begin(), run.angle.end());
-    const RigPosition unit =
-        rig.angle.channel.unit_position.line > 0 ? rig.angle.channel.unit_position : rig.angle.position;
-    if (*high - *low < least_turn || *high - *low > most_turn)
-        return fail(rig.error(
-            unit,
-            fmt::format("the nut of {} turns by {}", run.name, quantity(to_degrees(*high - *low), "degrees")),
-            "1 degree to 1000 turns; check unit and gain of the angle"));
-    const std::size_t peak = extreme_index(run.torque);
-    const bool tighten = rig.direction == joint::Direction::tighten;
-    const RigPosition sign =
-        rig.angle.kind == AngleKind::points ? rig.angle.position : rig.angle.channel.reversed_position;
-    if (tighten && run.angle[peak] <= run.angle.front())
-        return fail(rig.error(
-            sign,
-            fmt::format("the angle of {} falls by {} up to the highest torque", run.name,
-                        quantity(to_degrees(run.angle.front() - run.angle[peak]), "degrees")),
-            fmt::format("an angle that rises while the nut is tightened; {} \"reversed\" of the angle",
-                        rig.angle.channel.reversed ? "remove" : "set")));
-    return {};
 }
 
 // Many equal extreme values in a row: the amplifier was at its limit.
@@ -313,7 +291,7 @@ Result<RigRun> import_run(const Rig& rig, const Table& table, const Rows& rows, 
     BOLT_TRY_ASSIGN(auto s, sample_times(table, rows, time_column, rig.time));
     run.rate = s.rate;
     const double factor = rig.torque.factor();
-    BOLT_TRY_ASSIGN(auto torque, channel_values(rig, table, rows, 0, rig.torque.channel, s));
+    BOLT_TRY_ASSIGN(auto torque, torque_values(rig, table, rows, s));
     run.torque = std::move(torque);
     if (rig.torque.channel.low_pass > 0.0) run.noise = factor * noise_of(rig, table, rows, run.torque);
     for (double& value : run.torque) value *= factor;
@@ -333,6 +311,7 @@ Result<RigRun> import_run(const Rig& rig, const Table& table, const Rows& rows, 
     if (run.landmarks.linear && rig.torque.channel.low_pass > 0.0)
         run.landmarks.linear->slope_error *=
             std::sqrt(std::max(1.0, s.rate / (2.0 * rig.torque.channel.low_pass)));
+    BOLT_TRY(check_slope(rig, run));
     return run;
 }
 
@@ -345,8 +324,9 @@ Result<std::vector<RigRun>> import_runs(const Rig& rig, const RunText& text) {
     if (!rig.time.column.empty()) wanted.push_back(rig.time.column);
     BOLT_TRY_ASSIGN(const auto table, parse_table(text.text, text.file, rig.table, wanted, rig.cycle_column));
     AngleTrack second;
+    std::vector<std::string> second_notes;
     if (rig.angle.kind == AngleKind::second_file) {
-        BOLT_TRY_ASSIGN(auto track, second_track(rig, text));
+        BOLT_TRY_ASSIGN(auto track, second_track(rig, text, second_notes));
         second = std::move(track);
     }
     std::vector<std::string> names;
@@ -361,6 +341,7 @@ Result<std::vector<RigRun>> import_runs(const Rig& rig, const RunText& text) {
     std::vector<RigRun> runs;
     for (const std::string& name : names) {
         BOLT_TRY_ASSIGN(auto run, import_run(rig, table, cycles.at(name), time_column, name, second));
+        run.notes.insert(run.notes.end(), second_notes.begin(), second_notes.end());
         runs.push_back(std::move(run));
     }
     return runs;

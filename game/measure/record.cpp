@@ -119,6 +119,8 @@ std::string record_csv(const Rig& rig, const std::vector<RigRun>& runs) {
     std::string out = fmt::format("# rig: {}\n", rig.title);
     if (!rig.source.empty()) out += fmt::format("# source: {}\n", rig.source);
     if (!rig.thread.empty()) out += fmt::format("# thread: {}\n", rig.thread);
+    if (rig.bolt_length > 0.0) out += fmt::format("# bolt_length_mm: {:g}\n", rig.bolt_length * 1e3);
+    if (!rig.property_class.empty()) out += fmt::format("# property_class: {}\n", rig.property_class);
     out +=
         "# u_torque_Nm: combined standard uncertainty (GUM) of resolution, calibration and lever; U = 2 u\n";
     out += "cycle,time_s,angle_deg,torque_Nm,u_torque_Nm\n";
@@ -134,6 +136,10 @@ std::string record_csv(const Rig& rig, const std::vector<RigRun>& runs) {
 std::string summary_text(const Rig& rig, const std::vector<RigRun>& runs) {
     std::string out = rig.title + "\n";
     if (!rig.source.empty()) out += fmt::format("measured by: {}\n", rig.source);
+    if (rig.thread.empty())
+        out +=
+            "check: the rig does not name the thread, so units were checked only coarsely; expected "
+            "\"thread\", and \"property_class\" and \"bolt_length_mm\" if they are known\n";
     std::vector<double> free, slopes, yields, peaks;
     for (const RigRun& run : runs) {
         put_run(out, rig, run);

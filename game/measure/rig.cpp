@@ -176,13 +176,14 @@ class RigReader {
             reader_.report(object.pointer, "the column of the angle has no unit",
                            "\"unit\": \"deg\", \"rad\" or \"turn\"");
         if (object && !column)
-            for (const char* key :
-                 {"unit", "gain", "offset", "reversed", "low_pass_Hz", "resolution", "second_file"})
+            for (const char* key : {"unit", "gain", "offset", "reversed", "low_pass_Hz", "resolution",
+                                    "largest_step_deg", "second_file"})
                 if (has(object, key))
                     reader_.report(object.pointer + "/" + key,
                                    fmt::format("\"{}\" has no meaning without a column", key),
                                    "\"column\", or no such member", JsonPart::key);
         angle.channel = channel(object);
+        angle.largest_step = to_radians(number(object, "largest_step_deg"));
         if (!column) angle.channel.uncertainty = number(object, "uncertainty") * to_radians(0.5);
         angle.kind = speed    ? AngleKind::speed
                      : list   ? AngleKind::points
@@ -290,6 +291,12 @@ LoadedRig parse_rig(std::string_view text, const std::string& file) {
     if (!rig.thread.empty())
         if (const auto known = joint::parse_thread(rig.thread); !known)
             reader.report(thread.pointer, known.error().what, known.error().expected);
+    const JsonNode grade = reader.member(root, "property_class");
+    rig.property_class = reader.text(grade).value_or("");
+    if (!rig.property_class.empty())
+        if (const auto known = joint::property_class(rig.property_class, 0.01); !known)
+            reader.report(grade.pointer, known.error().what, known.error().expected);
+    rig.bolt_length = 1e-3 * from.number(root, "bolt_length_mm");
     read_table(from, reader.member(root, "table"), rig.table, reader);
     rig.time = from.time(reader.member(root, "time"));
     rig.torque = from.torque(reader.member(root, "torque"));

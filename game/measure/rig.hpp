@@ -76,6 +76,7 @@ struct AngleSource {
     double delay = 0.0;              // s, added to the times of the second file
     double speed = 0.0;              // rad/s in the direction of the rig
     std::vector<AnglePoint> points;  // times strictly ascending
+    double largest_step = 0.0;       // rad between two samples of a column; 0: see import_checks.hpp
     RigPosition position;
 };
 
@@ -90,7 +91,9 @@ struct Rig {
     std::string file;  // of the description
     std::string title, source;
     joint::Direction direction = joint::Direction::tighten;
-    std::string thread;  // "M8"; empty: not given
+    std::string thread;          // "M8"; empty: not given
+    std::string property_class;  // "8.8"; empty: not given
+    double bolt_length = 0.0;    // m; 0: not given
     TableFormat table;
     TimeSource time;
     TorqueChannel torque;

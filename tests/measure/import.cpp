@@ -179,6 +179,68 @@ TEST_CASE("Import: wrong units and signs are told at their place in the rig's de
                   "rig.json:9:34: ", "the unit is N, but the column is named 'Fx (kN)'; expected \"kN\"");
 }
 
+TEST_CASE("Import: torque and slope that such a bolt cannot have are told at their unit") {
+    const std::string good = force_file(known_torque);
+    const auto message = [&](const std::string& from, const std::string& to) {
+        return message_of(import_text(replaced(force_rig, from, to), good));
+    };
+    check_message(
+        message("\"gain\": 2", "\"gain\": 2000"), "rig.json:9:29: ",
+        "the largest torque of run is 4.075e+04 N·m; expected 0.094 to 142.9 N·m for a bolt M8; check "
+        "unit, gain and lever");
+    check_message(message("\"gain\": 2, \"offset\": -1", "\"gain\": 0.002"),
+                  "rig.json:9:29: ", "for a bolt M8; check unit, gain and lever");
+    // Radians, read as degrees; degrees, read as turns or radians.
+    std::string radians = "t,Fx,phi\n", small = "t,Fx,phi\n";
+    for (int i = 0; i <= 560; ++i)
+        radians += fmt::format("{},{:.6f},{:.6f}\n", 10 * i, (known_torque(0.25 * i) / 0.25 + 1.0) / 2.0,
+                               to_radians(0.25 * i));
+    check_message(message_of(import_text(force_rig, radians)),
+                  "rig.json:12:39: ", "the torque of run rises by 114.");
+    check_message(message("\"deg\"", "\"turn\""),
+                  "rig.json:12:39: ", "N·m per degree for a bolt M8; check unit");
+    const std::string length = replaced(force_rig, "\"thread\"", "\"bolt_length_mm\": 30, \"thread\"");
+    CHECK(message_of(import_text(length, good)) == "no error");
+    check_message(message_of(import_text(replaced(length, "\"deg\"", "\"rad\""), good)),
+                  "rig.json:12:39: ", "for a bolt M8x30; check unit");
+    // A short bolt of a weak class is told, too.
+    const std::string weak = replaced(force_rig, "\"thread\"", "\"property_class\": \"4.6\", \"thread\"");
+    check_message(message_of(import_text(replaced(weak, "\"gain\": 2", "\"gain\": 3"), good)),
+                  "rig.json:9:29: ", "for a bolt M8 of class 4.6");
+}
+
+TEST_CASE("Import: an encoder that starts again after a turn is unwound, and this is noted") {
+    const measure::RigRun straight = only_run(import_text(force_rig, force_file(known_torque)));
+    for (const double lowest : {0.0, -180.0}) {
+        std::string file = "t,Fx,phi\n";
+        for (int i = 0; i <= 560; ++i) {
+            const double angle = 0.25 * i + 250.0 + lowest;  // starts again at the steepest part
+            file += fmt::format("{},{:.6f},{}\n", 10 * i, (known_torque(0.25 * i) / 0.25 + 1.0) / 2.0,
+                                lowest + std::fmod(angle - lowest, 360.0));
+        }
+        const measure::RigRun run = only_run(import_text(force_rig, file));
+        REQUIRE(run.notes.size() == 1);
+        CHECK(has(run.notes[0], "starts again"));
+        CHECK(run.landmarks.peak.torque == doctest::Approx(straight.landmarks.peak.torque));
+        REQUIRE(run.landmarks.yield);
+        CHECK(run.landmarks.yield->torque == doctest::Approx(straight.landmarks.yield->torque));
+    }
+    CHECK(straight.notes.empty());
+}
+
+TEST_CASE("Import: missing samples show in the angle, with a sampling rate too") {
+    std::string rig = replaced(force_rig, "\"column\": \"t\", \"unit\": \"ms\"", "\"rate_Hz\": 100");
+    std::string file = force_file(known_torque);
+    for (int i = 400; i < 480; ++i)
+        file = replaced(file, fmt::format("\n{},", 10 * i), fmt::format("\n# {},", 10 * i));
+    check_message(
+        message_of(import_text(rig, file)), "run.csv:482:",
+        "the angle jumps by 20.25 degrees from the sample before; the usual step is at most 0.25 degrees; "
+        "expected samples without gaps");
+    rig = replaced(rig, "\"unit\": \"deg\",", "\"unit\": \"deg\", \"largest_step_deg\": 25,");
+    CHECK(message_of(import_text(rig, file)) == "no error");
+}
+
 TEST_CASE("Import: an uneven clock is refused for the low pass only") {
     std::string file = "t,Fx,phi\n";
     double t = 0.0;

@@ -64,6 +64,8 @@ TEST_CASE("Rig: mistakes are told with line and column") {
     check_mistake("\"column\": \"phi\"", "\"speed_deg_s\": 3, \"column\": \"phi\"",
                   "rig.json:12:12: ", "more than one");
     check_mistake("\"unit\": \"deg\", ", "", "rig.json:12:12: ", "has no unit");
+    check_mistake("\"thread\"", "\"property_class\": \"8.9\", \"thread\"",
+                  "rig.json:6:21: ", "did you mean \"8.8\"");
     check_mistake("\"M8\"", "\"M9\"", "rig.json:6:13: ", "not a known thread size");
     check_mistake("\"column\": \"phi\", \"unit\": \"deg\", \"resolution\": 0.1",
                   "\"points_s_deg\": [[0, 0], [2, 5], [1, 7]]",

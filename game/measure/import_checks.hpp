@@ -1,0 +1,57 @@
+// Mistakes of a rig's description that only the values show: wrong units and signs, encoders that start
+// again, missing samples.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/result.hpp"
+#include "game/measure/import.hpp"
+
+namespace bolt::measure {
+
+// "12.5 N·m"
+std::string quantity(double value, std::string_view unit);
+
+// The index of the value with the largest magnitude.
+std::size_t extreme_index(const std::vector<double>& values);
+
+// Undoes the jumps of an encoder that counts one turn and starts again: angles that stay within one turn, but
+// change by more than half a turn between two samples. Returns the number of jumps.
+std::size_t unwrap_turns(std::vector<double>& angle);
+
+// A change of the angle that is much larger than those of the other samples: samples are missing.
+struct AngleJump {
+    std::size_t sample = 0;          // after the jump
+    double step = 0.0, usual = 0.0;  // rad; usual: 95 % of the steps of the moving nut are smaller
+};
+// `largest`, rad: the largest permitted step; 0: five times the usual one, and at least 5 degrees, because a
+// nut that slips turns by a few degrees at once.
+std::optional<AngleJump> find_jump(std::span<const double> angle, double largest);
+
+// The range that a quantity of a bolted joint can have.
+struct PlausibleRange {
+    double low = 0.0, high = 0.0;
+};
+
+// The largest torque of a run, N·m. Up to the fracture of the bolt at the torque that friction of 0.3 needs
+// (T = 0.4 d A_s R_m), down to a hundredth of the yield load of class 8.8 with friction near zero (0.05 d).
+// The strongest class is assumed unless the rig names one. Without a thread: the range of all threads.
+PlausibleRange plausible_torque(const Rig& rig);
+
+// The slope of torque over angle, N·m/rad: K d c P/2π with the joint's stiffness c. High: K 0.31 (friction
+// 0.24) and rigid members that are as thick as the bolt's diameter, or as its length permits. Low: K 0.08,
+// and parts ten times as soft as a bolt whose length is that of the rig, or 20 diameters. None without a
+// thread.
+std::optional<PlausibleRange> plausible_slope(const Rig& rig);
+
+Status check_torque(const Rig& rig, const RigRun& run);
+Status check_angle(const Rig& rig, const RigRun& run);
+// Needs the landmarks.
+Status check_slope(const Rig& rig, const RigRun& run);
+
+}  // namespace bolt::measure
