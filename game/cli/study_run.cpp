@@ -12,6 +12,7 @@
 #include "game/cli/train_arguments.hpp"
 #include "game/study/measures.hpp"
 #include "game/study/study_lesson.hpp"
+#include "game/study_journal/known_studies.hpp"
 #include "game/study_results/results.hpp"
 #include "game/trainer/app.hpp"
 
@@ -28,16 +29,19 @@ struct StudyRunArguments {
 // The participant that --participant names, or that the person of --trainee is already, or a new one.
 Result<study::Participation> find_participation(const content::Study& study,
                                                 const StudyRunArguments& options) {
-    if (!options.participant.empty())
+    BOLT_TRY_ASSIGN(const auto data, user_data_folder());
+    if (!options.participant.empty()) {
+        BOLT_TRY(study::remember_study(data, options.folder));  // it may have been moved since
         return study::Participation::resume(study, options.folder, options.participant,
                                             options.accept_change);
+    }
     if (options.window.trainee.empty())
         return fail(ErrorCode::usage, "nobody takes part",
                     "--trainee NAME for a person, or --participant P03 for one who has begun");
-    BOLT_TRY_ASSIGN(const auto data, user_data_folder());
     BOLT_TRY_ASSIGN(const auto person,
                     person_argument(options.window.trainee, data / "gloves", NewPerson::added));
     BOLT_TRY_ASSIGN(const auto states, study::list_participants(study, options.folder));
+    BOLT_TRY(study::remember_study(data, options.folder));
     for (const study::ParticipantState& state : states)
         if (!state.withdrawn && state.progress.person == person.code)
             return study::Participation::resume(study, options.folder, state.participant,

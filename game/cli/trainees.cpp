@@ -198,9 +198,10 @@ void add_trainees(CLI::App& app, int& exit_code) {
         sub->add_option("WHO", options->who, "Code or name of the person")->required();
     };
     const auto add_folders = [&](CLI::App* sub) {
-        sub->add_option("SESSIONS_FOLDER", options->sessions,
-                        "Folders to search for sessions; default: out, and the folder of lessons that were "
-                        "started from the desktop");
+        sub->add_option(
+            "SESSIONS_FOLDER", options->sessions,
+            "Folders to search for sessions; default: out, and the folder of lessons that were "
+            "started from the desktop. Studies that people took part in here are always searched");
     };
     add_folders(add("list", "List all people with their codes", list_trainees));
 

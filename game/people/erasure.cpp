@@ -124,7 +124,11 @@ Erasure erase_person(const DataFolders& folders, const PersonData& data) {
         if (file.kind != FileKind::settings && file.kind != FileKind::calibration)
             remove_empty_folders(file.path.parent_path(), file.root, erasure);
     // The name is the last, so that an erasure that was interrupted can be repeated by name.
-    forget(folders, data.person, erasure);
+    if (folders.missing.empty())
+        forget(folders, data.person, erasure);
+    else if (!data.person.name.empty())
+        erasure.kept.push_back(kept_file(folders.own.people, "the name is kept",
+                                         "the folders of all studies, and the same command again"));
     return erasure;
 }
 

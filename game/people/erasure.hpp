@@ -16,7 +16,8 @@ struct Erasure {
 };
 
 // Deletes the person's files and then the person's name. Keeps a session that another program is recording,
-// one that belongs to another person by now, and pages that show other people too.
+// one that belongs to another person by now, pages that show other people too, and the name while the folder
+// of a study is missing, so that the erasure can be repeated by name.
 Erasure erase_person(const DataFolders& folders, const PersonData& data);
 
 // Deletes only the name: first renames files of older programs that have the name, then removes it from

@@ -15,6 +15,7 @@
 #include "game/people/page_trainees.hpp"
 #include "game/session/session_file.hpp"
 #include "game/study_journal/journal.hpp"
+#include "game/study_journal/known_studies.hpp"
 
 namespace bolt::people {
 
@@ -58,6 +59,7 @@ Person person_of_summary(const std::string& text, std::span<const Person> regist
 class Collector {
   public:
     explicit Collector(const DataFolders& folders) : folders_(folders) {
+        inventory_.file_errors = folders.missing;
         if (folders.own.people.empty()) return;
         auto people = content::list_people(folders.own.people);
         if (!people) {
@@ -181,7 +183,7 @@ class Collector {
 
 Result<DataFolders> user_folders(std::vector<fs::path> sessions) {
     BOLT_TRY_ASSIGN(const auto data, user_data_folder());
-    DataFolders folders{{data / "people", data / "settings", data / "gloves"}, std::move(sessions)};
+    DataFolders folders{{data / "people", data / "settings", data / "gloves"}, std::move(sessions), {}};
     std::error_code unknown;
     for (const fs::path& given : folders.sessions)
         if (!fs::is_directory(given, unknown))
@@ -190,6 +192,20 @@ Result<DataFolders> user_folders(std::vector<fs::path> sessions) {
     if (folders.sessions.empty())
         for (const fs::path& usual : {fs::path("out"), data / "sessions"})
             if (fs::is_directory(usual, unknown)) folders.sessions.push_back(usual);
+    BOLT_TRY_ASSIGN(const auto studies, study::known_studies(data));
+    for (const fs::path& one : studies) {
+        if (fs::is_directory(one, unknown)) {
+            folders.sessions.push_back(one);
+            continue;
+        }
+        Error error;
+        error.file = one.string();
+        error.what = "the folder of this study is not there, so it was not searched";
+        error.expected = fmt::format(
+            "the folder at its place, or its new place in {}, or no line of a study that was deleted",
+            (data / study::known_studies_file_name).string());
+        folders.missing.push_back(std::move(error));
+    }
     return folders;
 }
 

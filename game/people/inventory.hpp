@@ -20,10 +20,12 @@ namespace bolt::people {
 struct DataFolders {
     content::PersonFolders own;
     std::vector<std::filesystem::path> sessions;  // searched with their subfolders
+    std::vector<Error> missing;  // studies that people took part in here, and whose folders are not there now
 };
 
 // The user's own folders. Searches `sessions` for sessions. If it is empty, searches out/ and
-// user_data_folder()/sessions, where lessons from the desktop go, if they exist.
+// user_data_folder()/sessions, where lessons from the desktop go, if they exist. Always searches the folders
+// of the studies that people took part in on this computer (study::known_studies).
 Result<DataFolders> user_folders(std::vector<std::filesystem::path> sessions = {});
 
 enum class FileKind : std::uint8_t {
@@ -54,8 +56,8 @@ struct PersonData {
 struct Inventory {
     std::vector<PersonData> people;    // those with a name first, in the order of names.json; then by code
     std::optional<Error> names_error;  // names.json is damaged: nobody has a name
-    std::vector<Error>
-        file_errors;  // files whose owner cannot be determined, and folders that cannot be searched
+    // Files whose owner cannot be determined, folders that cannot be searched, and studies that are missing.
+    std::vector<Error> file_errors;
 };
 
 // Symbolic links inside the folders are not followed. A file that an older program stored under a typed name

@@ -86,10 +86,16 @@ wait $player
 check 'an interruption ends it in order' test $? -eq 0
 player=
 expect 0 'answers .*guiding/participants/P01/journal.db' "$bin/boltwright" trainees show Ada guiding
-expect 0 . "$bin/boltwright" trainees export Ada --out mine guiding
+expect 0 'answers .*guiding/participants/P01/journal.db' "$bin/boltwright" trainees show Ada
+expect 0 . "$bin/boltwright" trainees export Ada --out mine
 check 'a person can read what was stored' grep -q '"kind": "enrolled"' mine/index.json
 check 'nobody else was enrolled' test "$(ls -d guiding/participants/P* | wc -l)" -eq 1
-expect 0 . "$bin/boltwright" trainees erase Ada guiding --yes
+mv guiding moved
+expect 1 'guiding: the folder of this study is not there, so it was not searched; expected .*studies.txt' "$bin/boltwright" trainees erase Ada --yes
+expect 1 'the name is kept; expected' "$bin/boltwright" trainees erase Ada --yes
+mv moved guiding
+expect 0 'deleted .*guiding/participants/P01/journal.db' "$bin/boltwright" trainees erase Ada --yes
+check 'the name is deleted with the rest' bash -c '! grep -q Ada "$XDG_DATA_HOME/boltwright/people/names.json"'
 check 'an erased person leaves only the mark' test "$(ls guiding/participants/P01)" = withdrawn.txt
 expect 0 '^P01 .*withdrew' "${study[@]}" status guiding
 finish_checks

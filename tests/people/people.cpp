@@ -10,6 +10,7 @@
 #include "game/people/page_trainees.hpp"
 #include "game/people/person_export.hpp"
 #include "game/session/session_file.hpp"
+#include "game/study_journal/known_studies.hpp"
 #include "tests/people/support.hpp"
 
 using namespace bolt;
@@ -255,6 +256,34 @@ TEST_CASE("Erasure: all files of the person and the name are deleted, and nothin
             CHECK(text.find(station.ada) == std::string::npos);
             CHECK(text.find("\"Ada\"") == std::string::npos);
         }
+}
+
+TEST_CASE("Inventory: a study is remembered once, and its folder is searched without being named") {
+    const session::test::Folder folder;
+    REQUIRE(study::remember_study(folder / "data", folder / "lab/"));
+    REQUIRE(study::remember_study(folder / "data", folder / "lab"));
+    REQUIRE(study::remember_study(folder / "data", folder / "other"));
+    const auto known = study::known_studies(folder / "data");
+    REQUIRE(known);
+    CHECK(*known == std::vector<fs::path>{folder / "lab", folder / "other"});
+    CHECK(study::known_studies(folder / "nothing")->empty());
+    CHECK_FALSE(study::remember_study(folder / "data", folder / "line\nbreak"));
+    put_text(folder / "file", "");
+    CHECK_FALSE(study::remember_study(folder / "file", folder / "lab"));
+}
+
+TEST_CASE("Erasure: the name stays while the folder of a study is missing") {
+    FullStation station;
+    Error missing;
+    missing.file = "lab";
+    missing.what = "is not there";
+    station.folders.missing.push_back(missing);
+    CHECK(mentions(take_inventory(station.folders).file_errors, "lab", "is not there"));
+    const Erasure kept = erase_person(station.folders, station.data("Ada"));
+    CHECK_FALSE(kept.name_deleted);
+    CHECK(mentions(kept.kept, "people", "the name is kept"));
+    station.folders.missing.clear();
+    CHECK(erase_person(station.folders, station.data("Ada")).name_deleted);
 }
 
 TEST_CASE("Erasure: a session that is being recorded is kept and reported") {
