@@ -153,7 +153,8 @@ td .of,td small{color:var(--mute);font-size:12.5px;font-weight:400}
 .small{grid-template-columns:repeat(auto-fill,minmax(min(100%,300px),1fr));gap:22px 30px}
 .quad{grid-template-columns:repeat(auto-fill,minmax(min(100%,220px),1fr));gap:22px 26px}
 .tiny{grid-template-columns:repeat(auto-fill,minmax(min(100%,200px),1fr));gap:14px 18px}
-figure{margin:0;min-width:0}figure svg{display:block;width:100%;max-width:620px;height:auto;margin-top:4px}
+.wide{grid-template-columns:minmax(0,1fr)}
+.grid>*{min-width:0}figure{margin:0}figure svg{display:block;width:100%;max-width:620px;height:auto;margin-top:4px}
 figcaption{margin-top:2px}.fh{display:flex;flex-wrap:wrap;gap:0 14px;align-items:baseline;justify-content:space-between}
 .legend{display:flex;flex-wrap:wrap;gap:6px 20px;font-size:13px;color:var(--mute);margin:10px 0 0;padding:0;list-style:none}
 .legend li{display:flex;align-items:center;gap:7px}.legend svg{width:22px;height:14px;flex:none}
@@ -185,7 +186,8 @@ svg .sm,svg .wn{paint-order:stroke;stroke:var(--paper);stroke-width:2.5px;stroke
 .big{font-size:28px}dl.facts{grid-template-columns:1fr 1fr;gap:12px 18px}
 svg text{font-size:13px}svg .sm,svg .st,svg .wn{font-size:12px}}
 @media print{@page{margin:14mm}body{font-size:10.5pt}main{max-width:none;padding:0}
-.grid{grid-template-columns:1fr 1fr}.small{grid-template-columns:1fr 1fr 1fr}figure,tr,.head,dl{break-inside:avoid}
+.grid{grid-template-columns:repeat(2,minmax(0,1fr));gap:16px 20px}.small,.quad{grid-template-columns:repeat(3,minmax(0,1fr))}
+.tiny{grid-template-columns:repeat(4,minmax(0,1fr))}.wide{grid-template-columns:minmax(0,1fr)}figure,tr,.head,dl{break-inside:avoid}
 h2,h3{break-after:avoid}.trainee{break-inside:avoid}section.session{break-before:page;border:0}section.alone{break-before:auto}
 .scroll{overflow:visible;background:none}*{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";

@@ -218,7 +218,7 @@ plot::Plot overlay_plot(const analysis::Comparison& c, std::size_t index) {
 
 std::string joint_section(const analysis::Comparison& c, std::size_t index) {
     const analysis::JointComparison& joint = c.joints[index];
-    std::string out = fmt::format("<h2>{}</h2>\n<div class=\"grid\">\n", escape(joint.joint));
+    std::string out = fmt::format("<h2>{}</h2>\n<div class=\"grid wide\">\n", escape(joint.joint));
     const analysis::RepetitionBands bands = analysis::repetition_bands(joint.cycles);
     const std::string caption = fmt::format(
         "Line: virtual. Thin: {} measured cycle{}.{} Shaded: stages of the virtual curve.", c.measured.size(),
@@ -332,18 +332,22 @@ std::string method_text(const analysis::Comparison& c) {
             ? fmt::format("where the torque first passes {} % of the highest torque that both reach",
                           number(100.0 * c.options.share, 0))
             : std::string("by the breakaway peak");
+    const std::string near_zero =
+        c.options.mre_floor_share > c.options.floor_share
+            ? fmt::format(", those below {} % not for the MRE, because they are near zero",
+                          number(100.0 * c.options.mre_floor_share, 1))
+            : "";
     return fmt::format(
         "Only samples at which the nut turns beyond all earlier angles are used; measured curves are shifted "
         "to match the virtual one {}. Error: |virtual − measured| / |measured|; MRE is its maximum, MAPE its "
         "mean; stages are those of the virtual curve. RMSE is the root mean square of virtual − measured, in "
-        "N·m. Samples below {} % of their run’s highest measured torque count for the RMSE only, those below "
-        "{} "
-        "% not for the MRE, because they are near zero; angles that the virtual curve does not have are left "
-        "out. Brackets: 95 % interval over the repetitions, "
+        "N·m. Samples below {} % of their run’s highest measured torque count for the RMSE only{}; angles "
+        "that "
+        "the virtual curve does not have are left out. Brackets: 95 % interval over the repetitions, "
         "bootstrap of whole runs with the seed {}, from {} runs on. Virtual torque: at the wrench, true and "
         "unscaled, law “{}”.",
-        aligned, number(100.0 * c.options.floor_share, 1), number(100.0 * c.options.mre_floor_share, 1),
-        analysis::band_seed, analysis::min_repetitions, c.law);
+        aligned, number(100.0 * c.options.floor_share, 1), near_zero, analysis::band_seed,
+        analysis::min_repetitions, c.law);
 }
 
 std::string console_text(const analysis::Comparison& c) {

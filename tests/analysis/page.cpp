@@ -46,6 +46,11 @@ TEST_CASE("Comparison page: page and console name the source and give the errors
         CHECK(has(page, plot::number(stage.mre, 5)));
         CHECK(has(text, plot::number(stage.mape, 5)));
     }
+    // The table has six columns, so it is below its plot. On paper a column may be narrower than its content.
+    CHECK(has(page, "<div class=\"grid wide\">"));
+    const std::string print = page.substr(page.find("@media print"));
+    CHECK(has(print, ".grid{grid-template-columns:repeat(2,minmax(0,1fr))"));
+    CHECK(has(print, ".wide{grid-template-columns:minmax(0,1fr)}"));
     CHECK_FALSE(has(page, "<script"));
     CHECK(has(page, "<dd>out/<wbr/>Rig &amp; Co</dd>"));
 }
