@@ -92,6 +92,22 @@ std::vector<std::string> missing_texts(const Questionnaire& questionnaire, const
     return missing;
 }
 
+std::optional<ScoreRange> score_range(const Questionnaire& questionnaire, const QuestionnaireScale& scale) {
+    if (scale.items.empty() || !scale.scales.empty()) return std::nullopt;
+    ScoreRange range;
+    for (const ScaleItem& item : scale.items) {
+        const AnswerScale& answers = answer_scale_of(questionnaire, questionnaire.items[item.item]);
+        if (range.step > 0.0 && std::abs(answers.step - range.step) > step_tolerance) return std::nullopt;
+        range.step = answers.step;
+        range.low += scale.from_zero ? 0.0 : answers.low;
+        range.high += scale.from_zero ? answers.high - answers.low : answers.high;
+    }
+    const double parts =
+        scale.combination == Combination::mean ? static_cast<double>(scale.items.size()) : 1.0;
+    for (double* value : {&range.low, &range.high, &range.step}) *value *= scale.weight / parts;
+    return range;
+}
+
 Result<std::vector<ScaleScore>> score(const Questionnaire& questionnaire, const Answers& answers) {
     BOLT_TRY(check_answers(questionnaire, answers));
     std::vector<std::optional<double>> raw_values;

@@ -108,6 +108,13 @@ std::size_t answer_count(const AnswerScale& scale);
 // The ids of the items that have no text in the language, in the order of the items.
 std::vector<std::string> missing_texts(const Questionnaire& questionnaire, const std::string& language);
 
+// The scores that a scale of items can have: low, low + step, ..., high.
+struct ScoreRange {
+    double low = 0.0, high = 0.0, step = 0.0;
+};
+// None for a scale of scales, and for items with different steps.
+std::optional<ScoreRange> score_range(const Questionnaire& questionnaire, const QuestionnaireScale& scale);
+
 // By id of the item. An absent item and one without a value are unanswered.
 using Answers = std::map<std::string, std::optional<double>>;
 

@@ -5,8 +5,7 @@
 #include <set>
 
 #include "content/format/embedded.hpp"
-#include "content/format/reader.hpp"
-#include "content/studies/study.hpp"
+#include "content/studies/study_reader.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/hash.hpp"
 
@@ -17,15 +16,6 @@ namespace {
 constexpr std::size_t max_study_size = 1U << 20U;  // bytes
 constexpr std::string_view form_time_names[form_times] = {"before",          "after_training", "after_lesson",
                                                           "after_condition", "after",          "retention"};
-
-// A study while it is read.
-struct StudyReader {
-    JsonReader json;
-    const std::vector<Questionnaire>* questionnaires;  // null: unknown
-    Study study;
-    std::vector<std::string> condition_ids;
-    bool conditions_valid = false;  // false: an unknown condition may be the consequence of a mistake
-};
 
 std::string id_of(JsonReader& json, const JsonNode& object) {
     const JsonNode node = json.member(object, "id");
@@ -38,16 +28,6 @@ std::string id_of(JsonReader& json, const JsonNode& object) {
         json.report(node.pointer, fmt::format("the id {} has characters that are not allowed", in_quotes(id)),
                     "letters a to z and A to Z, digits, - and _");
     return id;
-}
-
-// A whole number, which the schema has checked.
-std::size_t whole(JsonReader& json, const JsonNode& object, const char* key, std::size_t fallback) {
-    const std::optional<double> number = json.number(json.member(object, key));
-    return number ? static_cast<std::size_t>(*number) : fallback;
-}
-
-bool boolean(JsonReader& json, const JsonNode& object, const char* key, bool fallback) {
-    return json.boolean(json.member(object, key)).value_or(fallback);
 }
 
 // The settings of `own`, and those of `base` for members that it does not have.
@@ -155,144 +135,6 @@ void read_forms(StudyReader& reader) {
             form.at[static_cast<std::size_t>(time)] = true;
         }
         reader.study.forms.push_back(std::move(form));
-    }
-}
-
-// Reports a measure that no lesson and no form of the study gives.
-std::string read_measure(StudyReader& reader, const JsonNode& object, std::optional<FormTime> required) {
-    const JsonNode node = reader.json.member(object, "measure");
-    std::string measure = reader.json.text(node).value_or("");
-    if (!node) return measure;
-    std::vector<std::string> known(std::begin(objective_measures), std::end(objective_measures));
-    const std::size_t dot = measure.find('.');
-    for (const StudyForm& form : reader.study.forms) {
-        const bool has_time =
-            required
-                ? form.is_at(*required)
-                : form.is_at(FormTime::after_lesson) || form.is_at(FormTime::after_condition) ||
-                      (reader.study.design.subjects == StudySubjects::between && form.is_at(FormTime::after));
-        if (dot != std::string::npos && measure.substr(0, dot) == form.id && !has_time)
-            reader.json.report(node.pointer,
-                               fmt::format("form {} is not presented {}", in_quotes(form.id),
-                                           required ? "after the retention test" : "in the conditions"),
-                               required ? R"("retention" among its times)"
-                                        : R"("after_lesson" or "after_condition" among its times)");
-        if (reader.questionnaires == nullptr) {
-            if (dot != std::string::npos && measure.substr(0, dot) == form.id) return measure;
-            continue;
-        }
-        for (const Questionnaire& questionnaire : *reader.questionnaires)
-            if (questionnaire.id == form.id)
-                for (const QuestionnaireScale& scale : questionnaire.scales)
-                    known.push_back(form.id + "." + scale.id);
-    }
-    if (std::find(known.begin(), known.end(), measure) == known.end())
-        reader.json.report(node.pointer, fmt::format("there is no measure {}", in_quotes(measure)),
-                           suggest(measure, known));
-    return measure;
-}
-
-std::vector<ComparedGroup> groups_of_factor(StudyReader& reader, const JsonNode& node) {
-    const std::string factor = reader.json.text(node).value_or("");
-    std::vector<ComparedGroup> groups;
-    const std::vector<StudyCondition>& conditions = reader.study.conditions;
-    for (std::size_t i = 0; i < conditions.size(); ++i) {
-        const auto level = conditions[i].levels.find(factor);
-        if (level == conditions[i].levels.end()) continue;
-        const auto same = std::find_if(groups.begin(), groups.end(),
-                                       [&](const ComparedGroup& g) { return g.name == level->second; });
-        if (same == groups.end())
-            groups.push_back({level->second, {i}});
-        else
-            same->conditions.push_back(i);
-    }
-    std::vector<std::string> known;
-    if (!conditions.empty())
-        for (const auto& [name, level] : conditions.front().levels) known.push_back(name);
-    if (groups.empty() && reader.conditions_valid)
-        reader.json.report(node.pointer, fmt::format("there is no factor {}", in_quotes(factor)),
-                           known.empty() ? "\"levels\" in the conditions" : suggest(factor, known));
-    else if (groups.size() == 1)
-        reader.json.report(node.pointer,
-                           fmt::format("all conditions have the same level of {}", in_quotes(factor)),
-                           "a factor with two or more levels");
-    return groups;
-}
-
-std::vector<ComparedGroup> groups_of_conditions(StudyReader& reader, const JsonNode& list) {
-    std::vector<ComparedGroup> groups;
-    if (!list) {
-        for (std::size_t i = 0; i < reader.condition_ids.size(); ++i)
-            groups.push_back({reader.condition_ids[i], {i}});
-        return groups;
-    }
-    for (const JsonNode& node : reader.json.items(list)) {
-        const std::string id = reader.json.text(node).value_or("");
-        const auto found = std::find(reader.condition_ids.begin(), reader.condition_ids.end(), id);
-        if (found == reader.condition_ids.end()) {
-            if (reader.conditions_valid)
-                reader.json.report(node.pointer, fmt::format("there is no condition {}", in_quotes(id)),
-                                   suggest(id, reader.condition_ids));
-            continue;
-        }
-        if (std::any_of(groups.begin(), groups.end(), [&](const auto& g) { return g.name == id; }))
-            reader.json.report(node.pointer, fmt::format("{} is listed twice", in_quotes(id)),
-                               "each condition once");
-        groups.push_back({id, {static_cast<std::size_t>(found - reader.condition_ids.begin())}});
-    }
-    return groups;
-}
-
-void read_comparisons(StudyReader& reader) {
-    JsonReader& json = reader.json;
-    for (const JsonNode& node : json.items(json.member(json.root(), "comparisons"))) {
-        PlannedComparison comparison;
-        comparison.retention = boolean(json, node, "retention", false);
-        if (comparison.retention && !reader.study.retention)
-            json.report(node.pointer + "/retention", "the study has no retention test",
-                        "no such member, or \"retention\" in the study");
-        comparison.measure = read_measure(
-            reader, node, comparison.retention ? std::optional(FormTime::retention) : std::nullopt);
-        const JsonNode factor = json.member(node, "factor"), conditions = json.member(node, "conditions");
-        if (factor && conditions)
-            json.report(node.pointer, "both \"factor\" and \"conditions\" are given", "one of them");
-        comparison.factor = json.text(factor).value_or("");
-        comparison.groups =
-            factor ? groups_of_factor(reader, factor) : groups_of_conditions(reader, conditions);
-        const bool between = reader.study.design.subjects == StudySubjects::between;
-        if (between && comparison.groups.size() > 2)
-            json.report(node.pointer,
-                        fmt::format("{} groups of different people are compared", comparison.groups.size()),
-                        "two of them in each comparison, in \"conditions\"");
-        if (comparison.retention && !between)
-            json.report(node.pointer + "/retention",
-                        "the retention test cannot compare conditions: each participant had all of them",
-                        R"("subjects": "between")");
-        if (comparison.groups.size() < 2 && reader.conditions_valid && !factor && !conditions)
-            json.report(node.pointer, "one condition cannot be compared", "two or more conditions");
-        reader.study.comparisons.push_back(std::move(comparison));
-    }
-}
-
-void read_published(StudyReader& reader) {
-    JsonReader& json = reader.json;
-    for (const JsonNode& node : json.items(json.member(json.root(), "published"))) {
-        PublishedValue value;
-        value.measure = read_measure(reader, node, std::nullopt);
-        value.min = json.number(json.member(node, "min"));
-        value.max = json.number(json.member(node, "max"));
-        value.n = whole(json, node, "n", 1);
-        value.source = json.text(json.member(node, "source")).value_or("");
-        const JsonNode mean = json.member(node, "mean");
-        const std::string text = json.text(mean).value_or("0");
-        char* end = nullptr;
-        value.mean = std::strtod(text.c_str(), &end);
-        const std::size_t dot = text.find('.');
-        value.decimals = dot == std::string::npos ? 0 : static_cast<int>(text.size() - dot - 1);
-        if (mean && (*end != '\0' || text.find_first_not_of("-0123456789.") != std::string::npos))
-            json.report(mean.pointer, fmt::format("{} is no number", in_quotes(text)),
-                        "a decimal number as printed, such as \"8.263\"");
-        reader.study.published.push_back(std::move(value));
     }
 }
 

@@ -96,13 +96,24 @@ inline constexpr std::string_view objective_measures[] = {
 struct ComparedGroup {
     std::string name;                     // id of the condition, or the level
     std::vector<std::size_t> conditions;  // indices into Study::conditions
+    bool operator==(const ComparedGroup&) const = default;
 };
+
+// The conditions that are in both groups.
+std::vector<std::size_t> conditions_in_both(const ComparedGroup& a, const ComparedGroup& b);
 
 struct PlannedComparison {
     std::string measure;
     std::string factor;  // empty: single conditions
     bool retention = false;
     std::vector<ComparedGroup> groups;
+    // Two times of the form, whose answers are compared; `groups` has their names and no conditions. Empty:
+    // the answers in conditions are compared.
+    std::vector<FormTime> times;
+    // Instead of the main effect of `factor`: its interaction with this factor. Both have two levels.
+    std::string interaction;
+    std::vector<ComparedGroup> interaction_groups;  // the levels of `interaction`
+    bool operator==(const PlannedComparison&) const = default;
 };
 
 struct PublishedValue {
@@ -146,6 +157,19 @@ LoadedStudy parse_study(std::string_view text, const std::string& file,
 // Reads study.json of a folder, and the forms that it names. `forms`: the folder that has ID.json of each
 // form; empty: `folder`/questionnaires.
 LoadedStudy load_study(const std::filesystem::path& folder, const std::filesystem::path& forms = {});
+
+// An error about a member of the plan in `folder`, with its line and column: at the first of these JSON
+// pointers that the plan has.
+Error plan_error(const std::filesystem::path& folder, const std::vector<std::string>& pointers,
+                 std::string what, std::string expected);
+
+// Contradictions of a valid plan that waste participants, each with line and column: members without effect,
+// factors that change together, comparisons that repeat each other (check_plan.cpp).
+std::vector<Error> plan_weaknesses(const Study& study, const std::filesystem::path& folder);
+
+// The JSON pointers at which a lesson's member may be, the lesson's own first. `lesson`: "/training" or
+// "/conditions/2".
+std::vector<std::string> lesson_pointers(const std::string& lesson, const std::string& member);
 
 inline constexpr const char* study_file_name = "study.json";
 inline constexpr const char* forms_folder_name = "questionnaires";

@@ -219,6 +219,25 @@ TEST_CASE("Questionnaires: a scale with an unanswered item has no score, and oth
         for (const ScaleScore& scale : scored(shipped(id), {})) CHECK_FALSE(scale.score);
 }
 
+TEST_CASE("Questionnaires: the range of a scale's scores is that of its items") {
+    const auto range = [](const char* form, const char* id) -> std::optional<ScoreRange> {
+        const Questionnaire questionnaire = shipped(form);
+        for (const QuestionnaireScale& scale : questionnaire.scales)
+            if (scale.id == id) return score_range(questionnaire, scale);
+        return std::nullopt;
+    };
+    const auto usability = range("sus", shipped("sus").scales.front().id.c_str());
+    REQUIRE(usability);
+    CHECK(usability->low == 0.0);
+    CHECK(usability->high == 100.0);
+    CHECK(usability->step == 2.5);
+    const auto workload = range("tlx", "workload");
+    REQUIRE(workload);
+    CHECK(workload->high == 100.0);
+    CHECK(workload->step == doctest::Approx(5.0 / 6.0));
+    CHECK(range("paper", "stability")->high == 10.0);
+}
+
 TEST_CASE("Questionnaires: an answer off the answer scale is an error that names the item") {
     const Questionnaire tlx = shipped("tlx");
     for (const double value : {-5.0, 105.0, 52.0, 0.001, std::nan(""), HUGE_VAL, -HUGE_VAL}) {

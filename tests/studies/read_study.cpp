@@ -146,9 +146,89 @@ TEST_CASE("Studies: every contradiction has its line and column") {
                   R"({ "measure": "paper.stability", "retention": true })",
                   "true },\n    { \"measure\": \"bumps\"", "the retention test cannot compare conditions");
     check_mistake(R"("mean": "6.684")", R"("mean": "6,684")", R"("6,684")", "no number");
+    check_mistake(R"("min": 6, "max": 9)", R"("min": 9, "max": 6)", "6, \"mean\"",
+                  "the maximum 6 is less than the minimum 9");
+    check_mistake(R"("mean": "6.684")", R"("mean": "9.684")", R"("9.684")",
+                  "the mean 9.684 is not between minimum and maximum");
+    check_mistake(R"("min": 6, "max": 9, "mean": "6.684")", R"("mean": "18.263")", R"("18.263")",
+                  "18.263 is not on the scale; expected 0 to 10, the scale of the form");
+    check_mistake(R"("max": 9)", R"("max": 11)", "11, \"mean\"", "11 is not on the scale; expected 0 to 10");
     check_mistake(R"("id": "help")", R"("id": "he lp")", R"("he lp")", "characters that are not allowed");
     check_mistake(R"("participants": 12)", R"("participants": 0)", "0, \"lessons\"", "expected");
     check_mistake(R"("minutes": 10)", R"("minuets": 10)", R"("minuets")", "did you mean \"minutes\"?");
+}
+
+TEST_CASE("Studies: an interaction and a comparison of two times are read, and their mistakes have a place") {
+    const std::vector<Questionnaire> known = forms();
+    const auto with = [](const std::string& comparison) {
+        std::string text = replaced(everything, R"("levels": { "force": "on", "view": "off" } }
+  ])",
+                                    R"("levels": { "force": "on", "view": "on" } },
+    { "id": "d", "title": { "en": "D" }, "lesson": { "guide": false, "view_help": false }, "levels": { "force": "off", "view": "on" } }
+  ])");
+        return replaced(text, R"({ "measure": "paper.stability" })", comparison);
+    };
+    const LoadedStudy loaded =
+        parse_study(with(R"({ "measure": "bumps", "factor": "force", "interaction": "view" },
+             { "measure": "tlx.workload", "times": ["before", "after_training"] })"),
+                    "study.json", &known);
+    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+    const PlannedComparison& interaction = loaded.study.comparisons[0];
+    CHECK(interaction.interaction == "view");
+    REQUIRE(interaction.interaction_groups.size() == 2);
+    CHECK(conditions_in_both(interaction.groups[0], interaction.interaction_groups[1]) ==
+          std::vector<std::size_t>{2});
+    CHECK(loaded.study.comparisons[1].times == std::vector{FormTime::before, FormTime::after_training});
+    const auto mistake = [&](const std::string& comparison) {
+        const std::vector<std::string> found = mistakes(with(comparison));
+        REQUIRE_MESSAGE(found.size() == 1, comparison);
+        CHECK(found[0].starts_with("study.json:"));
+        return found[0];
+    };
+    const auto has = [](const std::string& text, const char* part) {
+        return text.find(part) != std::string::npos;
+    };
+    CHECK(has(mistake(R"({ "measure": "bumps", "interaction": "view" })"),
+              "only one factor; expected \"factor\""));
+    CHECK(has(mistake(R"({ "measure": "bumps", "factor": "force", "interaction": "force" })"),
+              "no interaction with itself"));
+    CHECK(has(mistake(R"({ "measure": "bumps", "factor": "force", "interaction": "veiw" })"),
+              "did you mean \"view\""));
+    CHECK(has(mistake(R"({ "measure": "paper.stability", "times": ["before", "after"] })"),
+              "form \"paper\" is not presented at the time \"before\""));
+    CHECK(has(mistake(R"({ "measure": "tlx.workload", "times": ["before", "before"] })"), "listed twice"));
+    CHECK(has(
+        mistake(R"({ "measure": "tlx.workload", "times": ["before", "after_training"], "factor": "force" })"),
+        "both \"times\" and \"factor\" are given"));
+    CHECK(has(mistake(R"({ "measure": "bumps", "times": ["before", "after"] })"),
+              "there is no measure \"bumps\" of a form"));
+}
+
+TEST_CASE("Studies: contradictions of a valid plan have their line and column") {
+    const test::Folder folder;
+    const auto weaknesses = [&](const std::string& text) {
+        REQUIRE(write_file(folder / study_file_name, text));
+        const LoadedStudy loaded = parse_study(text, "study.json");
+        std::vector<std::string> messages;
+        for (const Error& error : plan_weaknesses(loaded.study, folder.path())) {
+            CHECK(error.line > 0);
+            CHECK_FALSE(error.expected.empty());
+            messages.push_back(error.what);
+        }
+        return messages;
+    };
+    // The lessons of `everything` have a free hand and a device.
+    CHECK(weaknesses(everything) ==
+          std::vector<std::string>{"the devices move the hand, so \"hand\" has no effect"});
+    const std::string plain = replaced(everything, R"("hand": "free", )", "");
+    CHECK(weaknesses(plain).empty());
+    const std::string repeated = replaced(plain, R"({ "measure": "bumps", "conditions": ["c", "a"] })",
+                                          R"({ "measure": "paper.stability" })");
+    CHECK(weaknesses(repeated).at(0).starts_with("comparison 2 repeats comparison 1"));
+    std::string together = plain;
+    for (const char* from : {R"("force": "on", "view": "off")", R"("force": "on", "view": "off")"})
+        together = replaced(together, from, R"("force": "on", "view": "far")");
+    CHECK(weaknesses(together).at(0).starts_with("the factors \"force\" and \"view\" change together"));
 }
 
 TEST_CASE("Studies: times of forms that the plan does not have are mistakes") {
