@@ -223,7 +223,6 @@ bool is_empty_file(int handle) {
 }  // namespace
 
 Result<FileLock> FileLock::acquire(const std::filesystem::path& path, const std::string& file) {
-    constexpr const char* taken = "another program is recording into this file";
     const std::filesystem::path place = path.string() + ".lock";
     for (int attempt = 0; attempt < max_attempts; ++attempt) {
         FileLock lock(::open(place.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
@@ -238,7 +237,7 @@ Result<FileLock> FileLock::acquire(const std::filesystem::path& path, const std:
         }
         if (::flock(lock.handle_, LOCK_EX | LOCK_NB) != 0) {
             if (errno == EWOULDBLOCK)
-                return file_error(file, taken, "another file, or the end of that recording");
+                return file_error(file, lock_is_taken, "another file, or the end of that recording");
             if (errno == EINTR) continue;
             return file_error(file, "cannot be locked: " + reason_of(errno), "a file system with locks");
         }
@@ -250,7 +249,7 @@ Result<FileLock> FileLock::acquire(const std::filesystem::path& path, const std:
         lock.held_ = place;
         return lock;
     }
-    return file_error(file, taken, "another file, or the end of that recording");
+    return file_error(file, lock_is_taken, "another file, or the end of that recording");
 }
 
 FileLock::FileLock(FileLock&& other) noexcept

@@ -87,6 +87,9 @@ class Database {
     std::string name_;
 };
 
+// The text of FileLock::acquire()'s error if another program has the lock.
+inline constexpr const char* lock_is_taken = "another program is recording into this file";
+
 // Lets one program of this machine at a time record into a file. The lock is held from acquire() until
 // destruction or the end of the process. It locks an empty file beside `path`, named with an additional
 // ".lock". That file is removed with the lock; one that a killed process leaves is harmless.

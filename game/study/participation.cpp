@@ -66,8 +66,12 @@ Result<Participation> Participation::enrol(const content::Study& study, const fs
 Result<Participation> Participation::resume(const content::Study& study, const fs::path& folder,
                                             const std::string& participant, bool accept_change, Clock clock) {
     BOLT_TRY_ASSIGN(const auto own, find_participant(folder, participant));
-    BOLT_TRY_ASSIGN(auto journal, Journal::open(own / journal_file_name));
-    BOLT_TRY_ASSIGN(auto participation, start(study, std::move(journal), own, std::move(clock)));
+    auto journal = Journal::open(own / journal_file_name);
+    if (!journal && journal.error().what == session::lock_is_taken)
+        return fail(participant_error(own, participant + " is led by another program",
+                                      "the end of that program, or another participant"));
+    if (!journal) return fail(journal.error());
+    BOLT_TRY_ASSIGN(auto participation, start(study, std::move(*journal), own, std::move(clock)));
     if (participation.progress_.checksum == study.checksum) return participation;
     if (!accept_change)
         return fail(participant_error(
@@ -104,6 +108,10 @@ Status Participation::choose_language(const std::string& language) {
 
 Status Participation::agree(std::size_t statement) {
     return append({{JournalKind::agreed, 0, due()->id, std::to_string(statement), {}, std::nullopt}});
+}
+
+Status Participation::take_back(std::size_t statement) {
+    return append({{JournalKind::agreed, 0, due()->id, std::to_string(statement), {}, 0.0}});
 }
 
 bool Participation::agreed(std::size_t statement) const {
@@ -203,6 +211,16 @@ Status Participation::end_lesson(const std::map<std::string, double>& measures) 
     if (step.kind != StepKind::training || trained >= study_->training->duration)
         entries.push_back({JournalKind::step_done, 0, step.id, {}, {}, std::nullopt});
     return append(std::move(entries));
+}
+
+double Participation::clock_behind() const {
+    return std::max(0.0, static_cast<double>(progress_.latest - clock_()));
+}
+
+Status Participation::accept_clock() {
+    const double behind = clock_behind();
+    if (behind == 0.0) return {};
+    return append({{JournalKind::clock_set_back, 0, {}, {}, {}, behind}});
 }
 
 // s since 1970-01-01 UTC, which never runs backwards while the program runs.

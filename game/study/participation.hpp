@@ -46,6 +46,8 @@ class Participation {
     // Each of these is on the disk when it returns without an error; after an error nothing has changed.
     Status choose_language(const std::string& language);
     Status agree(std::size_t statement);
+    // Undoes the agreement, until the step is completed.
+    Status take_back(std::size_t statement);
     [[nodiscard]] bool agreed(std::size_t statement) const;
     // `item` of the due form. None: the participant does not want to answer it.
     Status answer(const std::string& item, std::optional<double> value);
@@ -67,12 +69,20 @@ class Participation {
     // shows it.
     Status end_lesson(const std::map<std::string, double>& measures);
 
+    // s by which the clock is behind the last entry; 0: it is not. A clock that was set back since the last
+    // visit would shift the day of the retention test.
+    [[nodiscard]] double clock_behind() const;
+    // Records that the earlier entries were made with a wrong clock: their steps count as done now.
+    Status accept_clock();
+
     // s until the due step can be completed: of a break, or of the days until the retention test; 0: now.
     [[nodiscard]] double remaining_wait() const;
 
     // Deletes the participant's data. The number and the date of the withdrawal stay. The object must
     // not be used afterwards.
     Status withdraw();
+
+    [[nodiscard]] std::size_t due_index() const { return due_step(steps_, progress_); }
 
     // The conditions in the participant's order.
     [[nodiscard]] const std::vector<std::size_t>& conditions() const { return conditions_; }

@@ -71,6 +71,7 @@ Progress progress_of(std::span<const JournalEntry> entries, bool simulated) {
     progress.simulated = simulated;
     if (!entries.empty()) progress.begun = entries.front().time;
     std::set<std::string> open_lessons;
+    bool training_begun = false;  // a lesson of the training, whose measures follow
     for (const JournalEntry& entry : entries) {
         progress.latest = entry.time;
         switch (entry.kind) {
@@ -93,7 +94,10 @@ Progress progress_of(std::span<const JournalEntry> entries, bool simulated) {
                 progress.answers[entry.step][entry.item] = entry.value;
                 break;
             case JournalKind::agreed:
-                progress.answers[entry.step][entry.item] = 1.0;
+                if (entry.value == 0.0)
+                    progress.answers[entry.step].erase(entry.item);
+                else
+                    progress.answers[entry.step][entry.item] = 1.0;
                 break;
             case JournalKind::commented:
                 progress.comment = entry.text;
@@ -101,10 +105,17 @@ Progress progress_of(std::span<const JournalEntry> entries, bool simulated) {
             case JournalKind::lesson_begun:
                 if (!open_lessons.insert(entry.step).second) progress.interrupted.push_back(entry.step);
                 progress.lesson_folders[entry.step] = entry.text;
+                training_begun = training_begun || entry.step == "training";
                 break;
             case JournalKind::measured:
                 open_lessons.erase(entry.step);
                 if (entry.value) progress.measures[entry.step][entry.item] = *entry.value;
+                if (entry.step == "training" && entry.value) {
+                    if (training_begun || progress.training_lessons.empty())
+                        progress.training_lessons.emplace_back();
+                    training_begun = false;
+                    progress.training_lessons.back()[entry.item] = *entry.value;
+                }
                 if (entry.step == "training" && entry.item == "duration_s")
                     progress.training += entry.value.value_or(0.0);
                 break;
@@ -113,6 +124,8 @@ Progress progress_of(std::span<const JournalEntry> entries, bool simulated) {
                 break;
             case JournalKind::clock_set_back:
                 progress.clock_set_back += entry.value.value_or(0.0);
+                // Nothing was done after this moment, so a waiting time that began later begins now.
+                for (auto& [step, time] : progress.done) time = std::min(time, entry.time);
                 break;
         }
     }

@@ -52,15 +52,17 @@ struct Progress {
     std::size_t plan_changes = 0;         // accepted since the participant began
     bool simulated = false;
     std::string language;
-    std::map<std::string, std::int64_t> done;                       // steps, with their time
+    std::map<std::string, std::int64_t>
+        done;  // steps, with their time; never later than a clock that was set back
     std::map<std::string, content::Answers> answers;                // by step
     std::map<std::string, std::map<std::string, double>> measures;  // of lessons, by step
     std::map<std::string, std::string> lesson_folders;              // by step; relative
     std::vector<std::string> interrupted;                           // steps whose lesson was begun again
     std::string comment;
-    double training = 0.0;               // s in finished lessons of the training
-    std::int64_t begun = 0, latest = 0;  // s since 1970-01-01 UTC
-    double clock_set_back = 0.0;         // s in total
+    double training = 0.0;                                        // s in finished lessons of the training
+    std::vector<std::map<std::string, double>> training_lessons;  // the measures of each of them
+    std::int64_t begun = 0, latest = 0;                           // s since 1970-01-01 UTC
+    double clock_set_back = 0.0;                                  // s in total
 };
 Progress progress_of(std::span<const JournalEntry> entries, bool simulated);
 

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
 #include <set>
 
 #include "content/format/folders.hpp"
+#include "content/format/json_document.hpp"
 #include "engine/base/hash.hpp"
 
 namespace bolt::study {
@@ -13,14 +16,59 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// All lessons of the study with a name for messages.
-std::vector<std::pair<std::string, const content::StudyLesson*>> lessons_of(const content::Study& study) {
-    std::vector<std::pair<std::string, const content::StudyLesson*>> lessons;
-    if (study.training) lessons.emplace_back("training", &study.training->lesson);
-    for (const content::StudyCondition& condition : study.conditions)
-        lessons.emplace_back("condition \"" + condition.id + "\"", &condition.lesson);
-    if (study.retention) lessons.emplace_back("retention test", &study.retention->lesson);
+struct NamedLesson {
+    std::string name;   // for messages
+    std::string place;  // JSON pointer of the object that has the lesson
+    const content::StudyLesson* lesson;
+};
+
+std::vector<NamedLesson> lessons_of(const content::Study& study) {
+    std::vector<NamedLesson> lessons;
+    if (study.training) lessons.push_back({"training", "/training", &study.training->lesson});
+    for (std::size_t i = 0; i < study.conditions.size(); ++i)
+        lessons.push_back({"condition \"" + study.conditions[i].id + "\"", fmt::format("/conditions/{}", i),
+                           &study.conditions[i].lesson});
+    if (study.retention) lessons.push_back({"retention test", "/retention", &study.retention->lesson});
     return lessons;
+}
+
+// The mistake of a lesson's assembly, variant or tool, at its place in the plan. A file that exists and has
+// mistakes keeps their places.
+std::optional<Error> assembly_error(const content::StudyLesson& lesson, const std::string& place,
+                                    const fs::path& folder) {
+    const auto at = [&](const char* member, const Error& error) {
+        return content::plan_error(folder, content::lesson_pointers(place, member), error.what,
+                                   error.expected);
+    };
+    const fs::path where = assembly_of(lesson, folder);
+    const content::LoadedAssembly plain = content::load_assembly(where);
+    if (!plain.ok()) {
+        const Error& error = plain.errors.front();
+        if (error.line > 0) return error;
+        Error missing = at("assembly", error);
+        missing.what = fmt::format("{} {}", content::in_quotes(lesson.assembly), error.what);
+        return missing;
+    }
+    const auto known = [&](const content::AssemblyVariant& v) { return v.name == lesson.variant; };
+    const std::vector<content::AssemblyVariant>& variants = plain.assembly.variants;
+    if (!lesson.variant.empty() && std::none_of(variants.begin(), variants.end(), known)) {
+        std::vector<std::string> names;
+        for (const content::AssemblyVariant& v : variants) names.push_back(v.name);
+        Error error;
+        error.what = fmt::format("{} has no variant {}", lesson.assembly, content::in_quotes(lesson.variant));
+        error.expected = names.empty() ? "no \"variant\"" : content::suggest(lesson.variant, names);
+        return at("variant", error);
+    }
+    content::LoadedAssembly loaded = content::load_assembly(where, lesson.variant);
+    if (!loaded.ok()) return loaded.errors.front();
+    if (!lesson.tool.empty())
+        if (const Status chosen = content::choose_tool(loaded.assembly, lesson.tool); !chosen) {
+            Error error = chosen.error();
+            error.what = fmt::format("{} has no tool {}", lesson.assembly, content::in_quotes(lesson.tool));
+            return at("tool", error);
+        }
+    const auto whole = load_lesson_assembly(lesson, folder);
+    return whole ? std::nullopt : std::optional(whole.error());
 }
 
 void check_texts(const content::Study& study, const fs::path& folder, StudyCheck& check) {
@@ -111,18 +159,36 @@ std::uint64_t lesson_seed(const content::Study& study, std::size_t place, std::s
     return hash.value() >> 32U;  // fits every place that stores a seed
 }
 
-StudyCheck check_study(const content::Study& study, const fs::path& folder) {
+std::vector<Error> check_lesson_devices(const content::Study& study, const fs::path& folder,
+                                        const DeviceCheck& devices) {
+    std::vector<Error> errors;
+    for (const NamedLesson& lesson : lessons_of(study)) {
+        if (!devices || lesson.lesson->devices.empty()) continue;
+        const Status usable = devices(lesson.lesson->devices);
+        if (usable) continue;
+        Error error = content::plan_error(folder, content::lesson_pointers(lesson.place, "devices"),
+                                          usable.error().what, usable.error().expected);
+        error.code = usable.error().code;
+        const auto same = [&](const Error& other) { return other.message() == error.message(); };
+        if (std::none_of(errors.begin(), errors.end(), same)) errors.push_back(std::move(error));
+    }
+    return errors;
+}
+
+StudyCheck check_study(const content::Study& study, const fs::path& folder, const DeviceCheck& devices) {
     StudyCheck check;
     std::set<std::string> reported;
-    for (const auto& [name, lesson] : lessons_of(study)) {
-        const Result<content::Assembly> assembly = load_lesson_assembly(*lesson, folder);
-        if (assembly) continue;
-        Error error = assembly.error();
-        if (!reported.insert(error.message()).second) continue;
-        error.what = fmt::format("{} (lesson of the {})", error.what, name);
-        check.errors.push_back(std::move(error));
+    for (const NamedLesson& lesson : lessons_of(study)) {
+        std::optional<Error> error = assembly_error(*lesson.lesson, lesson.place, folder);
+        if (!error || !reported.insert(error->message()).second) continue;
+        error->what = fmt::format("{} (lesson of the {})", error->what, lesson.name);
+        check.errors.push_back(std::move(*error));
     }
+    for (Error& error : check_lesson_devices(study, folder, devices))
+        check.errors.push_back(std::move(error));
     check_texts(study, folder, check);
+    for (const Error& weakness : content::plan_weaknesses(study, folder))
+        check.weaknesses.push_back(weakness.message());
     check_design(study, check);
     return check;
 }

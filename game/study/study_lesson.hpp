@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,10 +32,18 @@ std::uint64_t lesson_seed(const content::Study& study, std::size_t place, std::s
 
 // Problems of a study whose files are valid.
 struct StudyCheck {
-    std::vector<Error> errors;            // assemblies, variants and tools that do not exist
+    std::vector<Error> errors;            // assemblies, variants, tools and devices that do not exist
     std::vector<std::string> additions;   // texts that the laboratory has to add before the first person
     std::vector<std::string> weaknesses;  // the design can be run, but not as well as it could be
 };
-StudyCheck check_study(const content::Study& study, const std::filesystem::path& folder);
+// Fails if these devices cannot be used together on this computer.
+using DeviceCheck = std::function<Status(const std::vector<std::string>& ids)>;
+// `devices`: none: devices are not checked.
+StudyCheck check_study(const content::Study& study, const std::filesystem::path& folder,
+                       const DeviceCheck& devices = {});
+
+// The errors of the devices that lessons need, each with its place in the plan.
+std::vector<Error> check_lesson_devices(const content::Study& study, const std::filesystem::path& folder,
+                                        const DeviceCheck& devices);
 
 }  // namespace bolt::study

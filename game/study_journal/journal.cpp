@@ -136,7 +136,7 @@ Status Journal::append(std::span<const JournalEntry> entries) {
     std::vector<JournalEntry> added;
     std::int64_t latest = entries_.empty() ? std::numeric_limits<std::int64_t>::min() : entries_.back().time;
     for (const JournalEntry& entry : entries) {
-        if (entry.time < latest)
+        if (entry.time < latest && entry.kind != JournalKind::clock_set_back)
             added.push_back({JournalKind::clock_set_back,
                              entry.time,
                              {},

@@ -22,7 +22,7 @@ enum class JournalKind : std::uint8_t {
     language,  // text: ISO 639 code
 
     answered,        // step, item; value: none if the participant does not want to answer
-    agreed,          // step, item: number of the statement of the consent
+    agreed,          // step, item: number of the statement of the consent; value: 0 takes the agreement back
     commented,       // step, text
     lesson_begun,    // step; text: folder of the session, relative to the participant's
     measured,        // step; item: name of the measure; value: none if the lesson does not have it
@@ -41,6 +41,9 @@ struct JournalEntry {
     std::optional<double> value;
     bool operator==(const JournalEntry&) const = default;
 };
+
+// A clock may be that much behind the last entry, s: clocks are corrected by seconds or minutes.
+inline constexpr double tolerated_set_back = 3600.0;
 
 // Seconds since 1970-01-01 UTC as "2026-11-28T15:04:05Z".
 std::string time_text(std::int64_t time);
