@@ -57,6 +57,8 @@ void add_study_run(CLI::App& study, int& exit_code);
 // Loads the study of a folder. If its files have several mistakes, prints all but the last one and returns
 // that one.
 Result<content::Study> load_study_folder(const std::filesystem::path& folder);
+// Fails if these devices cannot be used together on this computer.
+Status usable_devices(const std::vector<std::string>& ids);
 
 // Adds the subcommand `test` to `displays`.
 void add_displays_test(CLI::App& displays, int& exit_code);

@@ -12,6 +12,7 @@
 #include "content/studies/study.hpp"
 #include "engine/base/file.hpp"
 #include "game/cli/commands.hpp"
+#include "game/station/station_setup.hpp"
 #include "game/study/study_lesson.hpp"
 #include "game/study_results/results.hpp"
 #include "game/study_results/simulate.hpp"
@@ -33,6 +34,7 @@ struct StudyArguments {
     std::string mean;
     std::size_t n = 0;
     double step = 1.0, low = 0.0;
+    std::optional<double> high;
 };
 
 std::vector<std::string> example_names() {
@@ -107,7 +109,7 @@ int run_check(const StudyArguments& options) {
     const content::LoadedStudy loaded = content::load_study(options.folder);
     if (!loaded.ok()) return print_error(loaded.errors);
     const content::Study& study = loaded.study;
-    const study::StudyCheck check = study::check_study(study, options.folder);
+    const study::StudyCheck check = study::check_study(study, options.folder, usable_devices);
     std::string out = fmt::format("{}: {} conditions, {} participants, {} forms, {} planned comparisons\n",
                                   study.id, study.conditions.size(), study.design.participants,
                                   study.forms.size(), study.comparisons.size());
@@ -154,9 +156,12 @@ int run_results(const StudyArguments& options) {
                                      std::pair(csv.parent_path() / "answers.csv", study::answers_csv(*data)),
                                      std::pair(json, study::results_json(*study, *data, results))})
         if (Status written = write_file(path, text); !written) return print_error(written.error());
-    const Status printed = print(fmt::format("{} participants, {} complete, {} withdrew\n{}\n{}\n{}\n",
-                                             data->participants.size(), data->completed(), data->withdrawn,
-                                             html.string(), csv.string(), json.string()));
+    std::string out = fmt::format("{} participants, {} complete, {} withdrew\n", data->participants.size(),
+                                  data->completed(), data->withdrawn);
+    for (const study::IncompleteForm& form : study::incomplete_forms(*study, data->participants))
+        out += study::incomplete_text(form) + "\n";
+    out += fmt::format("{}\n{}\n{}\n", html.string(), csv.string(), json.string());
+    const Status printed = print(out);
     return printed ? 0 : print_error(printed.error());
 }
 
@@ -233,12 +238,15 @@ int run_power(const StudyArguments& options) {
     std::string out = fmt::format("{} simulated studies of {} participants; share with p (Holm) < {}:\n",
                                   power.studies, power.participants, power.significance);
     for (const study::Power& one : study::simulate_power(*study, power)) {
-        std::string groups;
-        for (const content::ComparedGroup& group : one.planned->groups)
-            groups += (groups.empty() ? "" : ", ") + group.name;
-        out += fmt::format("  {:5.1f} %  {}: {}{}\n", 100.0 * one.rate, one.planned->measure,
-                           one.planned->factor.empty() ? "" : one.planned->factor + " ", groups);
+        out += fmt::format("  {:5.1f} %  {}\n", 100.0 * one.rate, study::comparison_text(*one.planned));
     }
+    const std::vector<const content::PlannedComparison*> left_out = study::without_power(*study);
+    if (!left_out.empty())
+        out +=
+            "not estimated, because nothing is known of their values before people come; they count for the "
+            "correction with p = 1:\n";
+    for (const content::PlannedComparison* planned : left_out)
+        out += fmt::format("           {}\n", study::comparison_text(*planned));
     const Status printed = print(out);
     return printed ? 0 : print_error(printed.error());
 }
@@ -262,15 +270,30 @@ int run_grim(const StudyArguments& options) {
         return print_error({ErrorCode::usage, "--mean: is no number", "the printed mean, such as 6.684"});
     const std::size_t dot = options.mean.find('.');
     const int decimals = dot == std::string::npos ? 0 : static_cast<int>(options.mean.size() - dot - 1);
-    const bool possible = statistics::is_possible_mean(mean, decimals, options.n, options.step, options.low);
-    const Status printed =
-        print(fmt::format("{}: {} answers in steps of {} {} have this mean\n", options.mean, options.n,
-                          options.step, possible ? "can" : "cannot"));
+    if (options.high && *options.high < options.low)
+        return print_error({ErrorCode::usage,
+                            fmt::format("--high {} is below --low {}", *options.high, options.low),
+                            "the highest answer"});
+    const double rounding = 0.5 * std::pow(10.0, -decimals) * (1.0 + 1e-9);
+    const bool on_scale =
+        mean >= options.low - rounding && (!options.high || mean <= *options.high + rounding);
+    const bool possible =
+        on_scale && statistics::is_possible_mean(mean, decimals, options.n, options.step, options.low);
+    const Status printed = print(fmt::format(
+        "{}: {} answers from {}{} in steps of {} {} have this mean{}\n", options.mean, options.n, options.low,
+        options.high ? fmt::format(" to {}", *options.high) : "", options.step, possible ? "can" : "cannot",
+        options.high || !possible ? "" : "; --high gives the highest answer"));
     if (!printed) return print_error(printed.error());
     return possible ? 0 : static_cast<int>(ErrorCode::failed);
 }
 
 }  // namespace
+
+Status usable_devices(const std::vector<std::string>& ids) {
+    static const std::vector<device::ListedDevice> connected = device::list_devices();
+    BOLT_TRY(station_setup::select_devices(connected, ids));
+    return {};
+}
 
 Result<content::Study> load_study_folder(const fs::path& folder) {
     content::LoadedStudy loaded = content::load_study(folder);
@@ -349,6 +372,7 @@ void add_study(CLI::App& app, int& exit_code) {
     grim->add_option("--mean", options->mean, "As printed, with all decimals")->required();
     grim->add_option("--n", options->n, "Number of answers")->required()->check(CLI::Range(1, 100000));
     grim->add_option("--low", options->low, "Lowest answer")->capture_default_str();
+    grim->add_option("--high", options->high, "Highest answer; default: none");
     grim->add_option("--step", options->step, "Difference of neighbouring answers")
         ->capture_default_str()
         ->check(CLI::Range(1e-6, 1e6));

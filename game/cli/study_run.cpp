@@ -22,9 +22,43 @@ namespace {
 
 struct StudyRunArguments {
     std::string folder, participant;
-    bool accept_change = false;
+    bool accept_change = false, accept_clock = false;
     TrainArguments window;
 };
+
+// Fails if a lesson that the participant has still to do needs devices that this computer does not have.
+Status check_remaining_devices(const study::Participation& participation) {
+    const content::Study& study = participation.study();
+    const std::vector<study::Step>& steps = participation.steps();
+    for (std::size_t i = participation.due_index(); i < steps.size(); ++i) {
+        if (steps[i].kind == study::StepKind::lesson)
+            BOLT_TRY(usable_devices(study.conditions[steps[i].condition].lesson.devices));
+        if (steps[i].kind == study::StepKind::retention)
+            BOLT_TRY(usable_devices(study.retention->lesson.devices));
+    }
+    return {};
+}
+
+// Continues. Entries from the future are a sign of a wrong clock, which would make the participant come again
+// on a wrong day.
+Result<study::Participation> resume_participation(const content::Study& study, const std::string& participant,
+                                                  const StudyRunArguments& options) {
+    BOLT_TRY_ASSIGN(auto participation,
+                    study::Participation::resume(study, options.folder, participant, options.accept_change));
+    if (participation.clock_behind() > study::tolerated_set_back) {
+        if (!options.accept_clock)
+            return fail(
+                ErrorCode::usage,
+                fmt::format("{}: the last entry is of {}, but the clock of this computer says {}",
+                            participant, study::time_text(participation.progress().latest),
+                            study::time_text(study::system_time())),
+                "the right date and time on this computer, or --accept-clock if they are right and the entry "
+                "has the wrong time");
+        BOLT_TRY(participation.accept_clock());
+    }
+    BOLT_TRY(check_remaining_devices(participation));
+    return participation;
+}
 
 // The participant that --participant names, or that the person of --trainee is already, or a new one.
 Result<study::Participation> find_participation(const content::Study& study,
@@ -32,8 +66,7 @@ Result<study::Participation> find_participation(const content::Study& study,
     BOLT_TRY_ASSIGN(const auto data, user_data_folder());
     if (!options.participant.empty()) {
         BOLT_TRY(study::remember_study(data, options.folder));  // it may have been moved since
-        return study::Participation::resume(study, options.folder, options.participant,
-                                            options.accept_change);
+        return resume_participation(study, options.participant, options);
     }
     if (options.window.trainee.empty())
         return fail(ErrorCode::usage, "nobody takes part",
@@ -44,8 +77,10 @@ Result<study::Participation> find_participation(const content::Study& study,
     BOLT_TRY(study::remember_study(data, options.folder));
     for (const study::ParticipantState& state : states)
         if (!state.withdrawn && state.progress.person == person.code)
-            return study::Participation::resume(study, options.folder, state.participant,
-                                                options.accept_change);
+            return resume_participation(study, state.participant, options);
+    if (const auto errors = study::check_lesson_devices(study, options.folder, usable_devices);
+        !errors.empty())
+        return fail(errors.front());
     return study::Participation::enrol(study, options.folder, person.code, false);
 }
 
@@ -111,6 +146,10 @@ void add_study_run(CLI::App& study, int& exit_code) {
     command->add_option("--participant", options->participant, "One who has begun, such as P03");
     command->add_flag("--accept-change", options->accept_change,
                       "Continue although the plan was changed; the journal records it");
+    command->add_flag(
+        "--accept-clock", options->accept_clock,
+        "Continue although earlier entries are ahead of this computer's clock, because their time was "
+        "wrong; the journal records it");
     add_study_options(*command, options->window);
     command->callback([options, &exit_code] {
         const Status done = run(*options);

@@ -32,6 +32,8 @@ ordered_json json_of(const Sample& sample) {
 ordered_json json_of(const ComparisonResult& result) {
     ordered_json json{{"measure", result.planned->measure}, {"retention", result.planned->retention}};
     if (!result.planned->factor.empty()) json["factor"] = result.planned->factor;
+    if (!result.planned->interaction.empty()) json["interaction"] = result.planned->interaction;
+    for (const content::FormTime time : result.planned->times) json["times"].push_back(content::name(time));
     for (const Sample& group : result.groups)
         json["groups"].push_back({{"name", group.name}, {"median", number(group.quartiles.median)}});
     json["n"] = result.n;
@@ -77,14 +79,16 @@ std::string results_csv(const content::Study& study, const StudyData& data) {
 }
 
 std::string answers_csv(const StudyData& data) {
-    std::string out = "participant,step,item,value,text\r\n";
+    std::string out = "participant,simulated,step,item,value,text\r\n";
     for (const ParticipantState& state : data.participants) {
+        const int simulated = state.progress.simulated ? 1 : 0;
         for (const auto& [step, answers] : state.progress.answers)
             for (const auto& [item, value] : answers)
-                out += fmt::format("{},{},{},{},\r\n", state.participant, step, item,
+                out += fmt::format("{},{},{},{},{},\r\n", state.participant, simulated, step, item,
                                    value ? fmt::format("{}", *value) : "");
         if (!state.progress.comment.empty())
-            out += fmt::format("{},comment,,,{}\r\n", state.participant, csv_field(state.progress.comment));
+            out += fmt::format("{},{},comment,,,{}\r\n", state.participant, simulated,
+                               csv_field(state.progress.comment));
     }
     return out;
 }
@@ -115,6 +119,13 @@ std::string results_json(const content::Study& study, const StudyData& data, con
                                                                 : ordered_json(nullptr)}};
         json["measures"].push_back(std::move(entry));
     }
+    json["incomplete_forms"] = ordered_json::array();
+    for (const IncompleteForm& form : incomplete_forms(study, data.participants))
+        json["incomplete_forms"].push_back({{"participant", form.participant},
+                                            {"step", form.step},
+                                            {"declined", form.declined},
+                                            {"unanswered", form.unanswered},
+                                            {"scales_without_value", form.scales}});
     json["comparisons"] = ordered_json::array();
     for (const ComparisonResult& result : results.comparisons) json["comparisons"].push_back(json_of(result));
     return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -34,7 +34,29 @@ StudyData simulated_forms(const content::Study& study, const PowerOptions& optio
     return collect(study, std::move(states));
 }
 
+bool has_power(const content::Study& study, const content::PlannedComparison& comparison) {
+    return !comparison.retention && comparison.times.empty() && study.form_of(comparison.measure) != nullptr;
+}
+
 }  // namespace
+
+std::vector<const content::PlannedComparison*> without_power(const content::Study& study) {
+    std::vector<const content::PlannedComparison*> left_out;
+    for (const content::PlannedComparison& comparison : study.comparisons)
+        if (!has_power(study, comparison)) left_out.push_back(&comparison);
+    return left_out;
+}
+
+std::string comparison_text(const content::PlannedComparison& planned) {
+    std::string groups;
+    for (const content::ComparedGroup& group : planned.groups)
+        groups += (groups.empty() ? "" : ", ") + group.name;
+    std::string text = planned.measure + ": ";
+    if (!planned.factor.empty()) text += planned.factor + " ";
+    text += groups;
+    if (!planned.interaction.empty()) text += ", interaction with " + planned.interaction;
+    return planned.retention ? text + ", retention test" : text;
+}
 
 double simulated_answer(const content::Questionnaire& form, std::size_t item, double latent) {
     const content::AnswerScale& scale = content::answer_scale_of(form, form.items[item]);
@@ -54,7 +76,7 @@ std::vector<Power> simulate_power(const content::Study& study, const PowerOption
     std::vector<std::size_t> of_forms;
     for (std::size_t i = 0; i < study.comparisons.size(); ++i) {
         const content::PlannedComparison& comparison = study.comparisons[i];
-        if (comparison.retention || study.form_of(comparison.measure) == nullptr) continue;
+        if (!has_power(study, comparison)) continue;
         powers.push_back({&comparison, 0.0});
         of_forms.push_back(i);
     }

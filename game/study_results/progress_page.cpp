@@ -27,13 +27,29 @@ std::string conditions_text(const content::Study& study, const ParticipantState&
     return text;
 }
 
+// The items that the participant chose not to answer.
+std::string declined_text(const content::Study& study, const ParticipantState& state) {
+    std::string text;
+    for (const IncompleteForm& form : incomplete_forms(study, {state}))
+        if (!form.declined.empty()) text += (text.empty() ? "; not answered: " : ", ") + form.step;
+    return text;
+}
+
 std::string waiting_text(const content::Study& study, const ParticipantState& state, std::int64_t now) {
     if (state.problem) return state.problem->message();
     if (state.withdrawn) return {};
+    const std::string declined = declined_text(study, state);
+    const double ahead = static_cast<double>(state.progress.latest - now);
+    if (ahead > tolerated_set_back && !state.progress.simulated)
+        return fmt::format(
+            "last entry {}, {:.1f} days ahead of this computer's clock; expected the right date and time, or "
+            "`study "
+            "run --participant {} --accept-clock`{}",
+            time_text(state.progress.latest), ahead / 86400.0, state.participant, declined);
     const auto due = retention_due(study, state.progress);
     if (due && state.due < state.steps.size() && state.steps[state.due].kind == StepKind::retention)
-        return (*due > now ? "retention test from " : "retention test since ") + local_date(*due);
-    return "last entry " + time_text(state.progress.latest);
+        return (*due > now ? "retention test from " : "retention test since ") + local_date(*due) + declined;
+    return "last entry " + time_text(state.progress.latest) + declined;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "engine/base/math.hpp"
+#include "game/study_results/sample.hpp"
 
 namespace bolt::study {
 
@@ -17,12 +18,15 @@ void add_scores(const content::Study& study, const ParticipantState& state, cons
     const content::Questionnaire& form = study.questionnaires[step.form];
     const auto scores = content::score(form, answers->second);
     if (!scores) return;  // the form was changed since; the journal keeps the answers
-    for (const content::ScaleScore& scale : *scores)
-        if (scale.score) {
-            common.measure = form.id + "." + scale.scale;
-            common.value = *scale.score;
-            data.observations.push_back(common);
+    for (const content::ScaleScore& scale : *scores) {
+        common.measure = form.id + "." + scale.scale;
+        if (!scale.score) {
+            data.without_score.emplace(common.measure, common.time);
+            continue;
         }
+        common.value = *scale.score;
+        data.observations.push_back(common);
+    }
 }
 
 void add_measures(const ParticipantState& state, const Step& step, Observation common, StudyData& data) {
@@ -35,6 +39,19 @@ void add_measures(const ParticipantState& state, const Step& step, Observation c
     }
 }
 
+// The lessons of the training. Those of a simulated participant are counted without being played.
+void add_training(const ParticipantState& state, Observation common, StudyData& data) {
+    if (state.progress.simulated) return;
+    common.time = ObservationTime::training;
+    for (std::size_t i = 0; i < state.progress.training_lessons.size(); ++i)
+        for (const auto& [measure, value] : state.progress.training_lessons[i]) {
+            common.lesson = i;
+            common.measure = measure;
+            common.value = value;
+            data.observations.push_back(common);
+        }
+}
+
 ObservationTime time_of(const Step& step) {
     if (step.kind == StepKind::retention || step.id.starts_with("retention/"))
         return ObservationTime::retention;
@@ -42,6 +59,17 @@ ObservationTime time_of(const Step& step) {
     if (step.id.starts_with("before/")) return ObservationTime::before;
     return step.id.starts_with("training/") ? ObservationTime::after_training : ObservationTime::after;
 }
+
+// The scores that one person can have in a scale of items; none if they are not evenly spaced.
+std::optional<content::ScoreRange> scores_of(const content::Study& study, const std::string& measure) {
+    const content::Questionnaire* form = study.form_of(measure);
+    if (form == nullptr) return std::nullopt;
+    for (const content::QuestionnaireScale& scale : form->scales)
+        if (form->id + "." + scale.id == measure) return content::score_range(*form, scale);
+    return std::nullopt;
+}
+
+}  // namespace
 
 Sample sample_of(std::string name, const std::vector<double>& values,
                  const statistics::BootstrapOptions* bootstrap) {
@@ -62,84 +90,10 @@ Sample sample_of(std::string name, const std::vector<double>& values,
     return sample;
 }
 
-// The scores that one person can have in a scale of one item: low, low + size, ...; size 0: unknown.
-struct AnswerStep {
-    double size = 0.0, low = 0.0;
-};
-AnswerStep answer_step(const content::Study& study, const std::string& measure) {
-    const content::Questionnaire* form = study.form_of(measure);
-    if (form == nullptr) return {};
-    for (const content::QuestionnaireScale& scale : form->scales)
-        if (form->id + "." + scale.id == measure && scale.items.size() == 1) {
-            const content::AnswerScale& answers =
-                content::answer_scale_of(*form, form->items[scale.items.front().item]);
-            return {answers.step * scale.weight, scale.from_zero ? 0.0 : answers.low * scale.weight};
-        }
-    return {};
+bool belongs_to_condition(const content::Study& study, const content::StudyForm& form) {
+    return study.design.subjects == content::StudySubjects::between && form.is_at(content::FormTime::after) &&
+           !form.is_at(content::FormTime::after_lesson) && !form.is_at(content::FormTime::after_condition);
 }
-
-MeasureInfo info_of(const std::vector<MeasureInfo>& infos, const std::string& measure) {
-    const auto found =
-        std::find_if(infos.begin(), infos.end(), [&](const MeasureInfo& m) { return m.id == measure; });
-    return found == infos.end() ? MeasureInfo{measure, measure} : *found;
-}
-
-// As participant_means(), but NaN unless the participant has every lesson, or the form after the part, of
-// every condition: otherwise a mean over a factor's level would compare different conditions.
-std::vector<double> complete_means(const content::Study& study, const StudyData& data,
-                                   const Selection& selection) {
-    std::vector<double> means = participant_means(data, selection);
-    for (const std::size_t condition : selection.conditions) {
-        std::vector<std::size_t> lessons(means.size(), 0), parts(means.size(), 0);
-        for (const Observation& o : data.observations)
-            if (o.measure == selection.measure && o.time == selection.time && o.condition == condition)
-                ++(o.lesson == no_index ? parts : lessons)[o.participant];
-        for (std::size_t i = 0; i < means.size(); ++i) {
-            const bool complete = lessons[i] == study.design.lessons || (lessons[i] == 0 && parts[i] > 0);
-            const bool once = selection.time == ObservationTime::retention && lessons[i] + parts[i] > 0;
-            const bool required = study.design.subjects == content::StudySubjects::within;
-            if (required && !complete && !once) means[i] = nan;
-        }
-    }
-    return means;
-}
-
-// Participants with a finite value in every group: one row for each.
-std::vector<std::vector<double>> complete_rows(const std::vector<std::vector<double>>& groups) {
-    std::vector<std::vector<double>> rows;
-    for (std::size_t i = 0; i < groups.front().size(); ++i) {
-        std::vector<double> row;
-        for (const std::vector<double>& group : groups) row.push_back(group[i]);
-        if (std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); }))
-            rows.push_back(std::move(row));
-    }
-    return rows;
-}
-
-void test_within(const std::vector<std::vector<double>>& groups, ComparisonResult& result) {
-    const std::vector<std::vector<double>> rows = complete_rows(groups);
-    result.n = rows.size();
-    if (groups.size() > 2) {
-        result.friedman = statistics::friedman_test(rows);
-        result.p = result.friedman->p;
-        return;
-    }
-    std::vector<double> differences;
-    for (const std::vector<double>& row : rows) differences.push_back(row[0] - row[1]);
-    result.signed_rank = statistics::signed_rank_test(differences);
-    result.shift = statistics::paired_shift(differences);
-    result.p = result.signed_rank->p_two_sided;
-}
-
-void test_between(ComparisonResult& result) {
-    const std::vector<double>&a = result.groups[0].values, &b = result.groups[1].values;
-    result.n = a.size() + b.size();
-    result.rank_sum = statistics::rank_sum_test(a, b);
-    result.shift = statistics::independent_shift(a, b);
-    result.p = result.rank_sum->p_two_sided;
-}
-
-}  // namespace
 
 bool StudyData::simulated() const {
     return std::any_of(participants.begin(), participants.end(),
@@ -165,11 +119,8 @@ StudyData collect(const content::Study& study, std::vector<ParticipantState> sta
             common.time = time_of(step);
             const bool between = study.design.subjects == content::StudySubjects::between;
             common.condition = between ? state.conditions.front() : step.condition;
-            // Between subjects a form at the end belongs to the participant's only condition, unless the
-            // form is presented in the condition too.
-            if (between && common.time == ObservationTime::after && step.form != no_index &&
-                !study.forms[step.form].is_at(content::FormTime::after_lesson) &&
-                !study.forms[step.form].is_at(content::FormTime::after_condition))
+            if (common.time == ObservationTime::after && step.form != no_index &&
+                belongs_to_condition(study, study.forms[step.form]))
                 common.time = ObservationTime::condition;
             common.part = step.part;
             common.lesson = step.lesson;
@@ -177,6 +128,8 @@ StudyData collect(const content::Study& study, std::vector<ParticipantState> sta
             if (step.kind == StepKind::lesson || step.kind == StepKind::retention)
                 add_measures(state, step, common, data);
         }
+        common.condition = common.part = no_index;
+        add_training(state, common, data);
         data.participants.push_back(std::move(state));
     }
     return data;
@@ -199,8 +152,8 @@ Result<StudyData> collect(const content::Study& study, const std::filesystem::pa
 }
 
 std::string_view name(ObservationTime time) {
-    constexpr std::string_view names[observation_times] = {"condition", "before", "after training", "after",
-                                                           "retention test"};
+    constexpr std::string_view names[observation_times] = {"condition", "before",         "after training",
+                                                           "after",     "retention test", "training"};
     return names[static_cast<std::size_t>(time)];
 }
 
@@ -222,39 +175,6 @@ std::vector<double> participant_means(const StudyData& data, const Selection& se
     return means;
 }
 
-std::vector<ComparisonResult> compare(const content::Study& study, const StudyData& data) {
-    const std::vector<MeasureInfo> infos = measure_infos(study);
-    std::vector<ComparisonResult> results;
-    std::vector<double> p;
-    for (const content::PlannedComparison& planned : study.comparisons) {
-        ComparisonResult result;
-        result.planned = &planned;
-        result.info = info_of(infos, planned.measure);
-        std::vector<std::vector<double>> groups;
-        for (const content::ComparedGroup& group : planned.groups) {
-            groups.push_back(complete_means(
-                study, data,
-                {planned.measure, planned.retention ? ObservationTime::retention : ObservationTime::condition,
-                 group.conditions}));
-            std::string name = group.name;
-            if (planned.factor.empty())
-                name = content::text_in(study.conditions[group.conditions.front()].titles);
-            else
-                name = planned.factor + " " + group.name;
-            result.groups.push_back(sample_of(std::move(name), groups.back(), nullptr));
-        }
-        if (study.design.subjects == content::StudySubjects::within)
-            test_within(groups, result);
-        else
-            test_between(result);
-        p.push_back(result.p);
-        results.push_back(std::move(result));
-    }
-    const std::vector<double> adjusted = statistics::holm(p);
-    for (std::size_t i = 0; i < results.size(); ++i) results[i].p_holm = adjusted[i];
-    return results;
-}
-
 Results analyse(const content::Study& study, const StudyData& data,
                 const statistics::BootstrapOptions& bootstrap) {
     Results results;
@@ -269,19 +189,20 @@ Results analyse(const content::Study& study, const StudyData& data,
                           participant_means(data, {info.id, ObservationTime::condition, {i}}), &bootstrap));
             any = any || !measure.conditions.back().values.empty();
         }
-        for (const ObservationTime time : {ObservationTime::before, ObservationTime::after_training,
-                                           ObservationTime::after, ObservationTime::retention}) {
+        for (const ObservationTime time :
+             {ObservationTime::before, ObservationTime::after_training, ObservationTime::after,
+              ObservationTime::retention, ObservationTime::training}) {
             Sample sample =
                 sample_of(std::string(name(time)), participant_means(data, {info.id, time}), &bootstrap);
-            if (!sample.values.empty()) measure.other_times.push_back(std::move(sample));
+            if (!sample.values.empty() || data.without_score.contains({info.id, time}))
+                measure.other_times.push_back(std::move(sample));
         }
         for (const content::PublishedValue& published : study.published)
             if (published.measure == info.id) {
                 measure.published = &published;
-                const AnswerStep step = answer_step(study, info.id);
-                if (step.size > 0.0)
+                if (const auto scores = scores_of(study, info.id))
                     measure.published_is_possible = statistics::is_possible_mean(
-                        published.mean, published.decimals, published.n, step.size, step.low);
+                        published.mean, published.decimals, published.n, scores->step, scores->low);
             }
         if (any || !measure.other_times.empty() || measure.published != nullptr)
             results.measures.push_back(std::move(measure));

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "content/studies/study.hpp"
@@ -18,8 +20,8 @@
 namespace bolt::study {
 
 // When a value was taken.
-enum class ObservationTime : std::uint8_t { condition, before, after_training, after, retention };
-inline constexpr std::size_t observation_times = static_cast<std::size_t>(ObservationTime::retention) + 1;
+enum class ObservationTime : std::uint8_t { condition, before, after_training, after, retention, training };
+inline constexpr std::size_t observation_times = static_cast<std::size_t>(ObservationTime::training) + 1;
 std::string_view name(ObservationTime time);
 
 // One value of one measure.
@@ -28,7 +30,7 @@ struct Observation {
     ObservationTime time = ObservationTime::condition;
     std::size_t condition = no_index;  // set for values in a condition; at other times only between subjects
     std::size_t part = no_index;       // in the order of the participant; none at other times
-    std::size_t lesson = no_index;     // of the part; none: a form after the whole part
+    std::size_t lesson = no_index;     // of the part or the training; none: a form after the whole part
     std::string measure;
     double value = 0.0;
 };
@@ -37,6 +39,8 @@ struct StudyData {
     std::vector<ParticipantState> participants;  // who have not withdrawn
     std::size_t withdrawn = 0;
     std::vector<Observation> observations;
+    // Scales of forms that somebody was given, but did not answer completely.
+    std::set<std::pair<std::string, ObservationTime>> without_score;
     [[nodiscard]] bool simulated() const;         // some participant is simulated
     [[nodiscard]] std::size_t completed() const;  // participants who did every step
 };
@@ -45,6 +49,19 @@ struct StudyData {
 Result<StudyData> collect(const content::Study& study, const std::filesystem::path& folder);
 // The observations of participants that are already listed.
 StudyData collect(const content::Study& study, std::vector<ParticipantState> states);
+
+// A form that a participant did not answer completely.
+struct IncompleteForm {
+    std::string participant, step;        // "P03", "part-1/tlx"
+    std::string form;                     // title
+    std::vector<std::string> declined;    // items that the participant chose not to answer
+    std::vector<std::string> unanswered;  // items that were not reached, because the study was left there
+    std::vector<std::string> scales;      // titles of those that have no value therefore
+};
+std::vector<IncompleteForm> incomplete_forms(const content::Study& study,
+                                             const std::vector<ParticipantState>& states);
+// "P03 part-1/tlx: item effort not answered, so there is no Workload"
+std::string incomplete_text(const IncompleteForm& form);
 
 // The values that participant_means() takes the mean of.
 struct Selection {
@@ -111,7 +128,7 @@ std::string progress_text(const content::Study& study, const std::vector<Partici
 // A row for each observation: participant, simulated, condition, part, lesson, time, measure,
 // value (RFC 4180).
 std::string results_csv(const content::Study& study, const StudyData& data);
-// A row for each answer to an item, and for each comment: participant, step, item, value, text.
+// A row for each answer to an item, and for each comment: participant, simulated, step, item, value, text.
 std::string answers_csv(const StudyData& data);
 // Everything that the page shows, as numbers.
 std::string results_json(const content::Study& study, const StudyData& data, const Results& results);
@@ -135,6 +152,13 @@ struct Power {
 // limited to it. The trait of the person and the error have a standard deviation of 1. Comparisons of
 // objective measures and of retention are left out.
 std::vector<Power> simulate_power(const content::Study& study, const PowerOptions& options);
+
+// The planned comparisons that simulate_power() leaves out: those of objective measures, of the retention
+// test and of two times.
+std::vector<const content::PlannedComparison*> without_power(const content::Study& study);
+
+// "paper.guidance: force off, on"
+std::string comparison_text(const content::PlannedComparison& planned);
 
 // The answer to an item for a latent value, as above. For an item that a scale of the form reverses, a larger
 // value gives a lower answer.

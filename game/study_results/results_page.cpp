@@ -7,7 +7,7 @@
 #include "game/plot/html.hpp"
 #include "game/plot/plot.hpp"
 #include "game/plot/strips.hpp"
-#include "game/study_results/results.hpp"
+#include "game/study_results/page_parts.hpp"
 
 namespace bolt::study {
 
@@ -32,30 +32,6 @@ std::string simulated_banner(const StudyData& data) {
         "their lessons are those of simulated trainees, and their answers are random numbers. This page "
         "shows how the design works; it says nothing about people.</p>\n",
         simulated, data.participants.size());
-}
-
-std::string design_text(const content::Study& study) {
-    const content::StudyDesign& design = study.design;
-    const std::size_t n = study.conditions.size();
-    if (n == 1) return "one condition";
-    if (design.subjects == content::StudySubjects::between)
-        return fmt::format("{} groups of different participants, assigned by permuted blocks of {} (seed {})",
-                           n, n, design.seed);
-    if (design.order == content::StudyOrder::williams)
-        return fmt::format("{} conditions within subjects, in the orders of a Williams square (seed {})", n,
-                           design.seed);
-    return fmt::format(
-        "{} conditions within subjects, in random orders that are balanced in every {} participants (seed "
-        "{})",
-        n, n, design.seed);
-}
-
-// The participants whose plan was changed after they began: "P01, P03".
-std::string changed_plans(const StudyData& data) {
-    std::string text;
-    for (const ParticipantState& state : data.participants)
-        if (state.progress.plan_changes > 0) text += (text.empty() ? "" : ", ") + state.participant;
-    return text;
 }
 
 std::string facts(const content::Study& study, const StudyData& data) {
@@ -265,6 +241,12 @@ std::string participants_table(const content::Study& study, const StudyData& dat
            rows + "</tbody></table>\n";
 }
 
+std::string comparison_kind(const content::PlannedComparison& planned) {
+    if (!planned.interaction.empty())
+        return ", interaction of " + plot::escape(planned.factor + " and " + planned.interaction);
+    return planned.retention ? ", retention test" : "";
+}
+
 std::string comparisons_table(const Results& results) {
     if (results.comparisons.empty()) return {};
     std::string out =
@@ -287,98 +269,38 @@ std::string comparisons_table(const Results& results) {
         put(out,
             "<tr><td class=\"w\">{}{}</td><td class=\"w\">{}</td><td class=\"n\">{}</td><td "
             "class=\"n\">{}</td><td class=\"w\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
-            plot::escape(result.info.title), result.planned->retention ? ", retention test" : "", groups,
-            result.n, difference, test_text(result), p_text(result.p), p_text(result.p_holm));
+            plot::escape(result.info.title), comparison_kind(*result.planned), groups, result.n, difference,
+            test_text(result), p_text(result.p), p_text(result.p_holm));
     }
     return out +
            "</tbody></table></div>\n<p class=\"note\">Difference: Hodges and Lehmann's estimate, first group "
            "minus second, with the interval of the exact distribution where there are enough participants. "
            "r: rank-biserial correlation, −1 to 1. p: two-sided; exact below 100 participants for Wilcoxon "
-           "and rank sum, χ² distribution for Friedman. Holm's correction is for all rows. With five "
+           "and rank sum, χ² distribution for Friedman. Interaction: the signed rank test of the differences "
+           "of the differences. Holm's correction is for all rows. With five "
            "participants or fewer no signed rank test can fall below 0.05.</p>\n";
 }
 
-// The values of a participant's lessons in their order, one line each; never a mean of people.
-std::string learning_curve(const StudyData& data, const MeasureInfo& info) {
-    plot::Plot plot;
-    plot.title = info.title + " over the lessons";
-    double low = 0.0, high = 1.0;
-    std::size_t lessons = 0, per_part = 0;
-    for (const Observation& o : data.observations)
-        if (o.lesson != no_index) per_part = std::max(per_part, o.lesson + 1);
-    const auto lesson_number = [&](const Observation& o) {
-        return static_cast<double>(o.part * per_part + o.lesson + 1);
-    };
-    for (std::size_t i = 0; i < data.participants.size(); ++i) {
-        plot::PlotLine line{{}, "ln p1"};
-        for (const Observation& o : data.observations)
-            if (o.participant == i && o.measure == info.id && o.time == ObservationTime::condition &&
-                o.lesson != no_index)
-                line.points.push_back({lesson_number(o), o.value * info.scale});
-        for (const plot::SvgPoint& point : line.points) {
-            low = std::min(low, point.y);
-            high = std::max(high, point.y);
-        }
-        if (!line.points.empty()) lessons = std::max(lessons, static_cast<std::size_t>(line.points.back().x));
-        plot.lines.push_back(std::move(line));
+// Forms with items that were not answered, which therefore give no value.
+std::string incomplete_table(const content::Study& study, const StudyData& data) {
+    std::string rows;
+    for (const IncompleteForm& form : incomplete_forms(study, data.participants)) {
+        std::string items;
+        if (!form.declined.empty()) items = fmt::format("{}", fmt::join(form.declined, ", "));
+        if (!form.unanswered.empty())
+            items += fmt::format("{}{} <span class=\"of\">not reached yet</span>", items.empty() ? "" : "; ",
+                                 fmt::join(form.unanswered, ", "));
+        put(rows,
+            "<tr><td>{}</td><td class=\"w\">{} <span class=\"of\">{}</span></td><td "
+            "class=\"w\">{}</td><td class=\"w\">{}</td></tr>\n",
+            form.participant, plot::escape(form.form), form.step, items,
+            form.scales.empty() ? "–" : plot::escape(fmt::format("{}", fmt::join(form.scales, ", "))));
     }
-    if (lessons < 2) return {};
-    plot.x = {plot::count_ticks(1, static_cast<int>(lessons), 10), "lesson of the participant"};
-    plot.y = {plot::covering_ticks(low, high, 5), info.unit};
-    return plot::figure("<h3>" + plot::escape(info.title) + "</h3>", plot::draw(plot), "");
-}
-
-std::string learning_curves(const StudyData& data) {
-    std::string figures;
-    for (const char* id : {"score", "duration_s", "torque_error", "bumps"})
-        for (const MeasureInfo& info : objective_measure_infos())
-            if (info.id == id) figures += learning_curve(data, info);
-    if (figures.empty()) return {};
-    return "<h2>Over the lessons</h2>\n<div class=\"grid\">\n" + figures +
-           "</div>\n<p class=\"note\">A line is a participant. Within subjects the condition changes along "
-           "the line, so practice and condition are seen together; the balanced order separates them only on "
-           "average.</p>\n";
-}
-
-std::string planning_text(const content::Study& study, const StudyData& data) {
-    const std::string changed = changed_plans(data);
-    if (changed.empty())
-        return fmt::format("The {} comparisons were planned before the first participant.",
-                           study.comparisons.size());
-    return fmt::format(
-        "The plan was changed after participants had begun ({}), so it is not certain that the {} "
-        "comparisons were planned before the data were seen.",
-        changed, study.comparisons.size());
-}
-
-std::string methods(const content::Study& study, const StudyData& data, const Results& results) {
-    std::string out = "<h2>Methods</h2>\n<p>";
-    put(out, "{} participants are analysed{}; {} did every step. {} others withdrew. ",
-        data.participants.size(), data.simulated() ? " (simulated)" : "", data.completed(), data.withdrawn);
-    put(out, "The design had {}. ", design_text(study));
-    if (study.training)
-        put(out, "Before the first condition each participant trained for {} in lessons. ",
-            plot::duration_text(study.training->duration));
-    put(out, "Each condition had {} lesson{}. ", study.design.lessons,
-        study.design.lessons == 1 ? "" : "s of the same task");
-    if (study.design.blind) out += "The experimenter did not see the conditions. ";
-    if (study.retention)
-        put(out, "A retention test without change of condition followed after {} days. ",
-            study.retention->after_days);
-    out += "Forms: ";
-    for (std::size_t i = 0; i < study.questionnaires.size(); ++i)
-        put(out, "{}{} ({})", i == 0 ? "" : "; ",
-            plot::escape(content::text_in(study.questionnaires[i].titles)),
-            plot::escape(study.questionnaires[i].source));
-    put(out,
-        ". Samples are described by median and quartiles (type 7) and by the mean with a percentile "
-        "bootstrap interval of 95 % ({} resamples, seed {}). {} Two related samples were compared by "
-        "Wilcoxon's signed rank test (exact below 100 values, zero differences dropped, midranks for ties), "
-        "more than two by Friedman's test, independent samples by the rank sum test (exact below 100 "
-        "values), all two-sided, with Holm's correction. Effect sizes are the rank-biserial correlation and "
-        "Kendall's W; differences are Hodges and Lehmann's estimates. Analysed with Boltwright.</p>\n",
-        results.bootstrap.resamples, results.bootstrap.seed, planning_text(study, data));
-    return out;
+    if (rows.empty()) return {};
+    return "<h2>Forms that were not answered completely</h2>\n<div "
+           "class=\"scroll\"><table><thead><tr><th>participant"
+           "</th><th>form</th><th>items without an answer</th><th>no value for</th></tr></thead><tbody>\n" +
+           rows + "</tbody></table></div>\n";
 }
 
 std::string comments(const StudyData& data) {
@@ -401,10 +323,10 @@ std::string results_page(const content::Study& study, const StudyData& data, con
     body += simulated_banner(data) + facts(study, data);
     if (data.participants.empty()) body += "<p class=\"banner\">Nobody has taken part yet.</p>\n";
     body += participants_table(study, data) + description_table(results, false) +
-            description_table(results, true) + definitions(results);
+            incomplete_table(study, data) + description_table(results, true) + definitions(results);
     if (!data.participants.empty()) {
         body += comparisons_table(results) + box_plots(results) + learning_curves(data);
-        body += methods(study, data, results) + comments(data);
+        body += methods_text(study, data, results) + comments(data);
     }
     return plot::page(content::text_in(study.titles) + ": results", body);
 }

@@ -31,7 +31,21 @@ change 's/"participants": 20/"participants": 18/; s/"cover-m8"/"first-nut"/' une
 "${study[@]}" simulate uneven --participants 1 --quiet > /dev/null
 expect 0 'consider: 18 participants do not balance the design; expected a multiple of 4' "${study[@]}" check uneven
 
+change 's/"lesson": { "guide": true }/"lesson": { "guide": true, "devices": ["novint-falcon"] }/' device
+expect 4 '^device/study.json:[0-9]+:[0-9]+: .*there is no device novint-falcon; expected one that `boltwright devices` lists' "${study[@]}" check device
+expect 4 'there is no device novint-falcon' "${study[@]}" run device --trainee Ada
+check 'nobody is enrolled without the device' test ! -e device/participants/P01
+change 's/"assembly": "cover-m8"/"assembly": "cover-m8", "tool": "hammer"/' tool
+expect 3 '^tool/study.json:[0-9]+:[0-9]+: .*cover-m8 has no tool "hammer"' "${study[@]}" check tool
+change 's/{ "measure": "bumps", "factor": "force" }/{ "measure": "paper.guidance", "factor": "force" }/' again
+expect 0 '^consider: again/study.json:[0-9]+:[0-9]+: .*comparison 3 repeats comparison 1' "${study[@]}" check again
+change 's/"measure": "bumps", "factor": "force"/"measure": "bumps", "factor": "force", "interaction": "view"/' interaction
+expect 0 'not estimated' "${study[@]}" power interaction --studies 5
+expect 0 'bumps: force off, on, interaction with view' "${study[@]}" power interaction --studies 5
+
 # grim and power.
+expect 1 '11.2: 10 answers from 0 to 10 in steps of 1 cannot have this mean' "${study[@]}" grim --mean 11.2 --n 10 --high 10
+expect 2 '--high 1 is below --low 2' "${study[@]}" grim --mean 1.5 --n 10 --low 2 --high 1
 expect 1 'cannot have this mean' "${study[@]}" grim --mean 6.684 --n 20
 expect 0 'can have this mean' "${study[@]}" grim --mean 6.684 --n 19
 expect 2 'expected the printed mean' "${study[@]}" grim --mean six --n 19
@@ -48,6 +62,8 @@ check 'a blind study names no condition' bash -c '! "$@" | grep -qw force' - "${
 check 'nor does its page' bash -c '! grep -qw force progress.html'
 expect 0 '^small/results.html' "${study[@]}" results small
 check 'the page says that they are simulated' grep -q 'Simulated participants' small/results.html
+check 'the answers say that they are simulated' grep -q '^P01,1,' small/answers.csv
+check 'the methods say that nobody was trained by playing' grep -q 'was counted without being played' small/results.html
 check 'the table has the four conditions' test "$(cut -d, -f3 small/results.csv | sort -u | grep -c .)" -eq 5
 check 'the numbers can be read' python3 -c 'import json; r = json.load(open("small/results.json")); assert r["simulated"] and len(r["comparisons"]) == 6'
 expect 2 'everything that P01 answered and did is deleted; expected --yes' "${study[@]}" withdraw small P01
@@ -68,7 +84,7 @@ expect 1 'there is no such participant' "${study[@]}" run guiding --participant 
 "${study[@]}" run guiding --trainee Ada --silent 2> log &
 player=$!
 check 'a window leads the new participant' eventually test -f guiding/progress.html
-expect 1 'another program is recording into this file' "${study[@]}" run guiding --participant P01
+expect 1 'P01 is led by another program; expected the end of that program' "${study[@]}" run guiding --participant P01
 expect 0 '^P01 +0 of .* language' "${study[@]}" status guiding
 kill -KILL $player
 wait $player 2> /dev/null
@@ -77,7 +93,16 @@ expect 0 '^P01 +0 of .* language' "${study[@]}" status guiding
 check 'the code is in the journal' grep -q T- guiding/participants/P01/journal.db
 check 'and not the name' bash -c '! grep -q Ada guiding/participants/P01/journal.db'
 rm guiding/progress.html
-"${study[@]}" run guiding --trainee Ada --silent 2> log &
+# The clock is set back by 26 days: faketime is not needed, because the journal is moved forwards.
+python3 - <<'PYTHON'
+import sqlite3
+journal = sqlite3.connect("guiding/participants/P01/journal.db")
+journal.execute("UPDATE study_journal_1 SET time = strftime('%Y-%m-%dT%H:%M:%SZ', time, '+26 days')")
+journal.commit()
+PYTHON
+expect 0 "^P01 .*last entry .*, 26.0 days ahead of this computer's clock; expected the right date and time" "${study[@]}" status guiding
+expect 2 'P01: the last entry is of .*, but the clock of this computer says .*; expected the right date and time' "${study[@]}" run guiding --trainee Ada
+"${study[@]}" run guiding --trainee Ada --silent --accept-clock 2> log &
 player=$!
 check 'the window opens again' eventually test -f guiding/progress.html
 check 'the same person continues as P01' grep -q '^P01: language' log

@@ -7,31 +7,13 @@
 #include <csignal>
 #include <set>
 
-#include "tests/study/support.hpp"
+#include "tests/study/participants.hpp"
 
 namespace participation_test {
 
 using namespace bolt;
 using namespace bolt::study;
 using namespace study_test;
-
-namespace {
-
-Participation enrolled(StudyFolder& folder, const content::Study& study, const std::string& person = "T-1") {
-    return required(Participation::enrol(study, folder.path(), person, false, folder.clock()));
-}
-
-Result<Participation> resumed(StudyFolder& folder, const content::Study& study, const std::string& name,
-                              bool accept = false) {
-    return Participation::resume(study, folder.path(), name, accept, folder.clock());
-}
-
-void do_until(Participation& participation, const std::string& id) {
-    while (participation.due() != nullptr && participation.due()->id != id) do_step(participation);
-    REQUIRE(participation.due() != nullptr);
-}
-
-}  // namespace
 
 TEST_CASE("Study: the steps are those of the plan, in its order") {
     StudyFolder folder;

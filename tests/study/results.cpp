@@ -1,6 +1,8 @@
 // The analysis of a study and its pages, and simulated participants.
 #include "game/study_results/results.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -8,7 +10,7 @@
 #include "game/study/study_lesson.hpp"
 #include "game/study_results/simulate.hpp"
 #include "game/trainees/trainee.hpp"
-#include "tests/study/support.hpp"
+#include "tests/study/study_data.hpp"
 
 namespace study_results_test {
 
@@ -18,38 +20,6 @@ using namespace study_test;
 using doctest::Approx;
 
 namespace {
-
-// Participants with one value for each condition and no journal.
-StudyData data_of(const content::Study& study, const std::string& measure,
-                  const std::vector<std::vector<double>>& rows) {
-    StudyData data;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        ParticipantState state;
-        state.participant = "P" + std::to_string(i + 1);
-        state.progress.place = i;
-        state.conditions = content::conditions_of(study, i);
-        state.steps = steps_of(study, state.conditions);
-        data.participants.push_back(std::move(state));
-        for (std::size_t k = 0; k < rows[i].size(); ++k) {
-            Observation o;
-            o.participant = i;
-            o.condition = k;
-            o.part = k;
-            o.measure = measure;
-            o.value = rows[i][k];
-            for (o.lesson = 0; o.lesson < study.design.lessons; ++o.lesson) data.observations.push_back(o);
-        }
-    }
-    return data;
-}
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t n = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-    return n;
-}
 
 SimulationOptions two_simulated() {
     SimulationOptions options;
@@ -210,6 +180,7 @@ TEST_CASE("Study results: simulated participants do every step, are labelled, an
         const auto json = nlohmann::json::parse(results_json(study, data, results));
         CHECK(json["simulated"] == true);
         CHECK(json["comparisons"].size() == 3);
+        CHECK(has(answers_csv(data), "\r\nP01,1,"));
         // People and programs are never mixed.
         CHECK_FALSE(simulate(study, folder.path(), two_simulated(), goes_on));
     }
@@ -304,6 +275,9 @@ TEST_CASE("Study results: without an effect few studies find one, and a large ef
     options.studies = 400;
     const std::vector<Power> none = simulate_power(study, options);
     REQUIRE(none.size() == 2);  // the duration is no form's
+    const auto left_out = without_power(study);
+    REQUIRE(left_out.size() == 1);
+    CHECK(comparison_text(*left_out[0]) == "duration_s: a, b");
     for (const Power& power : none) CHECK(power.rate < 0.06);
     options.effects = {0.0, 1.5};
     for (const Power& power : simulate_power(study, options)) CHECK(power.rate > 0.9);
