@@ -77,7 +77,8 @@ std::vector<platform::InputEvent> SettingsScreen::take_keys(std::span<const plat
     return remaining;
 }
 
-void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeSettings& settings) {
+void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeSettings& settings,
+                                 bool in_study) {
     const words::Words& words = context.words;
     draw_languages(context, settings);
     draw_slider(words["menu.sound"].c_str(), settings.volume, {});
@@ -106,9 +107,11 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     bool seated = settings.seated_eye_height.has_value();
     if (checkbox("menu.seated", seated))
         settings.seated_eye_height = seated ? std::optional(default_seat) : std::nullopt;
-    ImGui::SetNextItemWidth(0.4F * ImGui::GetColumnWidth());  // the label needs the rest of the column
-    draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::min_force_scale, 1.0});
-    note_widget(context, "menu.force_scale");
+    if (!in_study) {
+        ImGui::SetNextItemWidth(0.4F * ImGui::GetColumnWidth());  // the label needs the rest of the column
+        draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::min_force_scale, 1.0});
+        note_widget(context, "menu.force_scale");
+    }
     ImGui::NextColumn();
     checkbox("menu.force_arrow", settings.force_arrow);
     checkbox("menu.surroundings", settings.passthrough);
@@ -152,12 +155,13 @@ void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {
     }
 }
 
-ScreenAction SettingsScreen::draw(const ScreenContext& context, Preferences& preferences, bool in_lesson) {
+ScreenAction SettingsScreen::draw(const ScreenContext& context, Preferences& preferences,
+                                  OpenedIn opened_in) {
     begin_dialog(context, "##settings", 720.0F * context.scale, 0.96F);
     draw_text(context.words["menu.settings"]);
     ImGui::Separator();
-    draw_person(context, preferences.settings);
-    if (in_lesson) draw_wrapped(context.words["settings.next_lesson"], muted_text);
+    draw_person(context, preferences.settings, opened_in.study);
+    if (opened_in.lesson) draw_wrapped(context.words["settings.next_lesson"], muted_text);
     ImGui::Separator();
     draw_keys(context, preferences.keys);
     ImGui::Separator();

@@ -8,8 +8,13 @@ namespace bolt::trainer {
 
 class SettingsScreen {
   public:
-    // Returns close_settings or none. `in_lesson`: adds the note about changes that wait for the next lesson.
-    ScreenAction draw(const ScreenContext& context, Preferences& preferences, bool in_lesson);
+    // Where the settings were opened. `lesson`: adds the note about changes that wait for the next lesson;
+    // `study`: leaves out the strength of forces, which must not change between the conditions of a study.
+    struct OpenedIn {
+        bool lesson = false, study = false;
+    };
+    // Returns close_settings or none.
+    ScreenAction draw(const ScreenContext& context, Preferences& preferences, OpenedIn opened_in);
 
     // Handles the keys of a frame and returns the events that remain for the interface. After a click on an
     // action the next key is bound to it; Escape cancels that, or closes the screen and sets `closes`.
@@ -17,7 +22,7 @@ class SettingsScreen {
                                                 const words::Words& words, KeyMap& keys, bool& closes);
 
   private:
-    void draw_person(const ScreenContext& context, content::TraineeSettings& settings);
+    void draw_person(const ScreenContext& context, content::TraineeSettings& settings, bool in_study);
     void draw_keys(const ScreenContext& context, KeyMap& keys);
     void bind_key(platform::Key key, const words::Words& words, KeyMap& keys);
 

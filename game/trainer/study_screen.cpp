@@ -48,6 +48,21 @@ struct AnswerButtons {
     std::optional<double> chosen;
 };
 
+const ImVec4 chosen_color{0.16F, 0.47F, 0.66F, 1.0F}, free_color{0.17F, 0.20F, 0.24F, 1.0F},
+    pointed_color{0.26F, 0.30F, 0.35F, 1.0F};
+
+// A button of an answer. Under the pointer it stays grey: after an answer the next item's button is there,
+// and must not look chosen. The second click of a double click does not answer the next item.
+bool draw_answer_button(const std::string& label, bool chosen, float width) {
+    ImGui::PushStyleColor(ImGuiCol_Button, chosen ? chosen_color : free_color);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, chosen ? chosen_color : pointed_color);
+    const bool pressed = ImGui::Button(label.c_str(), {width, 0.0F});
+    ImGui::PopStyleColor(2);
+    const bool second_click =
+        ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::GetIO().MouseClickedLastCount[0] > 1;
+    return pressed && !second_click;
+}
+
 double answer_at(const content::AnswerScale& scale, std::size_t index) {
     return scale.low + scale.step * static_cast<double>(index);
 }
@@ -58,7 +73,7 @@ std::optional<double> draw_answer_list(const ScreenContext& context, const Answe
     for (std::size_t i = 0; i < answers.labels.size(); ++i) {
         const double answer = answer_at(answers.scale, i);
         ImGui::PushID(static_cast<int>(i));
-        if (draw_choice_button(answers.labels[i], answers.chosen == answer)) pressed = answer;
+        if (draw_answer_button(answers.labels[i], answers.chosen == answer, 0.0F)) pressed = answer;
         note_widget(context, "study.item");
         ImGui::PopID();
     }
@@ -78,11 +93,7 @@ std::optional<double> draw_answer_row(const ScreenContext& context, const Answer
         const double answer = answer_at(answers.scale, i);
         if (i > 0) ImGui::SameLine();
         ImGui::PushID(static_cast<int>(i));
-        const bool chosen = answers.chosen == answer;
-        ImGui::PushStyleColor(ImGuiCol_Button,
-                              chosen ? ImVec4{0.16F, 0.47F, 0.66F, 1.0F} : ImVec4{0.17F, 0.20F, 0.24F, 1.0F});
-        if (ImGui::Button(fmt::format("{}", answer).c_str(), {width, 0.0F})) pressed = answer;
-        ImGui::PopStyleColor();
+        if (draw_answer_button(fmt::format("{}", answer), answers.chosen == answer, width)) pressed = answer;
         note_widget(context, "study.item");
         ImGui::PopID();
     }
@@ -147,18 +158,22 @@ StudyScreen::Pressed StudyScreen::draw_buttons(const ScreenContext& context, con
     if (error_)
         draw_wrapped(words::format_text(context.words, "study.not_stored", {{"why", error_->message()}}),
                      warning_text);
-    if (ImGui::Button(context.words["study.stop"].c_str())) stop_ = StopDialog::choice;
-    note_widget(context, "study.stop");
     if (buttons.back) {
-        ImGui::SameLine(left + room - 2.0F * width - 8.0F * context.scale);
+        ImGui::SetCursorPosX(left + room - 2.0F * width - 8.0F * context.scale);
         if (ImGui::Button(context.words["study.back"].c_str(), {width, 0.0F})) pressed = Pressed::back;
         note_widget(context, "study.back");
     }
-    ImGui::SameLine(left + room - width);
+    if (buttons.back)
+        ImGui::SameLine(left + room - width);
+    else
+        ImGui::SetCursorPosX(left + room - width);
     ImGui::BeginDisabled(!buttons.enabled);
     if (ImGui::Button(context.words[buttons.forward].c_str(), {width, 0.0F})) pressed = Pressed::forward;
     ImGui::EndDisabled();
     note_widget(context, buttons.forward);
+    // Below the others, so that the arrow keys reach it last.
+    if (ImGui::Button(context.words["study.stop"].c_str())) stop_ = StopDialog::choice;
+    note_widget(context, "study.stop");
     return pressed;
 }
 
@@ -199,9 +214,8 @@ void StudyScreen::draw_consent(const ScreenContext& context) {
     for (std::size_t i = 0; i < statements.size(); ++i) {
         bool agreed = participation_.agreed(i);
         ImGui::PushID(static_cast<int>(i));
-        ImGui::BeginDisabled(agreed);
-        if (ImGui::Checkbox("##agree", &agreed)) (void)store(participation_.agree(i));
-        ImGui::EndDisabled();
+        if (ImGui::Checkbox("##agree", &agreed))
+            (void)store(agreed ? participation_.agree(i) : participation_.take_back(i));
         note_widget(context, "study.consent");
         ImGui::SameLine();
         draw_wrapped(statements[i], {1.0F, 1.0F, 1.0F, 1.0F});
@@ -230,7 +244,7 @@ void StudyScreen::draw_item(const ScreenContext& context, const content::Questio
         if (store(participation_.answer(item.id, *pressed))) ++item_;
     ImGui::Dummy({0.0F, 8.0F * context.scale});
     if (item_ >= form.items.size()) return;
-    if (draw_choice_button(context.words["study.no_answer"], false) &&
+    if (draw_answer_button(context.words["study.no_answer"], false, 0.0F) &&
         store(participation_.answer(item.id, std::nullopt)))
         ++item_;
     note_widget(context, "study.no_answer");

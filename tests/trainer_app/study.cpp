@@ -53,18 +53,18 @@ struct Led {
         press("study.next");
     }
 
-    int steps = 0;
-    HeadlessTrainer driver;
-
-  private:
     void agree() {
+        std::size_t statement = 0;
         for (const trainer::DrawnWidget& widget : driver.app().drawn_widgets())
-            if (widget.label == words::TextKey("study.consent")) {
+            if (widget.label == words::TextKey("study.consent") && !participation().agreed(statement++)) {
                 driver.press(glm::dvec2(widget.middle));
                 driver.release(glm::dvec2(widget.middle));
             }
         driver.frame();
     }
+
+    int steps = 0;
+    HeadlessTrainer driver;
 };
 
 study::Participation enrolled(const content::Study& study, const StudyFolder& folder) {
@@ -167,6 +167,49 @@ TEST_CASE("Trainer: a participant can leave, and can withdraw on any page") {
     CHECK_FALSE(std::filesystem::exists(folder.path() / "participants/P01" / study::journal_file_name));
     led.press("study.finish");
     CHECK(led.driver.app().closed());
+}
+
+TEST_CASE("Trainer: a double click answers one item, and a consent can be taken back") {
+    StudyFolder folder;
+    folder.make_short();
+    const content::Study study = folder.load();
+    Led led(enrolled(study, folder), folder);
+    led.press("study.language");
+    led.press("study.next");
+    led.press("study.next");
+    REQUIRE(led.due() == "consent");
+    led.press("study.consent");
+    CHECK(led.participation().agreed(0));
+    led.press("study.consent");
+    CHECK_FALSE(led.participation().agreed(0));
+    while (!led.participation().agreed(1)) led.agree();
+    led.press("study.next");
+    led.press("study.start");
+    led.driver.key(platform::Key::escape);
+    led.press("menu.settings");
+    for (const trainer::DrawnWidget& widget : led.driver.app().drawn_widgets())
+        CHECK(widget.label != words::TextKey("menu.force_scale"));
+    led.driver.key(platform::Key::escape);  // back to the pause
+    led.driver.frame();
+    led.press("menu.end");
+    REQUIRE(led.due() == "part-1/paper");
+    glm::dvec2 at{0.0};
+    for (const trainer::DrawnWidget& widget : led.driver.app().drawn_widgets())
+        if (widget.label == words::TextKey("study.item") && at == glm::dvec2{0.0})
+            at = glm::dvec2(widget.middle);
+    led.driver.wait(1.0);
+    const auto click = [&] {
+        for (const bool down : {true, false})
+            led.driver.frame(
+                {platform::CursorEvent{at}, platform::ButtonEvent{platform::Button::left, down, at}}, 0.03);
+    };
+    click();
+    click();
+    led.driver.wait(1.0);
+    CHECK(led.participation().progress().answers.at("part-1/paper").size() == 1);
+    click();
+    led.driver.wait(0.2);
+    CHECK(led.participation().progress().answers.at("part-1/paper").size() == 2);
 }
 
 TEST_CASE("Trainer: an answer that cannot be stored is shown and asked again") {
