@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# It stands beside `boltwright study simulate`, which draws the kind of trainee at random for each participant and seeds each
+# lesson by itself, because docs/performance.md needs lessons of stated trainees that differ in the help alone.
 # Compares lessons of simulated trainees with and without the guiding force (or the view help) over several seeds, and writes a
 # page with the comparison.
 #   tools/study.sh OUT                                   20 seeds of novice and clumsy on zq350 and cover-m8
@@ -8,7 +10,7 @@
 # a quarter of an hour. Sessions stay in OUT/sessions, 10 MB each for zq350; lessons that are complete are not played again.
 set -euo pipefail
 if [[ $# -lt 1 ]]; then
-    sed -n '2,9s/^# \?//p' "$0" >&2
+    sed -n '2,11s/^# \?//p' "$0" >&2
     exit 2
 fi
 out=$1
