@@ -189,16 +189,31 @@ struct ValidateOptions {
 
 constexpr std::size_t largest_validation_file = 4U << 20U;  // bytes
 
-// The section of one joint; writes the comparison page of a loosening record.
+// Writes the page of a validation and returns its text.
+Result<std::string> written_validation(const measure::Validation& validation,
+                                       const std::filesystem::path& page) {
+    report::SeriesPage shown{validation.title,   validation.source,  validation.verdict,
+                             validation.x_label, validation.y_label, {}};
+    for (const measure::ValidationSeries& series : validation.series)
+        shown.plots.push_back({series.name, series.x, series.measured, series.law});
+    BOLT_TRY(write_file(page, report::series_page(shown)));
+    return validation.text;
+}
+
+// The section of one joint; writes its comparison page.
 Result<std::string> joint_validation(const content::AssemblyJoint& joint, const ValidateOptions& options) {
     const std::filesystem::path file = std::filesystem::path(options.data) / (joint.design.id + ".csv");
     BOLT_TRY_ASSIGN(const auto text, read_file(file, largest_validation_file, ErrorCode::bad_content));
-    if (joint.design.id.starts_with("retightening"))
-        return measure::retightening_text(joint.design, joint.spec.torque.target, text, file.string());
+    const std::filesystem::path page = std::filesystem::path(options.out) / (joint.design.id + ".html");
+    if (joint.design.id.starts_with("retightening")) {
+        BOLT_TRY_ASSIGN(
+            const auto validation,
+            measure::validate_retightening(joint.design, joint.spec.torque.target, text, file.string()));
+        return written_validation(validation, page);
+    }
     BOLT_TRY_ASSIGN(const auto record, analysis::parse_measured(text, file.string()));
     BOLT_TRY_ASSIGN(const auto validation, measure::validate_loosening(joint.design, record));
-    BOLT_TRY(write_file(std::filesystem::path(options.out) / (joint.design.id + ".html"),
-                        report::comparison_page(validation.comparison)));
+    BOLT_TRY(write_file(page, report::comparison_page(validation.comparison)));
     return measure::loosening_text(validation);
 }
 
@@ -226,7 +241,9 @@ Result<std::string> validation_text(const ValidateOptions& options) {
     }
     const std::filesystem::path table = data / "vdi2230_a1.csv";
     BOLT_TRY_ASSIGN(const auto rows, read_file(table, largest_validation_file, ErrorCode::bad_content));
-    BOLT_TRY_ASSIGN(const auto section, measure::preload_table_text(rows, table.string()));
+    BOLT_TRY_ASSIGN(const auto preloads, measure::validate_preload_table(rows, table.string()));
+    BOLT_TRY_ASSIGN(const auto section,
+                    written_validation(preloads, std::filesystem::path(options.out) / "vdi2230_a1.html"));
     return out + section;
 }
 

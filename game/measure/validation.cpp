@@ -173,19 +173,23 @@ std::string loosening_text(const LooseningValidation& v) {
     return out;
 }
 
-Result<std::string> retightening_text(const joint::JointDesign& design, double torque, std::string_view table,
-                                      const std::string& file) {
+Result<Validation> validate_retightening(const joint::JointDesign& design, double torque,
+                                         std::string_view table, const std::string& file) {
     const std::vector<std::string> wanted{"K=T/(F d)"};
     BOLT_TRY_ASSIGN(const auto data, parse_table(table, file, {}, wanted, "lube"));
     std::map<std::string, std::vector<double>> series;
     for (std::size_t row = 0; row < data.rows(); ++row)
         series[data.labels[row]].push_back(data.columns[0][row]);
+    Validation v;
+    v.title = fmt::format("{}: re-tightening to {:g} N·m", design.id, torque);
+    v.source = "Acta Polytechnica Hungarica 21(2) (2024) 133–150, figures digitised. K = T/(F d).";
+    v.x_label = "tightening";
+    v.y_label = "K";
     std::string out = fmt::format(
-        "## {}: re-tightening to {:g} N·m\n\nActa Polytechnica Hungarica 21(2) (2024) 133–150, figures "
-        "digitised. K = T/(F d).\n\n"
+        "## {}\n\n{}\n\n"
         "| lubrication | friction, fitted to the first | first K | last K measured | last K law | MAPE of K "
         "| largest error |\n|---|---|---|---|---|---|---|\n",
-        design.id, torque);
+        v.title, v.source);
     double worst = 0.0;
     for (const auto& [name, measured] : series) {
         const auto lubrication = lubrication_named(name);
@@ -196,6 +200,9 @@ Result<std::string> retightening_text(const joint::JointDesign& design, double t
         joint.friction.lubrication = *lubrication;
         const double friction = friction_for(joint, torque, measured.front());
         const std::vector<double> law = law_factors(joint, friction, torque, measured.size());
+        ValidationSeries shown{name, {}, measured, law};
+        for (std::size_t use = 1; use <= measured.size(); ++use) shown.x.push_back(static_cast<double>(use));
+        v.series.push_back(std::move(shown));
         double sum = 0.0, largest = 0.0;
         for (std::size_t i = 1; i < measured.size(); ++i) {
             const double error = std::abs(law[i] - measured[i]) / measured[i];
@@ -208,17 +215,27 @@ Result<std::string> retightening_text(const joint::JointDesign& design, double t
                         measured.front(), measured.back(), law.back(),
                         measured.size() > 1 ? sum / static_cast<double>(measured.size() - 1) : nan, largest);
     }
-    return out + fmt::format(
-                     "\nVerdict: the law's wear was chosen after this very series (signs and sizes), so this "
-                     "shows how well its two terms describe the series, up to {:.0f} % off, and is no "
-                     "independent test. Another lubricant, size or torque is not covered.\n\n",
-                     100.0 * worst);
+    v.verdict = fmt::format(
+        "the law's wear was chosen after this very series (signs and sizes), so this shows how well its two "
+        "terms "
+        "describe the series, up to {:.0f} % off, and is no independent test. Another lubricant, size or "
+        "torque is "
+        "not covered.",
+        100.0 * worst);
+    v.text = out + "\nVerdict: " + v.verdict + "\n\n";
+    return v;
 }
 
-Result<std::string> preload_table_text(std::string_view table, const std::string& file) {
+Result<Validation> validate_preload_table(std::string_view table, const std::string& file) {
     const std::vector<std::string> wanted{"mu", "FM_kN", "MA_Nm"};
     BOLT_TRY_ASSIGN(const auto sizes, parse_table(table, file, {}, wanted, "size"));
     BOLT_TRY_ASSIGN(const auto classes, parse_table(table, file, {}, wanted, "class"));
+    Validation v;
+    v.title = "Table A1 of VDI 2230-1: preload and torque at 90 % of yield";
+    v.source = "VDI 2230 part 1, table A1. The torque of each row.";
+    v.x_label = "printed torque, N·m";
+    v.y_label = "torque, N·m";
+    std::map<std::string, ValidationSeries> series;
     std::map<std::string, std::array<double, 5>>
         by_class;  // rows, sums and maxima of force and torque errors
     for (std::size_t row = 0; row < sizes.rows(); ++row) {
@@ -230,6 +247,11 @@ Result<std::string> preload_table_text(std::string_view table, const std::string
                                     joint::bearing_mean_diameter(thread.size.head_bearing, thread.size.hole));
         const double force = std::abs(p.force / (1e3 * sizes.columns[1][row]) - 1.0),
                      torque = std::abs(p.torque / sizes.columns[2][row] - 1.0);
+        ValidationSeries& shown = series[classes.labels[row]];
+        shown.name = "class " + classes.labels[row];
+        shown.x.push_back(sizes.columns[2][row]);
+        shown.measured.push_back(sizes.columns[2][row]);
+        shown.law.push_back(p.torque);
         auto& sums = by_class[classes.labels[row]];
         sums[0] += 1.0;
         sums[1] += force;
@@ -237,21 +259,24 @@ Result<std::string> preload_table_text(std::string_view table, const std::string
         sums[3] = std::max(sums[3], force);
         sums[4] = std::max(sums[4], torque);
     }
-    std::string out =
-        "## Table A1 of VDI 2230-1: preload and torque at 90 % of yield\n\n"
-        "| class | rows | force: mean error | largest | torque: mean error | largest "
-        "|\n|---|---|---|---|---|---|\n";
+    for (auto& [name, one] : series) v.series.push_back(std::move(one));
+    std::string out = "## " + v.title +
+                      "\n\n"
+                      "| class | rows | force: mean error | largest | torque: mean error | largest "
+                      "|\n|---|---|---|---|---|---|\n";
     double worst = 0.0;
     for (const auto& [name, s] : by_class) {
         out += fmt::format("| {} | {:.0f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} |\n", name, s[0], s[1] / s[0],
                            s[3], s[2] / s[0], s[4]);
         worst = std::max({worst, s[3], s[4]});
     }
-    return out + fmt::format(
-                     "\nVerdict: nothing is fitted; the largest error of {:.1f} % contains the rounding of "
-                     "the printed figures. The table is computed itself, not measured: it tests our "
-                     "formulas, not bolts.\n\n",
-                     100.0 * worst);
+    v.verdict = fmt::format(
+        "nothing is fitted; the largest error of {:.1f} % contains the rounding of the printed figures. The "
+        "table is "
+        "computed itself, not measured: it tests our formulas, not bolts.",
+        100.0 * worst);
+    v.text = out + "\nVerdict: " + v.verdict + "\n\n";
+    return v;
 }
 
 }  // namespace bolt::measure

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/result.hpp"
 #include "game/analysis/comparison.hpp"
@@ -29,12 +30,24 @@ Result<LooseningValidation> validate_loosening(const joint::JointDesign& design,
                                                const analysis::MeasuredRecord& record);
 std::string loosening_text(const LooseningValidation& v);
 
+// Values over one axis, measured or printed and by the law, for a page.
+struct ValidationSeries {
+    std::string name;
+    std::vector<double> x, measured, law;
+};
+struct Validation {
+    std::string title, source, verdict;
+    std::string x_label, y_label;
+    std::vector<ValidationSeries> series;
+    std::string text;  // Markdown, with the verdict
+};
+
 // Re-tightening: a table with the columns lube, tightening_no and "K=T/(F d)". The friction of each state of
 // lubrication is fitted to its first tightening; the change with re-use is a test. K = T/(F d).
-Result<std::string> retightening_text(const joint::JointDesign& design, double torque, std::string_view table,
-                                      const std::string& file);
+Result<Validation> validate_retightening(const joint::JointDesign& design, double torque,
+                                         std::string_view table, const std::string& file);
 
 // VDI 2230 table A1: columns size, class, mu, FM_kN and MA_Nm. Nothing is fitted.
-Result<std::string> preload_table_text(std::string_view table, const std::string& file);
+Result<Validation> validate_preload_table(std::string_view table, const std::string& file);
 
 }  // namespace bolt::measure

@@ -64,6 +64,17 @@ struct MaterialComparison {
 std::string paper_table_page(std::span<const MaterialComparison> materials);
 std::string paper_table_text(std::span<const MaterialComparison> materials);
 
+// A page with plots of two series over one axis: measured or printed values, and those of the law.
+struct SeriesPlot {
+    std::string name;
+    std::vector<double> x, measured, law;  // in the order of the line
+};
+struct SeriesPage {
+    std::string title, source, verdict, x_label, y_label;
+    std::vector<SeriesPlot> plots;
+};
+std::string series_page(const SeriesPage& page);
+
 // Limits of the comparison: peaks that differ by a large factor, stages without samples.
 std::vector<std::string> remarks(const analysis::Comparison& comparison);
 

@@ -87,4 +87,8 @@ test ! -e x.csv
 # The committed page is what the program makes now.
 "$bin/boltwright" measure validate "$sources/docs/validation" --out validation > /dev/null
 cmp validation/README.md "$sources/docs/validation/README.md" || failed=1
+for page in unfastening_m6 unfastening_m8 retightening_m8 vdi2230_a1; do
+    expect "page of $page" "<svg" validation/$page.html
+done
+expect "verdict on the page" "Verdict: the law's wear" <(sed "s/&#39;/'/g" validation/retightening_m8.html)
 exit $failed

@@ -62,24 +62,29 @@ TEST_CASE("Validation: a joint that releases later is told") {
 
 TEST_CASE("Validation: tables of preloads and of re-tightening") {
     const auto exact =
-        measure::preload_table_text("size,class,mu,FM_kN,MA_Nm\nM16,8.8,0.12,80.9,206\n", "a1.csv");
+        measure::validate_preload_table("size,class,mu,FM_kN,MA_Nm\nM16,8.8,0.12,80.9,206\n", "a1.csv");
     REQUIRE(exact);
-    CHECK(exact->find("| 8.8 | 1 | 0.000") != std::string::npos);
+    CHECK(exact->text.find("| 8.8 | 1 | 0.000") != std::string::npos);
     const auto wrong =
-        measure::preload_table_text("size,class,mu,FM_kN,MA_Nm\nM16,8.8,0.12,161.8,206\n", "a1.csv");
+        measure::validate_preload_table("size,class,mu,FM_kN,MA_Nm\nM16,8.8,0.12,161.8,206\n", "a1.csv");
     REQUIRE(wrong);
-    CHECK(wrong->find("the largest error of 50") != std::string::npos);
-    CHECK_FALSE(
-        measure::preload_table_text("size,class,mu,FM_kN,MA_Nm\nM9,8.8,0.12,1,1\n", "a1.csv").has_value());
+    CHECK(wrong->text.find("the largest error of 50") != std::string::npos);
+    CHECK_FALSE(measure::validate_preload_table("size,class,mu,FM_kN,MA_Nm\nM9,8.8,0.12,1,1\n", "a1.csv")
+                    .has_value());
 
-    const auto lubricant = measure::retightening_text(bolt(), 20.0, "lube,K=T/(F d)\nbutter,0.2\n", "k.csv");
+    const auto lubricant =
+        measure::validate_retightening(bolt(), 20.0, "lube,K=T/(F d)\nbutter,0.2\n", "k.csv");
     REQUIRE_FALSE(lubricant.has_value());
     CHECK(lubricant.error().message() ==
           "k.csv:2: lubrication 'butter' is not known; expected oiled, dry, mos2 or asis");
     const auto steady =
-        measure::retightening_text(bolt(), 20.0, "lube,K=T/(F d)\noiled,0.15\noiled,0.15\n", "k.csv");
+        measure::validate_retightening(bolt(), 20.0, "lube,K=T/(F d)\noiled,0.15\noiled,0.15\n", "k.csv");
     REQUIRE(steady);
-    CHECK(steady->find("| oiled | 0.1") != std::string::npos);
+    CHECK(steady->text.find("| oiled | 0.1") != std::string::npos);
+    REQUIRE(steady->series.size() == 1);
+    CHECK(steady->series[0].x == std::vector<double>{1.0, 2.0});
+    CHECK(steady->series[0].measured == std::vector<double>{0.15, 0.15});
+    CHECK(steady->series[0].law[0] == doctest::Approx(0.15).epsilon(0.01));
 }
 
 }  // namespace validation_test
