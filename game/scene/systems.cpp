@@ -44,6 +44,22 @@ std::shared_ptr<const render::Deformation> deform(const SkinnedHand& fingers,
     return std::make_shared<const render::Deformation>(std::move(deformation));
 }
 
+// The frame of an empty hand. Away from nuts a measured hand is drawn where it is; at a nut its fingers are
+// around the nut, as those of any hand, and the wrist follows the measured roll. The two differ, because a
+// hand that turns a nut bends its fingers, and a hand that holds a controller does not.
+Pose frame_of_empty_hand(SkinnedHand& fingers, const ToolAndHand& state, bool first) {
+    constexpr double approach = 0.15;  // s, time constant
+    if (!state.palm) return state.fingers;
+    const double goal = state.at_nut ? 1.0 : 0.0;
+    const double share = first ? 1.0 : 1.0 - std::exp(-state.seconds / approach);
+    fingers.nut_share += share * (goal - fingers.nut_share);
+    const Pose drawn_palm{fingers.posture.position[hand::palm], fingers.posture.rotation[hand::palm]};
+    const Pose measured = *state.palm * inverse(drawn_palm);
+    const Vec3 turn = turn_between(measured.orientation, state.fingers.orientation);
+    return {glm::mix(measured.position, state.fingers.position, fingers.nut_share),
+            glm::normalize(rotation(fingers.nut_share * turn) * measured.orientation)};
+}
+
 // The posture, changed as far as the solids require. A gloved hand is displayed as measured.
 hand::Skeleton clear_of_solids(SkinnedHand& fingers, const Postures& postures, const ToolAndHand& state,
                                const Pose& at) {
@@ -101,16 +117,16 @@ void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& 
     world.view<SkinnedHand, Transform>().each(
         [&](ecs::Entity entity, SkinnedHand& fingers, Transform& transform) {
             if (world.find<GhostPart>(entity) != nullptr) return;
-            Pose at = state.wrench ? state.tool : state.fingers;
-            // The tremor is along the pull.
-            at.position += at.orientation * Vec3(0.0, max_tremor * state.tremor, 0.0);
-            transform.world = glm::mat4(matrix(at));
             fingers.effort = static_cast<float>(state.effort);
             const bool first = !fingers.deformation;
             const double far = first ? 1.0 : max_distance(fingers.posture, goal);
             const bool arrived = first || far < 2e-4 || state.gloved != nullptr;
             fingers.posture =
                 arrived ? goal : interpolate(fingers.posture, goal, 1.0 - std::exp(-state.seconds / change));
+            Pose at = state.wrench ? state.tool : frame_of_empty_hand(fingers, state, first);
+            // The tremor is along the pull.
+            at.position += at.orientation * Vec3(0.0, max_tremor * state.tremor, 0.0);
+            transform.world = glm::mat4(matrix(at));
             const double cuff = fingers.clearance.cuff;
             const hand::Skeleton shown = clear_of_solids(fingers, postures, state, at);
             if (!first && cuff == fingers.clearance.cuff && max_distance(fingers.shown, shown) == 0.0) return;
@@ -130,10 +146,14 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     held.rest = hand.rest;
     held.pinches = hand.pinches;
     held.closing = hand.closing;
+    if (glove == nullptr) held.palm = hand.palm;
+    held.at_nut = hand.nut.has_value();
+    // The wrist is on the palm's side of a straight hand, because at a nut the fingers are bent.
+    const Vec3 wrist =
+        held.palm ? hand.pose.position - held.palm->orientation * Vec3(0.0, 1.0, 0.0) : context.shoulder;
     const double sense = hand.nut ? context.setup.nuts[*hand.nut].sense : 1.0;
-    held.fingers = glove != nullptr
-                       ? hand.rest
-                       : frame_towards(hand.pose, context.shoulder, -sense * wrist_share * hand.twisted);
+    held.fingers =
+        glove != nullptr ? hand.rest : frame_towards(hand.pose, wrist, -sense * wrist_share * hand.twisted);
     held.grip = context.grip;
     held.seconds = context.seconds;
     held.effort = context.effort;

@@ -14,6 +14,10 @@ struct ToolAndHand {
     Pose rest;             // of a wrench that is not in the hand
     bool pinches = false;  // without a wrench: the fingers are closed on a nut
     Pose fingers;          // without a wrench: the frame of the hand
+    // Without a wrench: the measured pose of the joint hand::palm. It determines the drawn hand away from
+    // nuts, `fingers` at a nut.
+    std::optional<Pose> palm;
+    bool at_nut = false;   // a nut is within reach of the fingers
     std::size_t grip = 0;  // index in Postures::on_handle
     double seconds = 0.0;  // since the last frame; changes of posture are smoothed over time
     double effort = 0.0;   // 0 … 1, Effort::share

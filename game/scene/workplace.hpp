@@ -53,6 +53,7 @@ struct SkinnedHand {
     hand::Skeleton posture = {};  // before the correction that keeps the hand out of solids
     std::shared_ptr<const std::vector<SkinPoint>> skin = nullptr;
     HandClearance clearance = {};
+    double nut_share = 1.0;  // 1: drawn as it works on a nut; 0: as it is measured (ToolAndHand::palm)
 };
 
 // A transparent wrench or hand that demonstrates a pose.

@@ -159,6 +159,8 @@ WorkingHand hand_of(const StationClient& client) {
     hand.action = engaged ? HandAction::holding : hand.nut ? HandAction::lowering : HandAction::resting;
     hand.pose = hand.to = client.latest.commanded_tool;
     hand.rest = client.latest.resting_wrench.value_or(client.rest);
+    if (client.tracked && client.tracked->motion.target)
+        hand.palm = hand.pose * palm_joint_at_fingertips(client.tracked->side);
     if (client.has_gripper) hand.closing = 1.0 - client.latest.gripper.opening;
     if (client.gloved && engaged && client.latest.input.grip == servo::Grip::fingers)
         hand.free_swing = std::max(

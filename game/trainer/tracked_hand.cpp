@@ -19,6 +19,14 @@ constexpr double pinch_out = 0.03, pinch_along = 0.08, pinch_thumb = 0.03;
 constexpr double open_distance = 0.07, closed_distance = 0.02;
 constexpr std::size_t palm_joint = 0, thumb_tip = 5, index_tip = 10;  // of XR_EXT_hand_tracking
 
+// The rotation of the grip pose in the frame of the palm joint. The joint's −Z points along the fingers and
+// its Y out of the back of the hand. The grip pose has the fingers along −Y, −Z to the thumb, and X to the
+// right when both palms face each other.
+Quat grip_at_palm_joint(xr::Side side) {
+    const double out = side == xr::Side::right ? 1.0 : -1.0;
+    return glm::quat_cast(glm::dmat3(Vec3(0.0, out, 0.0), Vec3(0.0, 0.0, 1.0), Vec3(out, 0.0, 0.0)));
+}
+
 }  // namespace
 
 double closure(const xr::HandInput& hand) {
@@ -37,18 +45,19 @@ std::optional<Pose> palm_of(const xr::HandInput& hand, xr::Side side) {
     if (!hand.active) return std::nullopt;
     if (hand.grip) return hand.grip->pose;
     if (!hand.joints || !(*hand.joints)[palm_joint].valid) return std::nullopt;
-    // The palm joint's −Z points along the fingers and its Y out of the back of the hand. The grip pose has
-    // the fingers along −Y, −Z to the thumb, and X to the right when both palms face each other.
     const Pose& palm = (*hand.joints)[palm_joint].pose;
-    const double out = side == xr::Side::right ? 1.0 : -1.0;
-    const glm::dmat3 grip_at_palm(Vec3(0.0, out, 0.0), Vec3(0.0, 0.0, 1.0), Vec3(out, 0.0, 0.0));
-    return Pose{palm.position, glm::normalize(palm.orientation * glm::quat_cast(grip_at_palm))};
+    return Pose{palm.position, glm::normalize(palm.orientation * grip_at_palm_joint(side))};
 }
 
 Pose fingertips_at_palm(xr::Side side) {
     const double out = side == xr::Side::right ? -pinch_out : pinch_out;
     // x along the grip's X, y along its −Z, z along its Y.
     return {{out, -pinch_along, -pinch_thumb}, glm::angleAxis(-0.5 * pi, Vec3(1.0, 0.0, 0.0))};
+}
+
+Pose palm_joint_at_fingertips(xr::Side side) {
+    const Pose palm{Vec3(0.0), glm::conjugate(grip_at_palm_joint(side))};
+    return inverse(fingertips_at_palm(side)) * palm;
 }
 
 void track_hand(TrackedHand& tracked, const TrackedHandInput& input) {

@@ -38,6 +38,9 @@ std::optional<Pose> palm_of(const xr::HandInput& hand, xr::Side side);
 // without a wrench: z points back along the fingers, as the palm's Y does.
 Pose fingertips_at_palm(xr::Side side);
 
+// The pose of the joint hand::palm in the frame of the fingertips.
+Pose palm_joint_at_fingertips(xr::Side side);
+
 // Call once a frame. A hand that is not tracked keeps its pose and opens.
 void track_hand(TrackedHand& tracked, const TrackedHandInput& input);
 

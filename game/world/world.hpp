@@ -87,6 +87,8 @@ struct WorkingHand {
     Pose pose;                       // commanded pose of the tool or the empty hand
     Pose to;                         // end of a reach
     Pose rest;                       // of the wrench while it is not in the hand
+    // Pose of the joint hand::palm, if the hand is empty and a headset measures it.
+    std::optional<Pose> palm;
     double twisted = 0.0;  // rad that the fingers have turned since they gripped the nut, tightening positive
     double free_swing =
         std::numeric_limits<double>::infinity();  // angle by which the hand can still turn the tool

@@ -140,7 +140,16 @@ class SimulatedArmDevice final : public DeviceDriver {
         commanded_intention_.position += motion.moved - last_.moved;
         commanded_intention_.orientation =
             glm::normalize(motion.turned * glm::conjugate(last_.turned) * commanded_intention_.orientation);
+        if (motion.target && !last_.target) jump(*motion.target);
         last_ = motion;
+    }
+
+    void jump(const Pose& pose) {
+        ArmModel& arm = shared_->arm;
+        arm.pose = pose;
+        arm.velocity = arm.angular_velocity = arm.intention_velocity = arm.intention_angular_velocity =
+            Vec3(0.0);
+        relax();
     }
 
     // A hand that releases the handle stays at its pose.

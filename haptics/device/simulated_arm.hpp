@@ -59,7 +59,7 @@ struct HandMotion {
     std::uint32_t buttons = 0;
     // The pose of the hand in the device frame, if it is measured; it replaces `moved` and `turned`. The
     // greatest deflection still limits how hard the hand pushes, but the arm returns to this pose as soon as
-    // it can.
+    // it can. When a hand begins to be measured, the arm jumps to its pose.
     std::optional<Pose> target;
     double gripper = 1.0;  // 0 closed … 1 fully open
 };

@@ -48,7 +48,12 @@ Pose to_assembly(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, b
         realign(w, s, device, s.commanded_tool);
     } else {
         const Quat device_to_assembly = device_to_assembly_rotation(w, s);
-        if (std::isfinite(w.return_time)) s.centre -= std::min(1.0, dt / w.return_time) * s.centre;
+        if (std::isfinite(w.return_time)) {
+            const double kept = 1.0 - std::min(1.0, dt / w.return_time);
+            s.centre *= kept;
+            if (s.lever_arm == 0.0)
+                s.tool_to_device = glm::normalize(rotation(kept * rotation_vector(s.tool_to_device)));
+        }
         s.commanded_tool.orientation =
             glm::normalize(device_to_assembly * device.orientation * s.tool_to_device);
         s.commanded_tool.position = s.centre + w.scale * (device_to_assembly * device.position) -

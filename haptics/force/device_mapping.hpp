@@ -26,8 +26,9 @@ struct WorkspaceMap {
     double power_ratio = 1.0;           // power at the device / power at the tool
     double fade = 0.05;                 // s in which forces fade out and in with the clutch
     // s, time constant with which WorkspaceState::centre returns to 0 (absolute mapping, for a tracked hand
-    // whose pose the picture shows). Infinite: `centre` keeps the value that realign() computed (relative
-    // mapping).
+    // whose pose the picture shows), and tool_to_device to the identity while the lever arm is 0: a wrench
+    // keeps the orientation in which the hand has grasped it. Infinite: both keep the values that realign()
+    // computed (relative mapping).
     double return_time = std::numeric_limits<double>::infinity();
 };
 

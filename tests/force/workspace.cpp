@@ -77,6 +77,27 @@ TEST_CASE("WorkspaceMap: the clutch holds the tool, and releasing it moves nothi
     CHECK(moved > 1.0);
 }
 
+TEST_CASE(
+    "WorkspaceMap: an absolute mapping returns to the pose of the hand, a held wrench keeps its grasp") {
+    Random random(5);
+    for (const double lever_arm : {0.0, 0.2}) {
+        CAPTURE(lever_arm);
+        WorkspaceMap w = any_workspace(random);
+        w.scale = 1.0;
+        w.return_time = 0.1;
+        const Pose device{any(random), rotation(any(random))}, tool{any(random), rotation(any(random))};
+        WorkspaceState s;
+        s.lever_arm = lever_arm;
+        realign(w, s, device, tool);
+        CHECK(apart(s.commanded_tool, tool) < 1e-12);
+        for (int i = 0; i < 2000; ++i) (void)to_assembly(w, s, device, false, dt);
+        const Pose hand{w.rotation * device.position, glm::normalize(w.rotation * device.orientation)};
+        CHECK(glm::distance(lever_end(s, s.commanded_tool), hand.position) < 1e-6);
+        const Quat expected = lever_arm == 0.0 ? hand.orientation : tool.orientation;
+        CHECK(glm::length(turn_between(s.commanded_tool.orientation, expected)) < 1e-6);
+    }
+}
+
 TEST_CASE("WorkspaceMap: an invalid sample is passed on and leaves the state unchanged") {
     const WorkspaceMap w;
     WorkspaceState s = align_workspace(w, {}, {Vec3(1, 2, 3), rotation(Vec3(0, 1, 0))});

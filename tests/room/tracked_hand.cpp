@@ -1,0 +1,149 @@
+// The orientation of a tracked hand: what the palm commands, and where the hand is drawn.
+#include <doctest/doctest.h>
+
+#include "content/trainee/settings.hpp"
+#include "engine/base/file.hpp"
+#include "tests/room/immersive_driver.hpp"
+#include "tests/support/folder.hpp"
+#include "tests/support/need.hpp"
+
+using namespace bolt;
+using namespace bolt::trainer;
+using test::HeadlessTrainer;
+
+namespace {
+
+AppOptions first_nut(const test::Folder& folder, xr::Side side) {
+    AppOptions options = test::options("first-nut", false);
+    options.choice.equipment.hand = HandMode::tracked;
+    options.settings_file = folder.path() / "settings.json";
+    content::TraineeSettings settings;
+    settings.language = "en";
+    settings.trainee = "Ada";
+    settings.left_handed = side == xr::Side::left;
+    test::need(write_file(options.settings_file, content::settings_text(settings)));
+    return options;
+}
+
+double degrees_between(const Quat& a, const Quat& b) { return to_degrees(glm::length(turn_between(a, b))); }
+
+// The frame of the drawn hand, in the assembly's.
+struct DrawnHand {
+    Pose frame, palm;
+};
+DrawnHand drawn_hand(const HeadlessTrainer& trainer) {
+    DrawnHand drawn;
+    scene::SceneWorld& world = const_cast<scene::SceneWorld&>(trainer.app().lesson()->workplace.world);
+    world.view<const scene::SkinnedHand, const scene::Transform>().each(
+        [&](ecs::Entity entity, const scene::SkinnedHand& fingers, const scene::Transform& transform) {
+            if (world.find<scene::GhostPart>(entity) != nullptr) return;
+            const glm::dmat4 at(transform.world);
+            drawn.frame = {Vec3(at[3]), glm::quat_cast(glm::dmat3(at))};
+            drawn.palm =
+                drawn.frame * Pose{fingers.shown.position[hand::palm], fingers.shown.rotation[hand::palm]};
+        });
+    return drawn;
+}
+
+// The pose of the joint XR_HAND_JOINT_PALM_EXT (−Z along the fingers, Y out of the back of the hand) at this
+// grip pose, from the text of OpenXR's specification: the grip's Y points from the fingertips to the wrist,
+// its −Z to the thumb, and its X out of a left palm and into a right one.
+Pose palm_joint(const Pose& grip, xr::Side side) {
+    const double back = side == xr::Side::right ? 1.0 : -1.0;
+    const Vec3 x = grip.orientation * Vec3(1.0, 0.0, 0.0), y = grip.orientation * Vec3(0.0, 1.0, 0.0);
+    const glm::dmat3 axes(glm::cross(back * x, y), back * x, y);
+    return {grip.position, glm::normalize(glm::quat_cast(axes))};
+}
+
+// Draws a frame in which hands and head stay, and saves it.
+void save(HeadlessTrainer& trainer, const std::string& name) {
+    trainer.draws = true;
+    trainer.draw_interval = 1;
+    trainer.frame();
+    test::save_eyes(trainer, name);
+    trainer.draws = false;
+}
+
+const Quat any_palm[] = {Quat(1.0, 0.0, 0.0, 0.0), rotation({0.0, to_radians(45.0), 0.0}),
+                         rotation({0.0, to_radians(150.0), 0.0}), rotation({0.9, -0.4, 0.3}),
+                         rotation({-1.2, 0.8, 1.5})};
+
+}  // namespace
+
+TEST_CASE("Tracked hand: an empty hand commands the palm's orientation, and is drawn where the palm is") {
+    for (const xr::Side side : {xr::Side::right, xr::Side::left}) {
+        CAPTURE(side == xr::Side::right);
+        const test::Folder folder;
+        HeadlessTrainer driver(first_nut(folder, side), {test::eye_size(), 0.3F, 0.02});
+        driver.draws = false;
+        driver.immersive = test::standing_user(test::eye_size());
+        driver.frame();
+        test::ImmersiveDriver hands(driver);
+        test::TraineeInRoom trainee(hands, side);
+        const double x = side == xr::Side::right ? 0.3 : -0.3;
+        for (const Quat& turn : any_palm) {
+            CAPTURE(to_degrees(glm::length(rotation_vector(turn))));
+            const Pose palm{{x, 0.45, 0.35}, turn};
+            for (double t = 0.0; t < 1.5; t += driver.step()) trainee.frame(palm, 0.0);
+            // The tool's z axis points back along the fingers, as the palm's Y; its x is the palm's X.
+            const Pose tool = driver.lesson().station->latest.commanded_tool;
+            const Quat expected = turn * glm::angleAxis(-0.5 * pi, Vec3(1.0, 0.0, 0.0));
+            CHECK(degrees_between(tool.orientation, expected) < 2.0);
+            const DrawnHand drawn = drawn_hand(driver);
+            const Pose real = palm_joint(palm, side);
+            CHECK(degrees_between(drawn.palm.orientation, real.orientation) < 3.0);
+            CHECK(glm::distance(drawn.palm.position, real.position) < 0.015);
+        }
+        save(driver, side == xr::Side::right ? "rolled-right" : "rolled-left");
+    }
+}
+
+TEST_CASE("Tracked hand: at its first frame the tool goes to the hand without turning past it") {
+    const test::Folder folder;
+    HeadlessTrainer driver(first_nut(folder, xr::Side::right), {test::eye_size(), 0.3F, 0.02});
+    driver.draws = false;
+    driver.immersive = test::standing_user(test::eye_size());
+    driver.frame();
+    test::ImmersiveDriver hands(driver);
+    test::TraineeInRoom trainee(hands);
+    const Pose palm{{0.3, 0.45, 0.35}, rotation({0.0, to_radians(45.0), 0.0})};
+    const Quat expected = palm.orientation * glm::angleAxis(-0.5 * pi, Vec3(1.0, 0.0, 0.0));
+    for (int i = 0; i < 25; ++i) {
+        trainee.frame(palm, 0.0);
+        const Pose tool = driver.lesson().station->latest.commanded_tool;
+        if (i >= 3) CHECK(degrees_between(tool.orientation, expected) < 5.0);
+    }
+}
+
+TEST_CASE("Tracked hand: at a nut the drawn hand rolls with the wrist") {
+    const test::Folder folder;
+    HeadlessTrainer driver(first_nut(folder, xr::Side::right), {test::eye_size(), 0.3F, 0.02});
+    driver.draws = false;
+    driver.immersive = test::standing_user(test::eye_size());
+    driver.frame();
+    test::ImmersiveDriver hands(driver);
+    test::TraineeInRoom trainee(hands);
+    const session::LessonSession& session = *driver.lesson().session;
+    const Vec3 axis = session.setup().nuts.front().axis;
+    const Vec3 above = servo::nut_centre(session.setup().nuts.front(), 0.0) + 0.03 * axis;
+    // The fingers point down to the nut.
+    const Vec3 y(0.0, 1.0, 0.0);
+    const Quat down = glm::normalize(Quat(1.0 + glm::dot(y, axis), glm::cross(y, axis)));
+    Pose before;
+    for (const double roll : {0.0, 60.0, 120.0}) {
+        CAPTURE(roll);
+        const Quat turned = glm::angleAxis(to_radians(roll), axis) * down;
+        const Vec3 tips = turned * fingertips_at_palm(xr::Side::right).position;
+        for (double t = 0.0; t < 2.0; t += driver.step()) trainee.frame({above - tips, turned}, 0.0);
+        REQUIRE(hand_of(driver.lesson()).nut);
+        const Pose frame = drawn_hand(driver).frame;
+        // The fingers stay around the nut.
+        CHECK(glm::dot(frame.orientation * Vec3(0.0, 0.0, 1.0), axis) > 0.99);
+        if (roll > 0.0) {
+            const Vec3 turn = turn_between(before.orientation, frame.orientation);
+            CHECK(to_degrees(glm::dot(turn, axis)) == doctest::Approx(60.0).epsilon(0.05));
+        }
+        before = frame;
+        save(driver, "roll-" + std::to_string(static_cast<int>(roll)));
+    }
+}
