@@ -118,6 +118,8 @@ std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
     frame.hands = *hands;
     locate(frame);
     if (!session_) return std::nullopt;
+    for (const Side side : {Side::left, Side::right})
+        add_gestures(frame.hands[side], side, frame.view.head, pinches_[static_cast<std::size_t>(side)]);
     frame.events = take_events(frame.timing.display_time);
     return frame;
 }

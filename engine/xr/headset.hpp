@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/xr/input.hpp"
+#include "engine/xr/hand_gestures.hpp"
 #include "engine/xr/session.hpp"
 
 namespace bolt::xr {
@@ -87,6 +87,7 @@ class Headset {
     std::unique_ptr<Runtime> runtime_;
     std::unique_ptr<Session> session_;
     std::unique_ptr<XrInput> input_;
+    std::array<PinchState, 2> pinches_;  // by Side
     std::vector<SessionEvent> events_;
     std::optional<Error> absence_;
     // Error of vibrate(). The session is dropped at the end of the frame, because commands that are recorded

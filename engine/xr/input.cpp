@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "engine/xr/controller_profiles.hpp"
@@ -208,6 +209,19 @@ Status XrInput::read_hand(const FrameTiming& frame, Side side, HandInput& hand) 
     return {};
 }
 
+// Finds out which controllers are in the hands.
+Status XrInput::read_controllers() {
+    for (const Side side : {Side::left, Side::right}) {
+        BOLT_TRY_ASSIGN(const std::string path, profile(side));
+        const auto known = controller_profiles();
+        const auto found = std::find_if(known.begin(), known.end(), [&](const ControllerProfile& controller) {
+            return controller.path == path;
+        });
+        controllers_[static_cast<std::size_t>(side)] = found != known.end() ? &*found : nullptr;
+    }
+    return {};
+}
+
 Result<Hands> XrInput::read(const FrameTiming& frame) {
     Hands hands;
     const XrActiveActionSet active{set_.get(), XR_NULL_PATH};
@@ -217,7 +231,13 @@ Result<Hands> XrInput::read(const FrameTiming& frame) {
     const XrResult synced = xrSyncActions(session_->get(), &sync);
     BOLT_TRY(check(synced, "xrSyncActions"));
     if (synced == XR_SESSION_NOT_FOCUSED) return hands;
-    for (const Side side : {Side::left, Side::right}) BOLT_TRY(read_hand(frame, side, hands[side]));
+    // The event of a change may be lost, so the controllers are queried now and then.
+    constexpr std::uint32_t query_interval = 32;  // frames
+    if (reads_++ % query_interval == 0) BOLT_TRY(read_controllers());
+    for (const Side side : {Side::left, Side::right}) {
+        BOLT_TRY(read_hand(frame, side, hands[side]));
+        hands[side].controller = controllers_[static_cast<std::size_t>(side)];
+    }
     return hands;
 }
 

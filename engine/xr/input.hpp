@@ -30,6 +30,8 @@ struct HandJoint {
 };
 using HandJoints = std::array<HandJoint, hand_joint_count>;
 
+struct ControllerProfile;  // controller_profiles.hpp
+
 // One hand in one frame. Without focus, or without a controller or tracked hand, `active` is false.
 struct HandInput {
     bool active = false;
@@ -42,6 +44,7 @@ struct HandInput {
     bool menu = false;
     bool secondary = false;  // a second button of the hand: lays the wrench down
     std::optional<HandJoints> joints;
+    const ControllerProfile* controller = nullptr;  // null: none, or one that the program does not know
 };
 struct Hands {
     std::array<HandInput, 2> sides;  // by Side
@@ -89,6 +92,7 @@ class XrInput {
     Status suggest_bindings();
     Status attach();
     Status read_hand(const FrameTiming& frame, Side side, HandInput& hand);
+    Status read_controllers();
     Status read_joints(const FrameTiming& frame, Side side, HandInput& hand);
     Result<std::optional<LocatedPose>> locate(XrSpace space, XrTime time) const;
     Result<float> value(XrAction action, Side side) const;
@@ -103,6 +107,8 @@ class XrInput {
     std::array<SpaceHandle, 2> grip_spaces_, aim_spaces_;
     std::array<XrHandTrackerEXT, 2> trackers_{};  // null without hand tracking
     std::vector<std::string> profiles_;
+    std::array<const ControllerProfile*, 2> controllers_{};  // by Side; null: HandInput::controller
+    std::uint32_t reads_ = 0;                                // number of calls of read()
 };
 
 }  // namespace bolt::xr

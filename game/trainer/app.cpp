@@ -7,6 +7,7 @@
 
 #include "game/sound/event_detection.hpp"
 #include "game/trainer/hud.hpp"
+#include "game/trainer/room_bar.hpp"
 #include "game/view/resolution.hpp"
 
 namespace bolt::trainer {
@@ -136,6 +137,16 @@ void App::perform(ScreenAction action) {
             if (screen_ == ShownScreen::menu) tour_requested_ = action == ScreenAction::start_tour;
             start_requested_ = true;
             return;
+        case ScreenAction::pause:
+            active_->clock.paused = true;
+            return;
+        case ScreenAction::turn_left:
+        case ScreenAction::turn_right:
+            room_->turns += action == ScreenAction::turn_left ? -1 : 1;
+            return;
+        case ScreenAction::raise:
+        case ScreenAction::lower:
+            return raise(*room_, action == ScreenAction::raise ? raise_step : -raise_step);
         case ScreenAction::resume:
             active_->clock.paused = false;
             return;
@@ -254,6 +265,8 @@ void App::draw_screen(const ScreenContext& context) {
         perform(draw_instruction_page(context));
     } else if (in_lesson && active_->clock.paused) {
         perform(draw_pause(context, preferences_, active_->session->lesson().mode));
+    } else if (in_lesson && in_room()) {
+        perform(draw_room_bar(context, {controls_text(room_->controller), !room_->arm}));
     } else if (screen_ == ShownScreen::menu) {
         MenuPictures pictures;
         for (const AssemblyEntry& entry : menu_.assemblies)

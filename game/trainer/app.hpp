@@ -144,6 +144,7 @@ class App : public view::WindowContent {
     void follow_touch_check(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);
     void end_touch_check();
     [[nodiscard]] RoomInput room_input(const view::ImmersiveFrame& immersive) const;
+    [[nodiscard]] std::optional<xr::Side> working_hand() const;
     void follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events);
     [[nodiscard]] Pose scene_in_room() const;
     Status draw_pictures(gpu::FrameContext& frame, const view::WindowFrame& window);

@@ -152,6 +152,17 @@ void App::place_in_room(const view::ImmersiveFrame& immersive) {
     }
 }
 
+// The tracked hand that holds the wrench, or is beside the wrench or a nut; none: the hands may point at the
+// panel.
+std::optional<xr::Side> App::working_hand() const {
+    const bool works = active_ && screen_ == ShownScreen::lesson && !active_->clock.paused && !settings_ &&
+                       active_->station && active_->station->tracked;
+    if (!works) return std::nullopt;
+    const StationClient& client = *active_->station;
+    const bool busy = hand_of(*active_).wrench || client.near_wrench || client.near_nut;
+    return busy ? std::optional(client.tracked->side) : std::nullopt;
+}
+
 // Places workpiece and panel, and adds the input of the hands as events.
 void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
     const view::ImmersiveFrame* immersive = window.immersive;
@@ -178,7 +189,8 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     }
     trainer::update(room.vignette, scene_in_room(), window.seconds);
     const HandKeys keys{platform::Key::escape, preferences_.keys.of(Action::tool)};
-    const std::vector<platform::InputEvent> hands = hand_events(room, immersive->hands, keys, window.seconds);
+    const std::vector<platform::InputEvent> hands =
+        hand_events(room, immersive->hands, keys, window.seconds, working_hand());
     events.insert(events.end(), hands.begin(), hands.end());
 }
 

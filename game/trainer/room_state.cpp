@@ -45,9 +45,7 @@ void apply_stick(RoomState& room, const glm::vec2& stick, bool& used, double sec
     }
     if (std::abs(stick.x) < stick_rests) used = false;
     if (std::abs(stick.y) > stick_turns)
-        room.height =
-            std::clamp(room.height + std::copysign(stick_raise * seconds, static_cast<double>(stick.y)),
-                       -max_raise, max_raise);
+        raise(room, std::copysign(stick_raise * seconds, static_cast<double>(stick.y)));
 }
 
 // A ring around the direction of the head, in the picture of an eye: vertices at three angles from it, clear
@@ -145,17 +143,21 @@ std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim) {
     return points * static_cast<double>(panel_scale);
 }
 
+void raise(RoomState& room, double by) { room.height = std::clamp(room.height + by, -max_raise, max_raise); }
+
 std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& hands, const HandKeys& keys,
-                                              double seconds) {
+                                              double seconds, std::optional<xr::Side> working) {
     std::vector<platform::InputEvent> events;
     std::optional<glm::dvec2> at;
     float select = 0.0F;
+    room.controller = nullptr;
     for (std::size_t side = 0; side < hands.sides.size(); ++side) {
         const xr::HandInput& hand = hands.sides[side];
         add_key(events, keys.pause, hand.active && hand.menu, room.menu_down[side]);
         add_key(events, keys.tool, hand.active && hand.secondary, room.secondary_down[side]);
         apply_stick(room, hand.active ? hand.stick : glm::vec2(0.0F), room.stick_used[side], seconds);
-        if (!hand.active || !hand.aim || !room.panel) continue;
+        if (hand.active && hand.controller != nullptr) room.controller = hand.controller;
+        if (!hand.active || !hand.aim || !room.panel || working == static_cast<xr::Side>(side)) continue;
         const auto hit = panel_point(*room.panel, hand.aim->pose);
         // If both hands point at the panel, the one that presses harder counts; if equal, the right one.
         if (!hit || (at && hand.select < select)) continue;

@@ -45,8 +45,9 @@ struct RoomState {
     std::optional<Pose> panel;  // pose of its centre: x right, y up, z towards the user; none: not placed yet
     PanelPointer pointer;
     std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};  // in the last frame, for each hand
-    double height = 0.0;  // m that the user has raised the workpiece
-    int turns = 0;        // steps by which the user has turned it
+    const xr::ControllerProfile* controller = nullptr;  // in a hand in the last frame; null: none is known
+    double height = 0.0;                                // m that the user has raised the workpiece
+    int turns = 0;                                      // steps by which the user has turned it
     // The arm's frame in the room, if the station file has the registration and the arm's scale is 1; else
     // the workpiece stands where the user looks.
     std::optional<Pose> arm;
@@ -93,9 +94,14 @@ struct HandKeys {
     platform::Key pause = platform::Key::escape, tool = platform::Key::unknown;
 };
 // The events of the hands in a frame of `seconds`: pointer and button on the panel, and the keys of the
-// buttons. Updates the room: its pointer, and the turns and the height by the sticks.
+// buttons. Updates the room: its pointer, its controller, and the turns and the height by the sticks. The
+// hand `working` does not point: its ray crosses the panel by chance, and it closes on a tool.
 std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& hands, const HandKeys& keys,
-                                              double seconds);
+                                              double seconds, std::optional<xr::Side> working = {});
+
+// Raises the workpiece by `by` m, within the permitted range.
+void raise(RoomState& room, double by);
+inline constexpr double raise_step = 0.05;  // m, of the panel's buttons
 
 // The position of an event of the pointer, px; null for other events.
 glm::dvec2* pointer_position(platform::InputEvent& event);

@@ -19,7 +19,12 @@ enum class ScreenAction : std::uint8_t {
     none,
     start_lesson,
     start_tour,
+    pause,
     resume,
+    turn_left,  // the workpiece in the room, by a step
+    turn_right,
+    raise,
+    lower,
     undo_step,     // begins the previous step again
     restart_step,  // begins the due step again
     end_lesson,

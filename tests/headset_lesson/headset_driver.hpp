@@ -57,6 +57,8 @@ class HeadsetDriver final : public view::WindowContent, public RoomDriver {
     [[nodiscard]] const trainer::App& app() const override { return app_; }
     [[nodiscard]] double step() const override { return options_.step; }
 
+    void set_draw_interval(double interval) { options_.draw_interval = interval; }
+
     [[nodiscard]] Turns& turns() { return turns_; }
     [[nodiscard]] const HeadsetFrames& frames() const { return frames_; }
     // The hands that the last frame got from the runtime.

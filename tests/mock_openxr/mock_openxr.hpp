@@ -26,7 +26,8 @@
 //   F hand left|right grip|aim POSE
 //   F hand SIDE trigger|squeeze VALUE
 //   F hand SIDE stick X Y
-//   F hand SIDE active|menu|secondary|valid|tracked|joints 0|1     joints: a flat hand around the grip
+//   F hand SIDE active|menu|secondary|valid|tracked|joints|pinch 0|1   joints: a flat hand around the grip;
+//                                                                      pinch: of the joints
 //   F hand SIDE profile /interaction_profiles/...
 //   F event ready|stopping|visible|focused|session_loss|instance_loss|exit|profile|mask|events_lost
 //   F event recentre stage|floor|seated [POSE]     the origin moves to POSE in the old space
@@ -106,6 +107,7 @@ struct Hand {
     bool menu = false;       // the buttons menu, b and y
     bool secondary = false;  // the buttons a and x, and the presses of stick and trackpad
     bool has_joints = false;
+    bool pinches = false;  // of a script's joints
     std::array<Joint, joint_count> joints{};
 };
 enum class Side : std::uint8_t { left, right };

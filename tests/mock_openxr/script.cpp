@@ -55,24 +55,32 @@ void set_tracked(Tracked& at, const std::string& what, Arguments& arguments) {
         at.tracked = arguments.flag();
 }
 
-// A flat hand whose fingers point along −Z of the grip: the palm, the wrist, and five rows of joints.
-void place_joints(Hand& hand) {
+// A flat hand: the palm, the wrist, and five rows of joints, around the grip pose. As the specification has
+// it, the fingers point along −Y of the grip, the thumb is at −Z, and X points out of a left palm and into a
+// right one. A pinch brings the tips of thumb and index finger together.
+void place_joints(Hand& hand, Side side) {
+    const double right = side == Side::right ? 1.0 : -1.0;
+    const glm::dmat3 palm_in_grip(Vec3(0.0, 0.0, right), Vec3(right, 0.0, 0.0), Vec3(0.0, 1.0, 0.0));
+    const Pose palm = hand.grip.pose * Pose{Vec3(0.0), glm::quat_cast(palm_in_grip)};
     for (std::size_t i = 0; i < joint_count; ++i) {
-        Vec3 at(0.0);
+        Vec3 at(0.0);  // x to the right, y out of the back of the hand, −z along the fingers
         if (i == 1) at.z = 0.08;
         if (i >= 2 && i < 6) at = {-0.05, 0.0, 0.04 - 0.03 * static_cast<double>(i - 2)};
         if (i >= 6) {
             const auto finger = static_cast<double>((i - 6) / 5), joint = static_cast<double>((i - 6) % 5);
             at = {-0.03 + 0.02 * finger, 0.0, 0.04 - 0.03 * joint};
         }
-        hand.joints[i] = {{hand.grip.pose * Pose{at}, hand.grip.valid, hand.grip.tracked}, 0.009F};
+        if (hand.pinches && i == 5) at = {-0.035, -0.04, -0.05};
+        if (hand.pinches && i == 10) at = {-0.03, -0.03, -0.055};
+        at.x *= right;
+        hand.joints[i] = {{palm * Pose{at}, hand.grip.valid, hand.grip.tracked}, 0.009F};
     }
 }
 
-void set_hand_value(Hand& hand, const std::string& what, Arguments& arguments) {
+void set_hand_value(Hand& hand, Side side, const std::string& what, Arguments& arguments) {
     if (what == "grip") {
         hand.grip.pose = arguments.pose();
-        if (hand.has_joints) place_joints(hand);
+        if (hand.has_joints) place_joints(hand, side);
     } else if (what == "aim") {
         hand.aim.pose = arguments.pose();
     } else if (what == "trigger") {
@@ -90,14 +98,17 @@ void set_hand_value(Hand& hand, const std::string& what, Arguments& arguments) {
         hand.secondary = arguments.flag();
     } else if (what == "joints") {
         hand.has_joints = arguments.flag();
-        place_joints(hand);
+        place_joints(hand, side);
+    } else if (what == "pinch") {
+        hand.pinches = arguments.flag();
+        place_joints(hand, side);
     } else if (what == "profile") {
         hand.profile = arguments.text();
     } else if (what == "valid" || what == "tracked") {
         set_tracked(hand.grip, what, arguments);
         hand.aim.valid = hand.grip.valid;
         hand.aim.tracked = hand.grip.tracked;
-        if (hand.has_joints) place_joints(hand);
+        if (hand.has_joints) place_joints(hand, side);
     } else {
         unknown(what);
     }
@@ -191,7 +202,7 @@ void run_command(State& s, const Words& words) {
     } else if (command == "hand") {
         const std::size_t side = side_index(arguments.text());
         const std::string& what = arguments.text();
-        set_hand_value(s.hands[side], what, arguments);
+        set_hand_value(s.hands[side], static_cast<Side>(side), what, arguments);
     } else if (command == "event") {
         run_event(s, arguments);
     } else if (command == "headset") {

@@ -147,3 +147,38 @@ TEST_CASE("Tracked hand: at a nut the drawn hand rolls with the wrist") {
         save(driver, "roll-" + std::to_string(static_cast<int>(roll)));
     }
 }
+
+TEST_CASE("Tracked hand: the palm of a hand of joints is that of a controller at the same place") {
+    for (const xr::Side side : {xr::Side::right, xr::Side::left})
+        for (const Quat& turn : any_palm) {
+            const Pose grip{{0.1, 1.2, -0.3}, turn};
+            xr::HandInput hand;
+            hand.active = true;
+            CHECK_FALSE(palm_of(hand, side));
+            hand.joints.emplace();
+            CHECK_FALSE(palm_of(hand, side));  // no joint is valid
+            hand.joints->front() = {palm_joint(grip, side), 0.03, true};
+            const std::optional<Pose> palm = palm_of(hand, side);
+            REQUIRE(palm);
+            CHECK(degrees_between(palm->orientation, grip.orientation) < 1e-6);
+            CHECK(glm::distance(palm->position, grip.position) < 1e-12);
+            hand.active = false;
+            CHECK_FALSE(palm_of(hand, side));
+        }
+}
+
+TEST_CASE("Tracked hand: the hand at work does not press the buttons of the panel behind it") {
+    RoomState room;
+    room.panel = Pose{{0.0, 1.5, -0.75}, {1.0, 0.0, 0.0, 0.0}};
+    xr::Hands hands;
+    for (xr::HandInput& hand : hands.sides) {
+        hand.active = true;
+        hand.aim = xr::LocatedPose{{{0.1, 1.5, 0.0}, {1.0, 0.0, 0.0, 0.0}}, true};
+    }
+    hands[xr::Side::right].select = 1.0F;
+    (void)hand_events(room, hands, {}, 0.01, xr::Side::right);
+    CHECK(room.pointer.on_panel);  // by the left hand
+    CHECK_FALSE(room.pointer.pressed);
+    (void)hand_events(room, hands, {}, 0.01);
+    CHECK(room.pointer.pressed);
+}

@@ -215,6 +215,44 @@ TEST_CASE("Hands: joints are valid one by one") {
     CHECK_FALSE(none.active);
 }
 
+TEST_CASE("Hands: joints alone give a ray away from the shoulder, and a pinch") {
+    const test::MockRuntime mock;
+    test::Program program;
+    REQUIRE(program.connect());
+    mock->set_head({{{0.1, 1.6, 0.2}, rotation({-0.3, 0.0, 0.0})}});
+    const auto show = [&](double distance, bool tip_valid) {
+        mock::Hand hand;
+        hand.active = false;
+        hand.has_joints = true;
+        for (mock::Joint& joint : hand.joints) joint.at.pose.position = {0.3, 1.3, -0.2};
+        hand.joints[5].at.pose.position = {0.3, 1.3 - distance, -0.3};
+        hand.joints[10].at.pose.position = {0.3, 1.3, -0.3};
+        hand.joints[10].at.valid = tip_valid;
+        mock->set_hand(mock::Side::right, hand);
+        return hands_of(program)[xr::Side::right];
+    };
+    const auto pinches = [&](double distance, bool tip_valid = true) {
+        return show(distance, tip_valid).select > 0.5F;
+    };
+    for (int i = 0; i < 5; ++i) (void)show(0.08, true);  // until the session has the focus
+    const xr::HandInput open = show(0.08, true);
+    REQUIRE(open.active);
+    REQUIRE(open.aim);
+    CHECK(glm::distance(open.aim->pose.position, Vec3(0.3, 1.3, -0.2)) < 1e-6);
+    // The right shoulder is beside and below the head; the ray goes on in a straight line from there.
+    const Vec3 along = open.aim->pose.orientation * Vec3(0.0, 0.0, -1.0);
+    const Vec3 shoulder = open.aim->pose.position - 0.5 * along;
+    CHECK(glm::distance(shoulder, Vec3(0.28, 1.35, 0.28)) < 0.06);
+    CHECK(std::abs((open.aim->pose.orientation * Vec3(1.0, 0.0, 0.0)).y) < 1e-9);  // not tilted
+    CHECK_FALSE(pinches(0.03));
+    CHECK(pinches(0.018));
+    CHECK(pinches(0.03));         // hysteresis
+    CHECK(pinches(0.08, false));  // a hidden tip ends nothing
+    CHECK_FALSE(pinches(0.05));
+    CHECK_FALSE(pinches(0.03));
+    CHECK_FALSE(pinches(0.01, false));  // and begins nothing
+}
+
 TEST_CASE("Hands: a headset that tracks no hands still has controllers") {
     for (const bool offered : {false, true}) {
         mock::Config config;
