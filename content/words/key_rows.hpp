@@ -307,6 +307,9 @@ inline constexpr KeyRow key_rows[] = {
     {"room.controls.motion", ""},
     {"room.controls.simple", ""},
     {"room.controls.hands", ""},
+    // The dialog of a lesson whose headset is missing.
+    {"room.lost", ""},
+    {"room.use_mouse", ""},
     {"menu.computer", ""},
     {"menu.files", ""},
     {"files.sessions", "folder"},

@@ -1,5 +1,7 @@
 #include "game/station/lesson_station.hpp"
 
+#include <limits>
+
 #include "game/station/stepped_station.hpp"
 
 namespace bolt::station_setup {
@@ -61,6 +63,7 @@ class FrameSteppedStation final : public SteppedStation {
         driver_ = std::move(driver);
         BOLT_TRY_ASSIGN(auto layout, station::make_layout(options, driver_->description(), {}));
         layout_ = std::move(layout);
+        return_time_ = layout_.workspace.return_time;
         setup_ = options.make_setup(station::limits_of(layout_), 1.0 / options.servo.rate);
         BOLT_TRY_ASSIGN(auto state, options.make_state(setup_));
         servo_ = std::move(state);
@@ -72,6 +75,14 @@ class FrameSteppedStation final : public SteppedStation {
     }
 
     void set_hand_motion(const device::HandMotion& motion) override { arm_.set_motion(motion); }
+    void change_arm(const device::Description& arm, bool absolute) override {
+        // The arms differ in what they sense, not in their limits, so the setup of the servo stays valid.
+        device::Description changed = arm;
+        changed.limits = layout_.mover->limits;
+        layout_.mover = std::move(changed);
+        layout_.workspace.return_time = absolute ? return_time_ : std::numeric_limits<double>::infinity();
+        state_.gripper = {};
+    }
     void step(double seconds) override { run_ticks(seconds); }
     [[nodiscard]] std::uint64_t lost_ticks() const override { return 0; }
     const station::DisplayedHand* hand() override { return nullptr; }
@@ -92,6 +103,7 @@ class FrameSteppedStation final : public SteppedStation {
         (void)driver_->write(done.commands.mover);
     }
 
+    double return_time_ = 0.0;  // s, WorkspaceMap::return_time of the arm that was opened
     device::VirtualTime time_;
     device::SimulatedArm arm_;
     std::unique_ptr<device::DeviceDriver> driver_;

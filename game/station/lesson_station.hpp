@@ -32,6 +32,9 @@ class LessonStation {
     // if the station has no such mover.
     virtual void set_puck_input(const device::PuckInput& /*input*/) {}
     virtual void set_hand_motion(const device::HandMotion& /*motion*/) {}
+    // From now on another hand moves the simulated arm: `arm` as in start_frame_stepped_station().
+    // `absolute`: station::WorkspaceOptions::absolute. Ignored by stations on threads.
+    virtual void change_arm(const device::Description& /*arm*/, bool /*absolute*/) {}
     // Call once a frame with the time since the last one, s. Runs the ticks of that time if the station has
     // no threads.
     virtual void step(double /*seconds*/) {}

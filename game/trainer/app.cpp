@@ -264,7 +264,8 @@ void App::draw_screen(const ScreenContext& context) {
     } else if (shows_instruction()) {
         perform(draw_instruction_page(context));
     } else if (in_lesson && active_->clock.paused) {
-        perform(draw_pause(context, preferences_, active_->session->lesson().mode));
+        const bool lost = missing_headset_.noticed && active_->station && active_->station->tracked;
+        perform(draw_pause(context, preferences_, active_->session->lesson().mode, lost));
     } else if (in_lesson && in_room()) {
         perform(draw_room_bar(context, {controls_text(room_->controller), !room_->arm}));
     } else if (screen_ == ShownScreen::menu) {

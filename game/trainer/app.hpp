@@ -139,6 +139,7 @@ class App : public view::WindowContent {
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
     [[nodiscard]] bool in_room() const { return room_ && room_->surrounds_user; }
     void pause_unseen(bool seen);
+    void follow_headset(const view::ImmersiveFrame* immersive);
     void place_in_room(const view::ImmersiveFrame& immersive);
     void start_registered_arm(const view::ImmersiveFrame& immersive);
     void follow_touch_check(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);
@@ -192,6 +193,13 @@ class App : public view::WindowContent {
     std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson
 
     std::optional<RoomState> room_;  // none until a display has surrounded the user
+    // A headset tracks the hand of the lesson, but is lost, was taken off, or does not show pictures yet.
+    struct MissingHeadset {
+        bool noticed = false;      // since the last frame with it
+        bool paused = false;       // the lesson was paused for that reason
+        bool mouse_plays = false;  // the user goes on without it
+    };
+    MissingHeadset missing_headset_;
 
     std::optional<LessonSender> sender_;  // none if no other process shows walls
     std::uint32_t lesson_number_ = 0;     // counts the lessons of this program

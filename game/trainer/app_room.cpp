@@ -65,6 +65,42 @@ void App::pause_unseen(bool seen) {
     if (std::exchange(room_->paused, false)) paused = false;
 }
 
+// A tracked hand needs its headset. Without one the lesson pauses; if its user resumes it, the mouse moves
+// the hand until the headset is back.
+void App::follow_headset(const view::ImmersiveFrame* immersive) {
+    MissingHeadset& missing = missing_headset_;
+    if (!active_ || screen_ != ShownScreen::lesson || !active_->station) {
+        missing.paused = missing.mouse_plays = false;
+        return;
+    }
+    StationClient& client = *active_->station;
+    bool& paused = active_->clock.paused;
+    const auto pause = [&] {
+        if (!paused) missing.paused = paused = true;
+    };
+    if (client.tracked && immersive == nullptr) {
+        if (!std::exchange(missing.noticed, true)) return pause();
+        if (paused) return;
+        missing = {true, false, true};
+        if (room_) room_->paused = false;
+        give_hand_to_mouse(client);
+        apply_preferences();
+        log("the mouse moves the hand until the headset is back");
+    }
+    if (immersive == nullptr) return;
+    missing.noticed = false;
+    if (!immersive->attentive) {
+        // The window now shows the panel to a user who does not wear the headset yet.
+        if (missing.mouse_plays) pause();
+        return;
+    }
+    if (std::exchange(missing.paused, false)) paused = false;
+    if (!std::exchange(missing.mouse_plays, false)) return;
+    give_hand_to_headset(client, context_->worker.side);
+    apply_preferences();
+    log("the headset is back and tracks the hand");
+}
+
 // Once a lesson: if an arm is registered, sets its pose in the room and begins the touch check, or logs why
 // picture and arm cannot be aligned.
 void App::start_registered_arm(const view::ImmersiveFrame& immersive) {
@@ -167,6 +203,7 @@ std::optional<xr::Side> App::working_hand() const {
 void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
     const view::ImmersiveFrame* immersive = window.immersive;
     pause_unseen(immersive != nullptr && immersive->attentive);
+    follow_headset(immersive);
     if (room_) room_->surrounds_user = false;
     if (immersive == nullptr) return;
     if (!room_) room_.emplace();

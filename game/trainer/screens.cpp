@@ -124,13 +124,16 @@ void draw_settings_file(const ScreenContext& context, const Preferences& prefere
             muted_text);
 }
 
-ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode) {
+ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode,
+                        bool headset_lost) {
     ScreenAction action = ScreenAction::none;
     begin_dialog(context, "##pause", 300.0F * context.scale, 0.94F);
     draw_text(context.words["menu.paused"]);
     ImGui::Separator();
+    if (headset_lost) draw_wrapped(context.words["room.lost"], warning_text);
     if (preferences.file_error != Preferences::FileError::none) draw_settings_file(context, preferences);
-    if (draw_button(context, "menu.go_on")) action = ScreenAction::resume;
+    if (draw_button(context, headset_lost ? words::TextKey("room.use_mouse") : words::TextKey("menu.go_on")))
+        action = ScreenAction::resume;
     if (mode != lesson::Mode::assessment) {
         if (draw_button(context, "menu.undo")) action = ScreenAction::undo_step;
         if (draw_button(context, "menu.restart_step")) action = ScreenAction::restart_step;

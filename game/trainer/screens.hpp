@@ -61,7 +61,9 @@ struct ScreenContext {
     std::optional<std::string>& selected_language;  // receives the language that the user selects
 };
 
-ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode);
+// `headset_lost`: says so, and that the mouse can go on.
+ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode,
+                        bool headset_lost = false);
 struct ResultOptions {
     bool menu = false;   // offers the way back to the menu
     bool tour = false;   // the lesson was the tour

@@ -168,6 +168,19 @@ WorkingHand hand_of(const StationClient& client) {
     return hand;
 }
 
+void give_hand_to_mouse(StationClient& client) {
+    client.tracked.reset();
+    client.dragged.emplace();
+    client.link->change_arm(device::simulated_arm_description(), false);
+}
+
+void give_hand_to_headset(StationClient& client, xr::Side side) {
+    client.dragged.reset();
+    client.tracked.emplace().side = side;
+    client.tool_placed = false;
+    client.link->change_arm(device::tracked_hand_description(), true);
+}
+
 bool needs_dead_man(const station::DeviceLayout& layout) {
     const auto renders = [](const std::optional<device::Description>& d) {
         return d && (station::renders_force(*d) || station::renders_torque(*d));

@@ -141,6 +141,7 @@ class SimulatedArmDevice final : public DeviceDriver {
         commanded_intention_.orientation =
             glm::normalize(motion.turned * glm::conjugate(last_.turned) * commanded_intention_.orientation);
         if (motion.target && !last_.target) jump(*motion.target);
+        if (!motion.target && last_.target) relax();
         last_ = motion;
     }
 

@@ -13,6 +13,7 @@
 #include "tests/support/folder.hpp"
 #include "tests/support/need.hpp"
 #include "tests/trainer/one_joint.hpp"
+#include "tests/trainer_app/free_hand_user.hpp"
 
 using namespace bolt;
 using namespace bolt::trainer;
@@ -224,6 +225,41 @@ TEST_CASE("Room: a lesson pauses while its user does not see it, and when the he
     CHECK_FALSE(driver.lesson().clock.paused);
     driver.frame();
     CHECK_FALSE(driver.lesson().clock.paused);
+}
+
+TEST_CASE("Room: after its headset is lost, a lesson is finished with the mouse") {
+    HeadlessTrainer driver(tracked_hand("first-nut"), {{320, 180}, 0.3F, 0.05});
+    driver.immersive = test::standing_user(eye_size);
+    driver.frame();
+    test::ImmersiveDriver hands(driver);
+    test::TraineeInRoom trainee(hands);
+    trainee.hold_still(1.0, 0.0);
+    REQUIRE(driver.lesson().station->tracked);
+    driver.immersive.reset();
+    driver.draw_interval = 1;
+    driver.frame();
+    driver.frame();
+    REQUIRE(driver.lesson().clock.paused);
+    const auto widgets = driver.app().drawn_widgets();
+    const auto button = std::find_if(widgets.begin(), widgets.end(), [](const DrawnWidget& widget) {
+        return widget.label == words::TextKey("room.use_mouse");
+    });
+    REQUIRE(button != widgets.end());
+    const glm::dvec2 at(button->middle);
+    driver.move(at);
+    driver.press(at);
+    driver.release(at);
+    driver.frame();
+    driver.frame();
+    driver.draw_interval = 5;
+    CHECK_FALSE(driver.lesson().clock.paused);
+    REQUIRE(driver.lesson().station->dragged);
+    CHECK_FALSE(driver.lesson().station->tracked);
+    test::FreeHandUser user(driver);
+    user.play(120.0);
+    CHECK(driver.app().screen() == ShownScreen::result);
+    REQUIRE(driver.outcome());
+    CHECK(driver.outcome()->result.joints.front().overall == lesson::Verdict::ok);
 }
 
 TEST_CASE("Room: the stick turns the workpiece by a step, once, and raises it as fast in every frame rate") {
