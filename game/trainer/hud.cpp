@@ -274,8 +274,10 @@ void draw_step(const ActiveLesson& active, const words::Words& w, const glm::dve
         if (!active.view.head)
             for (const auto& [key, action] : {std::pair{words::TextKey("hud.ask"), Action::hint},
                                               std::pair{words::TextKey("hud.find_view"), Action::find_view}})
-                lines.push_back(
-                    {words::format_text(w, key, {{"control", key_name(active.input.keys, action)}}), grey});
+                if (action != Action::find_view || active.view.help)
+                    lines.push_back(
+                        {words::format_text(w, key, {{"control", key_name(active.input.keys, action)}}),
+                         grey});
     }
     text_panel("##step", {12.0F * scale, 12.0F * scale}, {0.0F, 0.0F}, lines, static_cast<float>(size.x));
 }
