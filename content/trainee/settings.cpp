@@ -127,7 +127,7 @@ Result<TraineeSettings> parse_settings(std::string_view text, const std::string&
         "settings file",
         settings_format,
         {"trainee", "language", "volume", "vibration", "captions", "palette", "left_handed", "force_scale",
-         "force_arrow", "surroundings", "vignette", "seated_height_m", "law", "keys"}};
+         "force_arrow", "surroundings", "vignette", "seated_height_m", "arm_reach_m", "law", "keys"}};
     return parse_small_file(text, file, head, [&known](MemberReader& members, const json& root) {
         TraineeSettings read;
         read.trainee = members.text(root, "", "trainee", max_trainee_name_size);
@@ -142,6 +142,8 @@ Result<TraineeSettings> parse_settings(std::string_view text, const std::string&
         if (root.contains("surroundings")) read.passthrough = members.flag(root, "", "surroundings");
         if (root.contains("vignette")) read.vignette = members.flag(root, "", "vignette");
         read_seat(members, root, read);
+        if (root.contains("arm_reach_m"))
+            read.arm_reach = members.number(root, "", "arm_reach_m", min_arm_reach, max_arm_reach);
         read_law(members, root, read);
         read_keys(members, root, read, known);
         return read;
@@ -164,6 +166,7 @@ std::string settings_text(const TraineeSettings& settings) {
     if (!settings.vignette) root["vignette"] = false;
     root["seated_height_m"] = settings.seated_eye_height ? nlohmann::ordered_json(*settings.seated_eye_height)
                                                          : nlohmann::ordered_json(nullptr);
+    if (settings.arm_reach != usual_arm_reach) root["arm_reach_m"] = settings.arm_reach;
     if (!settings.law.empty()) root["law"] = settings.law;
     root["keys"] = settings.keys;
     // Names are user input: bytes that are not UTF-8 are replaced, because they would make the file

@@ -31,8 +31,8 @@ inline constexpr std::size_t max_trainee_name_size = 64;         // bytes
 //    "law": "published",
 //    "keys": {"tool": "T", "hint": "F1"}}
 //
-// "law" is omitted until the trainee has chosen one, "force_arrow" and "vignette" while they are true,
-// "surroundings" while it is false, and "vibration" while it is 1.
+// "arm_reach_m" is omitted while it is the usual one, "law" until the trainee has chosen one, "force_arrow"
+// and "vignette" while they are true, "surroundings" while it is false, and "vibration" while it is 1.
 
 // `distinct`: colours that people with red-green colour blindness can distinguish.
 enum class PaletteKind : std::uint8_t { usual, distinct };
@@ -40,6 +40,9 @@ enum class PaletteKind : std::uint8_t { usual, distinct };
 inline constexpr double min_force_scale = 0.1;
 inline constexpr double min_seated_eye_height = 0.9,
                         max_seated_eye_height = 1.5;  // m, of the eyes above the floor
+// m, from the shoulder to the grip of the stretched arm. The usual one is about the median of adults (DIN
+// 33402-2).
+inline constexpr double min_arm_reach = 0.45, usual_arm_reach = 0.69, max_arm_reach = 0.9;
 
 struct TraineeSettings {
     std::string trainee;     // the person's code; in files of older programs the typed name
@@ -55,6 +58,7 @@ struct TraineeSettings {
     bool passthrough = false;
     bool vignette = true;                     // a headset darkens the edge of the view while the scene moves
     std::optional<double> seated_eye_height;  // m, of the eyes above the floor; none: the trainee stands
+    double arm_reach = usual_arm_reach;       // m; in a room the workpiece stands as far away as it reaches
     std::string law;                          // "mechanistic", "published"; empty: the assembly's own
     std::map<std::string, std::string> keys;  // by action; other actions have their default keys
 };

@@ -370,6 +370,7 @@ inline constexpr KeyRow key_rows[] = {
     {"viewer.differs", ""},
     // Settings, and the actions of keys.
     {"settings.seated_height", ""},
+    {"settings.arm_reach", ""},
     {"settings.usual_keys", ""},
     {"settings.press_key", "action"},
     {"settings.key_swapped", "key action other"},

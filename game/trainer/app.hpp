@@ -8,6 +8,7 @@
 #include "game/trainer/arm_screen.hpp"
 #include "game/trainer/lesson_start.hpp"
 #include "game/trainer/menu.hpp"
+#include "game/trainer/room_hands.hpp"
 #include "game/trainer/room_state.hpp"
 #include "game/trainer/settings_screen.hpp"
 #include "game/trainer/shared_lesson.hpp"
@@ -104,6 +105,7 @@ class App : public view::WindowContent {
     [[nodiscard]] const std::optional<Error>& start_error() const { return menu_.start_error; }
     [[nodiscard]] const ArmScreen& arm_screen() const { return arm_screen_; }
     [[nodiscard]] const std::optional<RoomState>& room() const { return room_; }
+    [[nodiscard]] const RoomHandModels* room_hands() const { return gpu_->room_hands.get(); }
     [[nodiscard]] const std::optional<StudyScreen>& study() const { return study_; }
 
   private:
@@ -112,7 +114,8 @@ class App : public view::WindowContent {
         std::unique_ptr<ui::Ui> ui;
         std::unique_ptr<scene::GpuLessonModels> models;
         std::optional<text::Fonts> fonts;
-        std::optional<render::PanelPicture> panel;  // none before the first immersive frame
+        std::unique_ptr<RoomHandModels> room_hands;  // null before the first frame that tracks hands
+        std::optional<render::PanelPicture> panel;   // none before the first immersive frame
         // The window's picture, if the scene was drawn with fewer pixels.
         std::optional<render::PanelPicture> enlarged;
         bool shows_enlarged = false;
@@ -152,6 +155,7 @@ class App : public view::WindowContent {
     Status enlarge_scene(gpu::FrameContext& frame, VkExtent2D size);
     Status draw_interface(gpu::FrameContext& frame, const render::ImageLayer& picture);
     Status draw_panel(gpu::FrameContext& frame);
+    Status draw_hands(render::Scene& scene, const view::ImmersiveFrame& immersive);
     Status draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& immersive);
     void draw_screen(const ScreenContext& context);
     void press_start();

@@ -179,11 +179,10 @@ void App::place_in_room(const view::ImmersiveFrame& immersive) {
     start_registered_arm(immersive);
     if (placed && active_ && !room.workpiece) {
         const render::BoundingBox& box = active_->workplace.workpiece;
-        room.workpiece = place_workpiece(
-            viewer, box,
-            immersive.floor_known
-                ? std::nullopt
-                : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
+        const content::TraineeSettings& settings = preferences_.settings;
+        UserBody user{settings.seated_eye_height, settings.arm_reach};
+        if (!user.seated_eyes && !immersive.floor_known) user.seated_eyes = default_seated_eyes;
+        room.workpiece = place_workpiece(viewer, box, user);
         if (immersive.shows) room.workpiece = moved_into_view(*room.workpiece, box, viewer, immersive.shows);
     }
 }
@@ -231,6 +230,22 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     events.insert(events.end(), hands.begin(), hands.end());
 }
 
+// Adds hands and rays to the scene, where the lesson does not draw them.
+Status App::draw_hands(render::Scene& scene, const view::ImmersiveFrame& immersive) {
+    if (!immersive.tracks_hands || !room_) return {};
+    if (!gpu_->room_hands) {
+        BOLT_TRY_ASSIGN(auto models, load_room_hands(*gpu_->context->device));
+        gpu_->room_hands = std::move(models);
+    }
+    const bool plays = active_ && screen_ == ShownScreen::lesson && !active_->clock.paused && !settings_;
+    ShownHands shown{!plays, {}};
+    if (plays && active_->station && active_->station->tracked)
+        shown.by_lesson = active_->station->tracked->side;
+    if (!active_) add_menu_light(scene);
+    add_room_hands(scene, *gpu_->room_hands, immersive.hands, *room_, scene_in_room(), shown);
+    return {};
+}
+
 Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& immersive) {
     const Pose place = scene_in_room();
     render::Scene scene = active_ ? active_->scene : empty_room();
@@ -241,6 +256,7 @@ Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& imme
                 return object.model == &gpu_->models->workshop;
             });
     }
+    BOLT_TRY(draw_hands(scene, immersive));
     if (in_room() && room_->panel)
         scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
     BOLT_TRY(draw_in_room(*gpu_->context->renderer, frame, scene, place, immersive));

@@ -51,6 +51,7 @@ ScreenAction draw_room_bar(const ScreenContext& context, const RoomBar& bar) {
         button("room.lower", half, ScreenAction::lower);
     }
     draw_wrapped(context.words[bar.controls], muted_text, bar_width * scale);
+    note_widget(context, bar.controls);
     ImGui::End();
     return action;
 }

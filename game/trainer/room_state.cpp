@@ -11,7 +11,8 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double head_to_workpiece = 0.40;  // m, horizontally, to the front of the workpiece
+// m, horizontally, to the front of the workpiece, for a user with the usual reach.
+constexpr double head_to_workpiece = 0.40;
 constexpr double panel_below_eyes = 0.02, panel_least_height = 0.9;  // m
 // Deflections of a stick: above the first it turns or raises the workpiece, below the second it is at rest.
 constexpr float stick_turns = 0.7F, stick_rests = 0.3F;
@@ -80,13 +81,14 @@ render::Overlay vignette_ring(const render::Eye& eye, const Quat& head, VkExtent
 
 }  // namespace
 
-Pose place_workpiece(const Pose& head, const render::BoundingBox& box, std::optional<double> seated_eyes) {
+Pose place_workpiece(const Pose& head, const render::BoundingBox& box, const UserBody& user) {
     const Quat turn = heading(head);
-    const Vec3 front(0.5 * static_cast<double>(box.low.x + box.high.x), 0.0,
-                     static_cast<double>(box.high.z) + head_to_workpiece);
+    const Vec3 front(
+        0.5 * static_cast<double>(box.low.x + box.high.x), 0.0,
+        static_cast<double>(box.high.z) + head_to_workpiece * user.arm_reach / content::usual_arm_reach);
     Pose place{head.position - turn * front, turn};
     const double floor = static_cast<double>(box.low.y) - scene::floor_below_plate;
-    place.position.y = (seated_eyes ? head.position.y - *seated_eyes : 0.0) - floor;
+    place.position.y = (user.seated_eyes ? head.position.y - *user.seated_eyes : 0.0) - floor;
     return place;
 }
 
@@ -143,6 +145,11 @@ std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim) {
     return points * static_cast<double>(panel_scale);
 }
 
+Vec3 point_on_panel(const Pose& panel, const glm::dvec2& at) {
+    const glm::dvec2 from_middle = at / static_cast<double>(panel_scale) - 0.5 * panel_points;
+    return panel * Vec3(from_middle.x * point_size, -from_middle.y * point_size, 0.0);
+}
+
 void raise(RoomState& room, double by) { room.height = std::clamp(room.height + by, -max_raise, max_raise); }
 
 std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& hands, const HandKeys& keys,
@@ -151,6 +158,7 @@ std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& 
     std::optional<glm::dvec2> at;
     float select = 0.0F;
     room.controller = nullptr;
+    std::optional<xr::Side> by;
     for (std::size_t side = 0; side < hands.sides.size(); ++side) {
         const xr::HandInput& hand = hands.sides[side];
         add_key(events, keys.pause, hand.active && hand.menu, room.menu_down[side]);
@@ -162,10 +170,12 @@ std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& 
         // If both hands point at the panel, the one that presses harder counts; if equal, the right one.
         if (!hit || (at && hand.select < select)) continue;
         at = hit;
+        by = static_cast<xr::Side>(side);
         select = hand.select;
     }
     PanelPointer& pointer = room.pointer;
     pointer.on_panel = at.has_value();
+    pointer.side = by;
     if (at) {
         pointer.at = *at;
         events.emplace_back(platform::CursorEvent{*at});

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "content/trainee/settings.hpp"
 #include "engine/platform/input.hpp"
 #include "engine/render/gpu_model.hpp"
 #include "engine/render/renderer.hpp"
@@ -29,6 +30,7 @@ struct PanelPointer {
     glm::dvec2 at{0.0};  // px from the upper left corner; keeps the last position
     bool on_panel = false;
     bool pressed = false;
+    std::optional<xr::Side> side;  // of the hand that points at it in this frame
 };
 
 // Darkens the edge of the view while the scene moves although the head does not: motion at the edge of the
@@ -63,9 +65,14 @@ struct RoomState {
 
 // The functions below take the bounding box of the workpiece as `box`, in the assembly's frame.
 
+// The body of the user, as far as the place of the workpiece depends on it.
+struct UserBody {
+    std::optional<double> seated_eyes;  // m, from the floor to the eyes; none: the floor is that of the room
+    double arm_reach = content::usual_arm_reach;
+};
 // The pose of the workpiece in front of a user who looks straight ahead. Its bench stands on the floor of the
-// room, or for a seated user `seated_eyes` m below the eyes.
-Pose place_workpiece(const Pose& head, const render::BoundingBox& box, std::optional<double> seated_eyes);
+// room, or for a seated user UserBody::seated_eyes below the eyes. Its distance is proportional to the reach.
+Pose place_workpiece(const Pose& head, const render::BoundingBox& box, const UserBody& user);
 
 // The pose of the workpiece, moved away from the head by up to 2.5 m until the display shows most corners of
 // the box.
@@ -88,6 +95,9 @@ inline Pose registered_scene(const Pose& room_from_arm, const Pose& arm_in_scene
 
 // Where a ray along −z of `aim` meets the panel, px; none: it does not.
 std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim);
+
+// The point of the panel at `at` (px, as panel_point() returns it), m in the room.
+Vec3 point_on_panel(const Pose& panel, const glm::dvec2& at);
 
 // The keys that controller buttons trigger.
 struct HandKeys {

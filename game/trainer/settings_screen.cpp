@@ -117,6 +117,9 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     checkbox("menu.surroundings", settings.passthrough);
     checkbox("menu.vignette", settings.vignette);
     ImGui::Columns(1);
+    draw_slider(words["settings.arm_reach"].c_str(), settings.arm_reach,
+                {content::min_arm_reach, content::max_arm_reach, "%.2f m", 1.0});
+    note_widget(context, "settings.arm_reach");
     if (settings.seated_eye_height) {
         draw_slider(words["settings.seated_height"].c_str(), *settings.seated_eye_height,
                     {content::min_seated_eye_height, content::max_seated_eye_height, "%.2f m", 1.0});

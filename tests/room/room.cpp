@@ -60,6 +60,31 @@ TEST_CASE("Room: workpiece and panel stand in front of the user, and stay when t
     test::save_eyes(driver, "lesson");
 }
 
+TEST_CASE("Room: the workpiece is within reach of the user's arm, and at the height for seated eyes") {
+    for (const auto& [reach, seat] : {std::pair{0.46, std::optional<double>()},
+                                      {0.69, std::optional<double>()},
+                                      {0.69, std::optional(1.0)}}) {
+        CAPTURE(reach);
+        const test::Folder folder;
+        HeadlessTrainer driver(with_settings(tracked_hand("first-nut"), folder,
+                                             [&](content::TraineeSettings& s) {
+                                                 s.arm_reach = reach;
+                                                 s.seated_eye_height = seat;
+                                             }),
+                               {eye_size, 0.3F, 0.02});
+        driver.draws = false;
+        driver.immersive = test::standing_user(eye_size);
+        driver.frame();
+        REQUIRE(driver.app().room()->workpiece);
+        const Pose place = *driver.app().room()->workpiece;
+        const render::BoundingBox& box = driver.lesson().workplace.workpiece;
+        const Vec3 front = place * Vec3(0.5F * (box.low.x + box.high.x), box.low.y, box.high.z);
+        CHECK(-front.z == doctest::Approx(0.40 * reach / 0.69).epsilon(1e-3));
+        const double floor = front.y - scene::floor_below_plate;
+        CHECK(floor == doctest::Approx(seat ? 1.65 - *seat : 0.0));
+    }
+}
+
 TEST_CASE("Room: the trainee's setting shows the real room in place of the workshop, if the headset can") {
     const test::Folder folder;
     HeadlessTrainer driver(with_settings(tracked_hand("cover-m8"), folder,

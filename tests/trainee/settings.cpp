@@ -39,6 +39,7 @@ TraineeSettings example(std::uint64_t seed) {
     s.force_arrow = seed % 3 != 0;
     s.passthrough = seed % 5 == 0;
     s.vignette = seed % 7 != 0;
+    s.arm_reach = seed % 5 == 3 ? 0.5 + 0.01 * static_cast<double>(seed % 30) : usual_arm_reach;
     if (seed % 4 == 1) s.vibration = random.uniform();
     return s;
 }
@@ -62,6 +63,7 @@ TEST_CASE("Settings: writing and reading round-trips to the last bit") {
         CHECK(read->force_arrow == s.force_arrow);
         CHECK(read->passthrough == s.passthrough);
         CHECK(read->vignette == s.vignette);
+        CHECK(read->arm_reach == s.arm_reach);
         CHECK(read->seated_eye_height == s.seated_eye_height);
         CHECK(read->law == s.law);
         CHECK(read->keys == s.keys);
