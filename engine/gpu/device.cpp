@@ -306,7 +306,7 @@ Result<DeviceSurvey> survey_devices(const Instance& instance, const DeviceOption
 
 namespace {
 
-// Fails if no device can be used, or if the headset's device cannot be used.
+// Fails if no device can be used, or if the headset's device cannot be used or is not the wanted one.
 Result<std::size_t> choose(const Instance& instance, const DeviceOptions& options, DeviceSurvey& survey) {
     if (options.creator != nullptr) {
         BOLT_TRY_ASSIGN(const auto required, options.creator->choose_gpu(instance.get()));
@@ -314,9 +314,11 @@ Result<std::size_t> choose(const Instance& instance, const DeviceOptions& option
         if (at == survey.physical.end())
             return fail(ErrorCode::no_device, "the headset is connected to a GPU that Vulkan does not list");
         const auto index = static_cast<std::size_t>(at - survey.physical.begin());
-        if (const std::string reason = unusable_reason(survey.candidates[index], {}); !reason.empty())
+        if (const std::string reason = unusable_reason(survey.candidates[index], options.wanted);
+            !reason.empty())
             return fail(ErrorCode::no_device,
-                        fmt::format("the headset's GPU, {}, {}", survey.candidates[index].name, reason));
+                        fmt::format("the headset's GPU, {}, {}", survey.candidates[index].name, reason),
+                        "a headset on the GPU of the window");
         return index;
     }
     if (survey.choice.index < 0)

@@ -114,8 +114,8 @@ DeviceChoice choose_device(std::span<const DeviceCandidate> candidates, const st
 struct DeviceOptions {
     std::string wanted;                     // part of a device name; empty: choose the fastest device
     VkSurfaceKHR surface = VK_NULL_HANDLE;  // the device must be able to present to it; null: offscreen
-    // Chooses the GPU and creates the device. Null: the device is created directly. Its choice has precedence
-    // over `wanted`.
+    // Chooses the GPU and creates the device. Null: the device is created directly. If its choice does not
+    // match `wanted` or cannot present to `surface`, the creation fails.
     VulkanCreator* creator = nullptr;
 };
 

@@ -42,6 +42,13 @@ class FrameWaiter {
         return answer_;
     }
 
+    // Drops the answer to the last request. Returns true if it has not come after `timeout` s.
+    bool waits(double timeout) {
+        (void)take(timeout);
+        const std::lock_guard lock(mutex_);
+        return phase_ == Phase::waiting;
+    }
+
     // Ends the thread. Returns false if it is still in the runtime after the timeout.
     bool stop(double timeout) {
         std::unique_lock lock(mutex_);

@@ -14,6 +14,11 @@ namespace {
 // s until the next search: short while no headset is found; longer after each session that cannot be started,
 // because each attempt creates all objects on the GPU again.
 constexpr double short_interval = 1.0, longest_interval = 60.0;
+constexpr double search_timeout = 10.0;  // s, of a search that the program waits for
+// s, for which the program waits for the thread of a lost headset: about a frame. A runtime that hangs keeps
+// it longer; the lesson does not wait for that.
+constexpr double lost_wait = 0.03;
+constexpr std::chrono::seconds retired_timeout{2};
 constexpr double exit_timeout = 2.0;  // s in which the session passes through its last states
 
 }  // namespace
@@ -22,20 +27,39 @@ void Headset::log(const std::string& line) const {
     if (options_.log) options_.log(line);
 }
 
-bool Headset::find(double now) {
-    if (runtime_ || exit_requested_ || (last_search_ && now - *last_search_ < search_interval_)) return false;
+bool Headset::search_due(double now) {
+    finish_retired();
+    if (runtime_ || retired_ || search_.runs() || exit_requested_) return false;
+    if (last_search_ && now - *last_search_ < search_interval_) return false;
     last_search_ = now;
-    Result<std::unique_ptr<Runtime>> found = Runtime::open();
-    if (!found) {
+    return true;
+}
+
+bool Headset::take_found(double timeout) {
+    std::optional<Result<std::unique_ptr<Runtime>>> found = search_.take(timeout);
+    if (!found) return false;
+    if (!*found) {
+        const Error& error = found->error();
         // Log the same error once, not every second.
-        if (!absence_ || absence_->message() != found.error().message()) log(found.error().message());
-        absence_ = found.error();
+        if (!absence_ || absence_->message() != error.message()) log(error.message());
+        absence_ = error;
         return false;
     }
-    runtime_ = std::move(*found);
+    runtime_ = std::move(**found);
     absence_.reset();
-    log(fmt::format("headset: {} with {}", runtime_->headset(), runtime_->name()));
+    if (refusal_.empty()) log(fmt::format("headset: {} with {}", runtime_->headset(), runtime_->name()));
     return true;
+}
+
+bool Headset::find(double now) {
+    if (!search_due(now)) return false;
+    search_.start(now);
+    return take_found(search_timeout);
+}
+
+bool Headset::find_in_background(double now) {
+    if (search_due(now)) search_.start(now);
+    return take_found(0.0);
 }
 
 bool Headset::drop_on_error(const Status& status) {
@@ -49,29 +73,50 @@ bool Headset::drop_on_error(const Status& status) {
 void Headset::drop() {
     if (session_ && session_->counts().begun > 0)
         log(fmt::format("headset: {}", describe(session_->counts())));
-    if (session_ && !session_->stop()) (void)input_.release();
+    events_.clear();
+    pending_error_.reset();
+    if (session_ && !session_->stop(lost_wait)) {
+        retired_.emplace(Retired{std::move(runtime_), std::move(input_), std::move(session_),
+                                 std::chrono::steady_clock::now()});
+        return;
+    }
     input_.reset();
     session_.reset();
     runtime_.reset();
-    events_.clear();
-    pending_error_.reset();
+}
+
+// Destroys a retired headset if its thread has returned. After `retired_timeout` it is abandoned.
+void Headset::finish_retired() {
+    if (!retired_) return;
+    const bool finished = retired_->session->stop(0.0);
+    if (!finished && std::chrono::steady_clock::now() - retired_->since < retired_timeout) return;
+    if (!finished) {
+        retired_->session->abandon();
+        (void)retired_->input.release();
+    }
+    retired_->input.reset();
+    retired_->session.reset();
+    retired_.reset();
+}
+
+void Headset::refuse(const Error& error) {
+    search_interval_ = std::min(2.0 * search_interval_, longest_interval);
+    absence_ = error;
+    if (std::exchange(refusal_, error.message()) != error.message())
+        log(fmt::format("the headset cannot be used, and the window is used without it: {}",
+                        error.message()));
+    drop();
 }
 
 void Headset::begin(gpu::Device& device) {
     Result<std::unique_ptr<Session>> session = Session::create(*runtime_, device, options_.session);
-    search_interval_ = std::min(2.0 * search_interval_, longest_interval);
-    if (!session) {
-        (void)drop_on_error(fail(session.error()));
-        return;
-    }
+    if (!session) return refuse(session.error());
     session_ = std::move(*session);
     Result<std::unique_ptr<XrInput>> input = XrInput::create(*session_, options_.names);
-    if (!input) {
-        (void)drop_on_error(fail(input.error()));
-        return;
-    }
+    if (!input) return refuse(input.error());
     input_ = std::move(*input);
     search_interval_ = short_interval;
+    refusal_.clear();
     log(fmt::format("headset: {} eye(s) of {}x{} pixels, poses relative to the {}{}",
                     runtime_->views().size(), session_->extent().width, session_->extent().height,
                     name(session_->base_space()), session_->uses_depth() ? ", with depth" : ""));
@@ -90,9 +135,15 @@ void Headset::end() {
         }
     }
     drop();
+    while (retired_) {
+        finish_retired();
+        if (retired_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    search_.stop();
 }
 
 std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
+    finish_retired();
     if (pending_error_) (void)drop_on_error(fail(*std::exchange(pending_error_, std::nullopt)));
     if (!session_ || !drop_on_error(session_->poll(events_))) return std::nullopt;
     if (session_->ended()) {

@@ -3,6 +3,7 @@
 // for which Vulkan's instance and device must be created again.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,6 +11,8 @@
 #include <vector>
 
 #include "engine/xr/hand_gestures.hpp"
+#include "engine/xr/headset_search.hpp"
+#include "engine/xr/input.hpp"
 #include "engine/xr/session.hpp"
 
 namespace bolt::xr {
@@ -25,7 +28,7 @@ struct HeadsetFrame {
     FrameTiming timing;
     HeadView view;  // without eyes: nothing can be drawn
     Hands hands;
-    bool focused = false;      // false: pause the lesson, output no force, hide the hands
+    bool focused = false;      // Session::focused(); false: pause the lesson, output no force, hide the hands
     bool passthrough = false;  // set by the caller; see Session::Drawn
     // Events since the last frame. Recentred comes with the first frame whose poses are in the new space.
     std::vector<SessionEvent> events;
@@ -42,14 +45,20 @@ class Headset {
     // be started. Returns true if one was found. Then destroy all Vulkan objects, create them with creator(),
     // and call begin().
     bool find(double now);
+    // As find(), but the search runs on a thread of its own: returns true some calls later. It never waits
+    // for the runtime.
+    bool find_in_background(double now);
     // The reason why there is no headset; none: there is one.
     [[nodiscard]] const std::optional<Error>& absence() const { return absence_; }
     // Creates Vulkan's instance and device for the headset; null: none was found.
     [[nodiscard]] gpu::VulkanCreator* creator() const { return runtime_.get(); }
 
     // Starts the session, with a device that creator() created and that must outlive it. If this fails, the
-    // headset is absent.
+    // headset is refused.
     void begin(gpu::Device& device);
+    // Call it if creator() failed, or what it made cannot be used. The headset is absent then, and is
+    // searched again later. The same error is logged once.
+    void refuse(const Error& error);
     // Ends the session in order, and releases the runtime. Call it before the device is destroyed.
     void end();
 
@@ -81,6 +90,10 @@ class Headset {
     // Returns true if `status` is a success; otherwise drops the headset.
     bool drop_on_error(const Status& status);
     void drop();
+    // Returns true if a search is due.
+    [[nodiscard]] bool search_due(double now);
+    bool take_found(double timeout);
+    void finish_retired();
     std::vector<SessionEvent> take_events(XrTime time);
 
     HeadsetOptions options_;
@@ -88,6 +101,15 @@ class Headset {
     std::unique_ptr<Session> session_;
     std::unique_ptr<XrInput> input_;
     std::array<PinchState, 2> pinches_;  // by Side
+    // A lost headset, whose thread has not returned from the runtime yet; destroyed when it has.
+    struct Retired {
+        std::unique_ptr<Runtime> runtime;
+        std::unique_ptr<XrInput> input;
+        std::unique_ptr<Session> session;
+        std::chrono::steady_clock::time_point since;
+    };
+    std::optional<Retired> retired_;
+    HeadsetSearch search_;
     std::vector<SessionEvent> events_;
     std::optional<Error> absence_;
     // Error of vibrate(). The session is dropped at the end of the frame, because commands that are recorded
@@ -95,6 +117,7 @@ class Headset {
     std::optional<Error> pending_error_;
     std::optional<double> last_search_;
     double search_interval_ = 1.0;  // s
+    std::string refusal_;           // why the last headset that was found could not be used; empty: it could
     bool exit_requested_ = false;
 };
 

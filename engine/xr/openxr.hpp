@@ -30,6 +30,10 @@ std::string_view name(XrResult result);
 // session was lost, after which only destroying it succeeds.
 Status check(XrResult result, std::string_view function);
 
+// Keeps the loader from printing its own messages to stderr, in addition to the results that are reported
+// here.
+void quiet_loader();
+
 // Return the extensions that the runtime offers (fails with ErrorCode::no_device if there is no runtime), and
 // the description of this program, without extensions.
 Result<std::vector<std::string>> offered_extensions();
@@ -78,6 +82,22 @@ using SessionHandle = UniqueHandle<XrSession, &xrDestroySession>;
 using SpaceHandle = UniqueHandle<XrSpace, &xrDestroySpace>;
 using SwapchainHandle = UniqueHandle<XrSwapchain, &xrDestroySwapchain>;
 using ActionSetHandle = UniqueHandle<XrActionSet, &xrDestroyActionSet>;
+
+// XR_EXT_user_presence, which is newer than the headers of Debian 12.
+inline constexpr const char* user_presence_extension = "XR_EXT_user_presence";
+inline constexpr auto user_presence_changed = static_cast<XrStructureType>(1000470000),
+                      user_presence_properties = static_cast<XrStructureType>(1000470001);
+struct UserPresenceChanged {
+    XrStructureType type = user_presence_changed;
+    const void* next = nullptr;
+    XrSession session = XR_NULL_HANDLE;
+    XrBool32 present = XR_FALSE;
+};
+struct UserPresenceProperties {
+    XrStructureType type = user_presence_properties;
+    void* next = nullptr;
+    XrBool32 supported = XR_FALSE;
+};
 
 // Fills `values` by an OpenXR function that is called twice: first for the count, then for the values.
 // `empty`: an element with its type set. `query`: XrResult(std::uint32_t capacity, std::uint32_t* count, T*).

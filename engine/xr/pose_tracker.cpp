@@ -52,8 +52,7 @@ struct PoseTracker::Objects {
 };
 
 Status PoseTracker::Objects::create_instance() {
-    // The loader prints its own messages to stderr, in addition to the results that are reported here.
-    (void)setenv("XR_LOADER_DEBUG", "none", 0);
+    quiet_loader();
     BOLT_TRY_ASSIGN(const auto offered, offered_extensions());
     for (const char* needed : {headless_extension, clock_extension}) {
         if (std::find(offered.begin(), offered.end(), needed) != offered.end()) continue;

@@ -60,6 +60,8 @@ Status load(XrInstance instance, const char* name, Function& function) {
 
 }  // namespace
 
+void quiet_loader() { (void)setenv("XR_LOADER_DEBUG", "none", 0); }
+
 Result<std::vector<std::string>> offered_extensions() {
     std::vector<XrExtensionProperties> listed;
     const XrResult result =
@@ -89,14 +91,22 @@ void unload_runtime() {
 }
 
 Result<std::unique_ptr<Runtime>> Runtime::open() {
-    // The loader prints its own messages to stderr, in addition to the results that are reported here.
-    (void)setenv("XR_LOADER_DEBUG", "none", 0);
+    quiet_loader();
+    BOLT_TRY_ASSIGN(auto runtime, start());
+    BOLT_TRY(runtime->find_headset());
+    return runtime;
+}
+
+Result<std::unique_ptr<Runtime>> Runtime::start() {
     auto runtime = std::make_unique<Runtime>();
     BOLT_TRY(runtime->create_xr_instance());
-    BOLT_TRY(runtime->find_headset());
-    BOLT_TRY(runtime->load_functions());
-    BOLT_TRY(runtime->choose_views());
     return runtime;
+}
+
+Status Runtime::find_headset() {
+    BOLT_TRY(query_system());
+    BOLT_TRY(load_functions());
+    return choose_views();
 }
 
 Status Runtime::create_xr_instance() {
@@ -119,6 +129,7 @@ Status Runtime::create_xr_instance() {
     extensions_.hand_tracking = enable(XR_EXT_HAND_TRACKING_EXTENSION_NAME);
     extensions_.local_floor = enable(local_floor_extension);
     extensions_.hand_interaction = enable(hand_interaction_extension);
+    extensions_.user_presence = enable(user_presence_extension);
 
     XrInstanceCreateInfo info = instance_info();
     info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
@@ -136,11 +147,12 @@ Status Runtime::create_xr_instance() {
     return {};
 }
 
-Status Runtime::find_headset() {
+Status Runtime::query_system() {
     XrSystemGetInfo info{XR_TYPE_SYSTEM_GET_INFO};
     info.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
     const XrResult found = xrGetSystem(instance_.get(), &info, &system_);
-    if (found == XR_ERROR_FORM_FACTOR_UNAVAILABLE || found == XR_ERROR_FORM_FACTOR_UNSUPPORTED) {
+    lacks_headset_ = found == XR_ERROR_FORM_FACTOR_UNAVAILABLE || found == XR_ERROR_FORM_FACTOR_UNSUPPORTED;
+    if (lacks_headset_) {
         Error error;
         error.code = ErrorCode::no_device;
         error.what = fmt::format("no headset is connected to {}", name_);
@@ -149,10 +161,16 @@ Status Runtime::find_headset() {
     }
     BOLT_TRY(check(found, "xrGetSystem"));
     XrSystemHandTrackingPropertiesEXT hands{XR_TYPE_SYSTEM_HAND_TRACKING_PROPERTIES_EXT};
+    UserPresenceProperties presence;
     if (extensions_.hand_tracking) properties_.next = &hands;
+    if (extensions_.user_presence) {
+        presence.next = properties_.next;
+        properties_.next = &presence;
+    }
     BOLT_TRY(check(xrGetSystemProperties(instance_.get(), system_, &properties_), "xrGetSystemProperties"));
     properties_.next = nullptr;
     extensions_.hand_tracking = extensions_.hand_tracking && hands.supportsHandTracking == XR_TRUE;
+    extensions_.user_presence = extensions_.user_presence && presence.supported == XR_TRUE;
     headset_ = properties_.systemName;
     return {};
 }

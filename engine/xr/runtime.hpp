@@ -18,6 +18,7 @@ struct Extensions {
     bool hand_tracking = false;     // XR_EXT_hand_tracking, and the headset tracks hands
     bool local_floor = false;       // XR_EXT_local_floor
     bool hand_interaction = false;  // XR_EXT_hand_interaction: pinch and grasp as actions
+    bool user_presence = false;     // XR_EXT_user_presence, and the headset senses whether it is worn
 };
 
 // The functions of extensions, which the loader does not export. Null if the runtime lacks the extension.
@@ -38,10 +39,19 @@ class Runtime final : public gpu::VulkanCreator {
     // Fails with ErrorCode::no_device if there is no runtime, the runtime lacks Vulkan, or no headset is
     // connected; trying again later may then succeed.
     static Result<std::unique_ptr<Runtime>> open();
+    // As open(), in two steps. A runtime without a headset can be asked again: find_headset() then costs the
+    // runtime nothing, while each new instance may start its service.
+    // Call quiet_loader() before, on a thread that no other reads the environment beside.
+    static Result<std::unique_ptr<Runtime>> start();
+    Status find_headset();
 
     Result<VkInstance> create_instance(const VkInstanceCreateInfo& info) override;
     Result<VkPhysicalDevice> choose_gpu(VkInstance instance) override;
     Result<VkDevice> create_device(VkPhysicalDevice gpu, const VkDeviceCreateInfo& info) override;
+
+    // After a failed find_headset(): true if only the headset is missing, so that the runtime can be asked
+    // again.
+    [[nodiscard]] bool lacks_headset() const { return lacks_headset_; }
 
     [[nodiscard]] XrInstance instance() const { return instance_.get(); }
     [[nodiscard]] XrSystemId system() const { return system_; }
@@ -63,12 +73,13 @@ class Runtime final : public gpu::VulkanCreator {
 
   private:
     Status create_xr_instance();
-    Status find_headset();
+    Status query_system();
     Status load_functions();
     Status choose_views();
 
     InstanceHandle instance_;
     XrSystemId system_ = XR_NULL_SYSTEM_ID;
+    bool lacks_headset_ = false;
     Extensions extensions_;
     ExtensionFunctions functions_;
     std::string name_, headset_;

@@ -13,6 +13,7 @@ namespace {
 constexpr auto local_floor = static_cast<XrReferenceSpaceType>(1000426000);
 // s of waiting for a runtime that does not answer.
 constexpr double waiter_timeout = 2.0;
+constexpr double short_wait = 0.03;  // s, about a frame, in which a runtime that works has answered
 const XrPosef identity{{0, 0, 0, 1}, {0, 0, 0}};
 
 Status lost(std::string what) {
@@ -57,23 +58,25 @@ Result<std::unique_ptr<Session>> Session::create(Runtime& runtime, gpu::Device& 
 
 Session::~Session() {
     // Submitted commands may still copy into the headset's images.
-    if (stop()) (void)device_->idle();
+    if (!abandoned_ && !stop(waiter_timeout)) abandon();
+    if (!abandoned_) (void)device_->idle();
 }
 
-bool Session::stop() {
-    if (!waiter_) return !abandoned_;
-    const bool finished = waiter_->stop(waiter_timeout);
+bool Session::stop(double timeout) {
+    if (waiter_ && waiter_->stop(timeout)) waiter_.reset();
+    return waiter_ == nullptr;
+}
+
+// A thread of ours is still inside the runtime. All that it may use stays, and no further function of that
+// runtime is called, because it might not return.
+void Session::abandon() {
     waiter_.reset();
-    if (finished) return true;
-    // A thread of ours is still inside the runtime. All that it may use stays, and no further function of
-    // that runtime is called, because it might not return.
     abandoned_ = true;
     runtime_->abandon();
     (void)new auto(std::move(color_));
     (void)new auto(std::move(depth_));
     (void)new std::array{std::move(head_), std::move(space_)};
     (void)new SessionHandle(std::move(session_));
-    return false;
 }
 
 Status Session::create_session() {
@@ -204,8 +207,8 @@ Status Session::handle_state_change(const XrEventDataSessionStateChanged& event)
         waiter_->request();
     } else if (event.state == XR_SESSION_STATE_STOPPING) {
         running_ = false;
-        (void)waiter_->take(waiter_timeout);  // the runtime releases a waiting thread
-        return check(xrEndSession(session_.get()), "xrEndSession");
+        stopping_ = true;
+        return end_if_stopping(short_wait);
     } else if (event.state == XR_SESSION_STATE_EXITING) {
         ended_ = true;
     } else if (event.state == XR_SESSION_STATE_LOSS_PENDING) {
@@ -215,14 +218,22 @@ Status Session::handle_state_change(const XrEventDataSessionStateChanged& event)
     return {};
 }
 
+// Ends the session when the thread has returned: the runtime releases it before long.
+Status Session::end_if_stopping(double timeout) {
+    if (!stopping_ || waiter_->waits(timeout)) return {};
+    stopping_ = false;
+    return check(xrEndSession(session_.get()), "xrEndSession");
+}
+
 Status Session::poll(std::vector<SessionEvent>& events) {
+    BOLT_TRY(end_if_stopping(0.0));
     for (;;) {
         XrEventDataBuffer buffer{XR_TYPE_EVENT_DATA_BUFFER};
         const XrResult polled = xrPollEvent(runtime_->instance(), &buffer);
         if (polled == XR_EVENT_UNAVAILABLE) return {};
         BOLT_TRY(check(polled, "xrPollEvent"));
         // The event's type determines the structure, which begins with the members of the buffer.
-        switch (buffer.type) {
+        switch (static_cast<int>(buffer.type)) {  // also types that the headers lack
             case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
                 return lost("the OpenXR runtime has ended");
             case XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED: {
@@ -234,13 +245,24 @@ Status Session::poll(std::vector<SessionEvent>& events) {
             }
             case XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING: {
                 const auto& change = reinterpret_cast<const XrEventDataReferenceSpaceChangePending&>(buffer);
+                const XrReferenceSpaceType moved = change.referenceSpaceType;
                 const XrReferenceSpaceType ours = base_ == BaseSpace::stage   ? XR_REFERENCE_SPACE_TYPE_STAGE
                                                   : base_ == BaseSpace::floor ? local_floor
                                                                               : XR_REFERENCE_SPACE_TYPE_LOCAL;
-                if (change.session != session_.get() || change.referenceSpaceType != ours) break;
-                Recentred recentred{change.changeTime, std::nullopt};
-                if (change.poseValid == XR_TRUE) recentred.shift = to_pose(change.poseInPreviousSpace);
+                const bool recentres = moved == XR_REFERENCE_SPACE_TYPE_STAGE || moved == local_floor ||
+                                       moved == XR_REFERENCE_SPACE_TYPE_LOCAL;
+                if (change.session != session_.get() || !recentres) break;
+                Recentred recentred{change.changeTime, moved == ours, std::nullopt};
+                if (recentred.base && change.poseValid == XR_TRUE)
+                    recentred.shift = to_pose(change.poseInPreviousSpace);
                 events.emplace_back(recentred);
+                break;
+            }
+            case user_presence_changed: {
+                const auto& changed = reinterpret_cast<const UserPresenceChanged&>(buffer);
+                if (changed.session != session_.get()) break;
+                worn_ = changed.present == XR_TRUE;
+                events.emplace_back(UserPresence{worn_});
                 break;
             }
             case XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED:

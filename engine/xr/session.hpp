@@ -91,17 +91,24 @@ struct SessionOptions {
 struct StateChanged {
     XrSessionState state = XR_SESSION_STATE_UNKNOWN;
 };
-// The origin of the base space moves at `time`. `shift`: the pose of the new origin in the old space, if the
-// runtime knows it.
+// The origin of the stage, the floor or the seated space moves at `time`: the user wants what is shown to be
+// in front again. Headsets move only some of these spaces when the user presses the recentre button.
 struct Recentred {
     XrTime time = 0;
+    // The origin of the base space moves. `shift`: the pose of the new origin in the old space, if the
+    // runtime knows it.
+    bool base = true;
     std::optional<Pose> shift;
+};
+// The user has put the headset on or taken it off. Only with XR_EXT_user_presence.
+struct UserPresence {
+    bool worn = false;
 };
 struct BindingsChanged {};  // other controllers: their names and buttons differ
 struct VisibilityMaskChanged {};
 struct EventsLost {};  // the runtime's queue was full; query everything again
 using SessionEvent =
-    std::variant<StateChanged, Recentred, BindingsChanged, VisibilityMaskChanged, EventsLost>;
+    std::variant<StateChanged, Recentred, UserPresence, BindingsChanged, VisibilityMaskChanged, EventsLost>;
 
 // The picture of one eye. Both images must be in gpu::ResourceUse::transfer_from; `depth` may be null. The
 // picture may be smaller than Session::extent(); the headset then magnifies it.
@@ -141,7 +148,8 @@ class Session {
     [[nodiscard]] XrSessionState state() const { return state_; }
     [[nodiscard]] bool running() const { return running_; }
     // True if the user wears the headset and sees the picture. If false, pause the lesson and end all forces.
-    [[nodiscard]] bool focused() const { return state_ == XR_SESSION_STATE_FOCUSED; }
+    // A headset on a table keeps its focus with some runtimes; those with XR_EXT_user_presence report it.
+    [[nodiscard]] bool focused() const { return state_ == XR_SESSION_STATE_FOCUSED && worn_; }
     [[nodiscard]] bool ended() const { return ended_; }  // by the runtime; do not create another one
 
     // Begins the next frame if the runtime has released it; waits at most `timeout` s for that.
@@ -172,9 +180,11 @@ class Session {
     // Requests the end of the session, which then passes through its remaining states.
     Status request_exit();
     // Ends the thread that waits for frames; afterwards the session can only be destroyed. Returns false if
-    // the thread never returned from the runtime: the session's objects and the runtime are then abandoned,
-    // and its XrInput must be too.
-    bool stop();
+    // the thread has not returned from the runtime after `timeout` s; call it again later, or abandon().
+    bool stop(double timeout);
+    // Leaves the session's objects and the runtime to the operating system, because the thread never
+    // returned. The session's XrInput must be left too.
+    void abandon();
 
   private:
     struct Swapchain {
@@ -192,6 +202,7 @@ class Session {
     Status create_swapchains();
     Result<Swapchain> make_swapchain(VkFormat format, std::uint32_t layers, XrSwapchainUsageFlags usage);
     Status handle_state_change(const XrEventDataSessionStateChanged& event);
+    Status end_if_stopping(double timeout);
     void count(XrTime display_time);
     void find_hidden_areas();
     Status acquire(Swapchain& swapchain);
@@ -217,6 +228,8 @@ class Session {
     std::optional<XrTime> last_display_time_;  // of this run of the session
     XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
     bool running_ = false, ended_ = false, abandoned_ = false;
+    bool stopping_ = false;  // the runtime waits for xrEndSession, which waits for the thread
+    bool worn_ = true;       // false only if the runtime reports it
     std::array<std::shared_ptr<const HiddenArea>, 2> hidden_;  // by eye
     bool hidden_known_ = false;                                // queried since the last change
 };

@@ -15,7 +15,7 @@ namespace bolt::xr {
 namespace {
 
 // ns; the runtime normally has the image free at once.
-constexpr XrDuration image_timeout = 100'000'000;
+constexpr XrDuration image_timeout = 20'000'000;
 
 }  // namespace
 

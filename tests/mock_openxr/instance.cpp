@@ -142,6 +142,8 @@ XrResult XRAPI_CALL get_system_properties(XrInstance, XrSystemId system, XrSyste
             if (next->type == XR_TYPE_SYSTEM_HAND_TRACKING_PROPERTIES_EXT)
                 reinterpret_cast<XrSystemHandTrackingPropertiesEXT*>(next)->supportsHandTracking =
                     config.tracks_hands ? XR_TRUE : XR_FALSE;
+            if (next->type == UserPresenceProperties().type)
+                reinterpret_cast<UserPresenceProperties*>(next)->supported = XR_TRUE;
         }
         return XR_SUCCESS;
     });
@@ -260,7 +262,9 @@ XrResult XRAPI_CALL graphics_device(XrInstance, const XrVulkanGraphicsDeviceGetI
             return refuse(s, name, XR_ERROR_HANDLE_INVALID,
                           "is given a Vulkan instance that the runtime did not make");
         if (find_physical_device(created) != VK_SUCCESS) return XR_ERROR_RUNTIME_FAILURE;
-        *physical = created.physical;
+        static int foreign = 0;
+        *physical =
+            s.instance->config.foreign_gpu ? reinterpret_cast<VkPhysicalDevice>(&foreign) : created.physical;
         return XR_SUCCESS;
     });
 }

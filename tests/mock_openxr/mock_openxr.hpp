@@ -16,7 +16,7 @@
 //                                                     the recommended picture; period, ipd and cant in SI
 //   0 config with|without EXTENSION      the runtime offers the extension, or does not
 //   0 config format VK_FORMAT_NUMBER     the only colour format; depth stays
-//   0 config separate 1                  swapchains with several layers are refused
+//   0 config separate|foreign_gpu 1      no swapchains with several layers; a GPU that Vulkan does not list
 //   0 config passthrough 1               the blend mode ALPHA_BLEND is offered
 //   0 config realtime 0|1                xrWaitFrame waits in real time
 //   0 report FILE          writes a summary at each xrDestroyInstance and at exit: "frames N", "drawn N",
@@ -30,6 +30,7 @@
 //                                                                      pinch: of the joints
 //   F hand SIDE profile /interaction_profiles/...
 //   F event ready|stopping|visible|focused|session_loss|instance_loss|exit|profile|mask|events_lost
+//   F event worn|not_worn   sensed by XR_EXT_user_presence; the session keeps its state
 //   F event recentre stage|floor|seated [POSE]     the origin moves to POSE in the old space
 //   F headset 0|1          disconnected or connected, as the next xrGetSystem reports it
 //   F render 0|1           whether xrWaitFrame asks for pictures
@@ -53,6 +54,18 @@ namespace bolt::mock {
 
 // Newer than the headers of Debian 12.
 inline constexpr auto local_floor_space = static_cast<XrReferenceSpaceType>(1000426000);
+inline constexpr const char* user_presence = "XR_EXT_user_presence";
+struct UserPresenceEvent {
+    XrStructureType type = static_cast<XrStructureType>(1000470000);
+    const void* next = nullptr;
+    XrSession session = XR_NULL_HANDLE;
+    XrBool32 present = XR_FALSE;
+};
+struct UserPresenceProperties {
+    XrStructureType type = static_cast<XrStructureType>(1000470001);
+    void* next = nullptr;
+    XrBool32 supported = XR_FALSE;
+};
 
 struct ViewAngles {
     float left = -0.8F, right = 0.7F, up = 0.75F, down = -0.85F;  // rad
@@ -72,6 +85,7 @@ struct Config {
     std::vector<XrEnvironmentBlendMode> blend_modes{XR_ENVIRONMENT_BLEND_MODE_OPAQUE};
     std::vector<XrReferenceSpaceType> spaces{XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL,
                                              XR_REFERENCE_SPACE_TYPE_STAGE};
+    bool foreign_gpu = false;                   // the headset is on a GPU that Vulkan does not list
     bool refuse_arrays = false;                 // xrCreateSwapchain fails for more than one layer
     bool tracks_hands = true;                   // the system property, if XR_EXT_hand_tracking is enabled
     std::vector<std::string> unknown_profiles;  // interaction profiles that the runtime does not know
@@ -124,6 +138,8 @@ enum class Event : std::uint8_t {
     profile_changed,  // INTERACTION_PROFILE_CHANGED
     mask_changed,     // VISIBILITY_MASK_CHANGED
     events_lost,      // EVENTS_LOST
+    user_present,     // with XR_EXT_user_presence: the user is sensed; the session's state stays
+    user_absent,
 };
 
 // A picture of one eye, read back. Row 0 is at the top.
@@ -180,6 +196,8 @@ struct Control {
     // The same after `skip` further calls.
     void (*fail_after)(const std::string& function, int skip, XrResult result, int count);
     void (*block_wait)(bool blocked);  // xrWaitFrame does not return until released or lost
+    // Calls of the function do not return until it is released: block_call("").
+    void (*block_call)(const std::string& function);
     // The next frame is displayed `count` periods later than it would be, as after a slow frame.
     void (*delay_frame)(int count);
     // The following frames report this multiple of the period, as Monado does while the client misses frames.

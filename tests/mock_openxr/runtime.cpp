@@ -60,8 +60,9 @@ void reset() {
         s.config = {};
         s.head = State().head;
         s.hands = {};
-        s.worn = s.focus = s.should_render = true;
+        s.sensed = s.worn = s.focus = s.should_render = true;
         s.blocked = s.capture = false;
+        s.blocked_call.clear();
         s.delayed_periods = 0;
         s.reported_periods = 1;
         s.injected.clear();
@@ -97,6 +98,12 @@ const Control control{
     [](bool blocked) {
         locked([&](State& s) {
             s.blocked = blocked;
+            s.changed.notify_all();
+        });
+    },
+    [](const std::string& function) {
+        locked([&](State& s) {
+            s.blocked_call = function;
             s.changed.notify_all();
         });
     },

@@ -129,6 +129,8 @@ void run_event(State& s, Arguments& arguments) {
                                                      {"mask", Event::mask_changed},
                                                      {"instance_loss", Event::instance_loss},
                                                      {"events_lost", Event::events_lost},
+                                                     {"worn", Event::user_present},
+                                                     {"not_worn", Event::user_absent},
                                                      {"profile", Event::profile_changed}};
     const std::string& word = arguments.text();
     if (word != "recentre") {
@@ -176,6 +178,8 @@ void set_config(State& s, Arguments& arguments) {
         config.formats = {whole(), 126};
     } else if (what == "separate") {
         config.refuse_arrays = arguments.flag();
+    } else if (what == "foreign_gpu") {
+        config.foreign_gpu = arguments.flag();
     } else if (what == "passthrough") {
         if (arguments.flag()) config.blend_modes.push_back(XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND);
     } else if (what == "realtime") {

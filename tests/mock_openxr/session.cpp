@@ -92,6 +92,7 @@ XrResult XRAPI_CALL begin_session(XrSession, const XrSessionBeginInfo* info) {
         session.begun_once = false;
         session.waited.reset();
         session.begun.reset();
+        report_presence(s);
         // A session without frames has focus at once.
         if (session.headless)
             for (const XrSessionState state :

@@ -165,6 +165,7 @@ void lose_instance(State& s) {
 
 void play(State& s, Event event) {
     if (event == Event::put_on || event == Event::taken_off) s.worn = event == Event::put_on;
+    if (event == Event::user_present || event == Event::user_absent) s.sensed = event == Event::user_present;
     if (event == Event::focus_gained || event == Event::focus_lost) s.focus = event == Event::focus_gained;
     if (!s.instance) return;
     std::optional<Session>& session = s.instance->session;
@@ -196,10 +197,22 @@ void play(State& s, Event event) {
         case Event::taken_off:
             if (session) stop_session(s);
             break;
+        case Event::user_present:
+        case Event::user_absent:
+            report_presence(s);
+            break;
         default:
             advance_session(s);
             break;
     }
+}
+
+void report_presence(State& s) {
+    if (!s.instance || !s.instance->session || s.instance->extensions.count(user_presence) == 0) return;
+    UserPresenceEvent event;
+    event.session = handle_of<XrSession>(s.instance->session->id);
+    event.present = s.sensed ? XR_TRUE : XR_FALSE;
+    queue_plain(s, event);
 }
 
 void play_recentre(State& s, XrReferenceSpaceType space, XrDuration delay, const std::optional<Pose>& shift) {

@@ -111,8 +111,10 @@ struct State {
     Config config;
     Tracked head{{{0.0, 1.6, 0.0}}};
     std::array<Hand, 2> hands{};
+    std::string blocked_call;  // the function that does not return
     int delayed_periods = 0;   // of the next frame
     int reported_periods = 1;  // in a reported period
+    bool sensed = true;        // by XR_EXT_user_presence
     bool worn = true, focus = true, should_render = true, blocked = false, capture = false;
     std::map<std::string, InjectedResult, std::less<>> injected;
     std::map<std::string, std::uint64_t, std::less<>> calls;
@@ -152,6 +154,8 @@ void advance_session(State& s);
 void stop_session(State& s);
 void play(State& s, Event event);
 void play_recentre(State& s, XrReferenceSpaceType space, XrDuration delay, const std::optional<Pose>& shift);
+// Queues the event of XR_EXT_user_presence, if that extension is enabled and a session exists.
+void report_presence(State& s);
 // Runs the script's commands for the next frame.
 void count_frame(State& s);
 void write_report(const State& s);
@@ -173,6 +177,7 @@ template <class Body>
 XrResult call(std::string_view function, Level level, const Body& body) {
     State& s = state();
     std::unique_lock lock(s.mutex);
+    s.changed.wait(lock, [&] { return s.blocked_call.empty() || s.blocked_call != function; });
     if (const std::optional<XrResult> result = enter(s, function, level)) return *result;
     return body(s, lock);
 }

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "tests/support/eventually.hpp"
 #include "tests/xr/support.hpp"
 
 using namespace bolt;
@@ -55,6 +56,40 @@ TEST_CASE("Headset: a search is made at most once a second") {
     CHECK(headset.find(11.1));
     CHECK(mock->calls("xrGetSystem") == 2);
     CHECK_FALSE(headset.find(20.0));  // it is there already
+}
+
+TEST_CASE(
+    "Headset: the search asks one instance again, and makes a new one after a loss and each half minute") {
+    const test::MockRuntime mock;
+    mock->connect(false);
+    xr::Headset headset({});
+    for (const double now : {10.0, 12.0, 14.0, 38.0}) CHECK_FALSE(headset.find(now));
+    CHECK(mock->calls("xrGetSystem") == 4);
+    CHECK(mock->calls("xrCreateInstance") == 1);
+    CHECK_FALSE(headset.find(41.0));  // the user may have chosen another runtime
+    CHECK(mock->calls("xrCreateInstance") == 2);
+    mock->fail_next("xrGetSystem", XR_ERROR_INSTANCE_LOST, 1);
+    CHECK_FALSE(headset.find(43.0));
+    CHECK(mock->instance() == XR_NULL_HANDLE);
+    CHECK_FALSE(headset.find(45.0));
+    CHECK(mock->calls("xrCreateInstance") == 3);
+    mock->connect(true);
+    CHECK(headset.find(47.0));
+    CHECK(mock->calls("xrCreateInstance") == 3);
+}
+
+TEST_CASE("Headset: a search in the background does not wait for a runtime that hangs") {
+    const test::MockRuntime mock;
+    mock->block_call("xrGetSystem");
+    xr::Headset headset({});
+    for (int i = 0; i < 5; ++i) CHECK_FALSE(headset.find_in_background(10.0 + i));
+    CHECK(mock->calls("xrGetSystem") == 0);  // the call of the search is inside the runtime
+    CHECK_FALSE(headset.absence().has_value());
+    mock->block_call("");
+    CHECK(test::eventually([&] { return headset.find_in_background(20.0); }));
+    CHECK(headset.creator() != nullptr);
+    CHECK(mock->calls("xrGetSystem") == 1);
+    CHECK(mock->calls("xrCreateInstance") == 1);
 }
 
 TEST_CASE("Headset: after each session that does not start, the next search waits longer, at most a minute") {

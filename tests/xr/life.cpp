@@ -154,6 +154,31 @@ TEST_CASE("Session: a headset that is not worn at the start begins when it is pu
     CHECK(program.focus().focused);
 }
 
+TEST_CASE("Session: a headset that senses that it is not worn has no focus, whatever the session's state") {
+    mock::Config config;
+    config.extensions.emplace_back(mock::user_presence);
+    const test::MockRuntime mock(config);
+    mock->send(mock::Event::user_absent);
+    test::Program program;
+    REQUIRE(program.connect());
+    for (int i = 0; i < 10; ++i) {
+        const std::optional<xr::HeadsetFrame> frame = program.frame();
+        CHECK_FALSE((frame && frame->focused));
+    }
+    CHECK(mock->session_state() == XR_SESSION_STATE_FOCUSED);
+    const auto presence = [&](bool worn) {
+        mock->send(worn ? mock::Event::user_present : mock::Event::user_absent);
+        const std::optional<xr::HeadsetFrame> frame = program.frame();
+        REQUIRE(frame.has_value());
+        REQUIRE(frame->events.size() == 1);
+        CHECK(std::get<xr::UserPresence>(frame->events[0]).worn == worn);
+        CHECK(frame->focused == worn);
+    };
+    presence(true);
+    presence(false);
+    presence(true);
+}
+
 TEST_CASE("Session: the user ends the program in the headset's menu") {
     const test::MockRuntime mock;
     test::Program program;

@@ -177,6 +177,27 @@ TEST_CASE("Headset: other errors of a frame also make it absent") {
     }
 }
 
+TEST_CASE(
+    "Headset: a headset that is lost while its runtime hangs is left at once, and found when it returns") {
+    const test::MockRuntime mock;
+    test::Program program;
+    REQUIRE(program.connect());
+    (void)program.focus();
+    mock->block_wait(true);
+    (void)program.frame();  // the one that was waited for already
+    mock->fail_next("xrPollEvent", XR_ERROR_RUNTIME_FAILURE, 1);
+    CHECK_FALSE(program.headset().begin_frame(0.0).has_value());
+    CHECK_FALSE(program.headset().connected());
+    CHECK(mock->waiting());
+    CHECK_FALSE(program.connect());  // it is not searched while a thread is inside the runtime
+    mock->block_wait(false);
+    CHECK(test::eventually([&] {
+        (void)program.headset().begin_frame(0.0);
+        return mock->instance() == XR_NULL_HANDLE;
+    }));
+    check_found(mock, program);
+}
+
 TEST_CASE("Headset: a runtime that never returns from xrWaitFrame blocks neither frames nor the end") {
     const test::MockRuntime mock;
     test::Program program;

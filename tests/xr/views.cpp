@@ -176,13 +176,22 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Recentring: only that of the base space is reported, with its shift if the runtime knows it") {
+TEST_CASE("Recentring: that of each space is reported, for the base space with its shift if it is known") {
     const test::MockRuntime mock;
     test::Program program;
     REQUIRE(program.connect());
     const XrTime now = program.focus().timing.display_time;
     (void)frame_of(program);
-    mock->recentre(XR_REFERENCE_SPACE_TYPE_LOCAL, 0, Pose{{1.0, 0.0, 0.0}});
+    // The recentre button of many headsets moves these spaces only; poses in the stage stay as they are.
+    for (const XrReferenceSpaceType space : {XR_REFERENCE_SPACE_TYPE_LOCAL, mock::local_floor_space}) {
+        mock->recentre(space, 0, Pose{{1.0, 0.0, 0.0}});
+        const xr::HeadsetFrame moved = frame_of(program);
+        REQUIRE(moved.events.size() == 1);
+        CHECK_FALSE(std::get<xr::Recentred>(moved.events[0]).base);
+        CHECK_FALSE(std::get<xr::Recentred>(moved.events[0]).shift.has_value());
+        check_at(moved.view.head, {0.0, 1.6, 0.0});
+    }
+    mock->recentre(XR_REFERENCE_SPACE_TYPE_VIEW, 0, std::nullopt);
     CHECK(frame_of(program).events.empty());
 
     constexpr XrDuration delay = 40'000'000;
@@ -200,6 +209,7 @@ TEST_CASE("Recentring: only that of the base space is reported, with its shift i
     REQUIRE(frame.events.size() == 1);
     const auto* recentred = std::get_if<xr::Recentred>(&frame.events[0]);
     REQUIRE(recentred != nullptr);
+    CHECK(recentred->base);
     CHECK(recentred->time > now);
     CHECK(frame.timing.display_time >= recentred->time);
     REQUIRE(recentred->shift.has_value());
