@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "content/displays/panel_fit.hpp"
 #include "content/displays/wall_geometry.hpp"
 #include "content/format/json_document.hpp"
 
@@ -148,8 +149,52 @@ std::vector<DisplayFinding> check_walls(const DisplayFile& displays) {
     return findings;
 }
 
+std::vector<DisplayFinding> check_viewing(const DisplayFile& displays) {
+    constexpr double floor_tolerance = 0.05;  // m
+    constexpr const char* hint = "is the origin at the viewer's eyes? (displays import --eye-height)";
+    Findings findings;
+    // Corners that are not in metres need one message only.
+    if (std::any_of(displays.walls.begin(), displays.walls.end(),
+                    [](const Wall& wall) { return std::max(width(wall), height(wall)) > max_wall_edge; }))
+        return findings;
+    const double eyes = displays.head.fixed_head.position.y;
+    double highest = 0.0;
+    bool upright = false;
+    for (std::size_t i = 0; i < displays.walls.size(); ++i) {
+        const WallAxes axes = axes_of(displays.walls[i]);
+        double lowest = 0.0;
+        for (const Vec3& corner : corners_of(axes)) {
+            lowest = std::min(lowest, corner.y);
+            highest = std::max(highest, corner.y);
+        }
+        upright = upright || axes.up.y > 0.5;
+        if (lowest < -floor_tolerance)
+            findings.push_back({false,
+                                fmt::format("wall {}: its lowest corner is {:.2f} m below the floor, where y "
+                                            "is 0; expected it on the floor or above: {}",
+                                            in_quotes(displays.walls[i].name), -lowest, hint),
+                                i});
+    }
+    if (upright && eyes > highest)
+        findings.push_back({false, fmt::format("the fixed head, {:.2f} m high, is above all walls, which end "
+                                               "at {:.2f} m; expected walls at the height of the eyes: {}",
+                                               eyes, highest, hint)});
+    const std::optional<PanelFit> panel = fit_panel(displays.walls, displays.head.fixed_head);
+    if (panel && panel->text_size < 0.99 * comfortable_text)
+        findings.push_back(
+            {false,
+             fmt::format("wall {}: the panel of menus and hints fits on it with text of {:.0f} dmm (mm at 1 "
+                         "m); expected {:.0f} dmm: a larger wall, or a fixed head that is nearer",
+                         in_quotes(displays.walls[panel->wall].name), panel->text_size, comfortable_text),
+             panel->wall});
+    return findings;
+}
+
 std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const DisplayHost& host) {
     Findings findings = check_walls(displays);
+    if (std::none_of(findings.begin(), findings.end(),
+                     [](const DisplayFinding& finding) { return finding.prevents_use; }))
+        for (DisplayFinding& finding : check_viewing(displays)) findings.push_back(std::move(finding));
     for (DisplayFinding& finding : check_outputs(displays, host)) findings.push_back(std::move(finding));
     std::stable_partition(findings.begin(), findings.end(),
                           [](const DisplayFinding& finding) { return finding.prevents_use; });

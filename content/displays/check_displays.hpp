@@ -55,11 +55,14 @@ struct DisplayHost {
 // Returns true for names of the same X screen: ":0" is ":0.0".
 bool is_same_display(std::string_view a, std::string_view b);
 
+// The floor and the height of the head, and the size of the text on the panel of menus and hints.
+std::vector<DisplayFinding> check_viewing(const DisplayFile& displays);
+
 // Shapes of pixels; outputs that show on the same pixels; outputs of the computer that are not on its
 // monitors, or on another X display than the program.
 std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const DisplayHost& host = {});
 
-// The findings of check_walls() and check_outputs(); those that prevent the use come first.
+// The findings of check_walls(), check_viewing() and check_outputs(); those that prevent the use come first.
 std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const DisplayHost& host = {});
 
 // A line each; it begins with file, line and column of the wall.

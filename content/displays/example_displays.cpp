@@ -50,15 +50,16 @@ DisplayFile single_wall() {
     return file;
 }
 
-// Two screens of 0.96 m by 0.54 m that meet at the far edge of the table.
+// Two screens of 65 inches, 1.44 m by 0.81 m, that meet at the far edge of the table: the smallest ones on
+// which the panel's text has a comfortable size.
 DisplayFile desk() {
     DisplayFile file;
     file.name = "Desk";
-    file.head.fixed_head.position = {0.0, 1.2, 0.5};
+    file.head.fixed_head.position = {0.0, 1.2, 0.45};
     file.walls = {
-        window_wall("screen", {-0.48, 0.75, -0.3}, {0.48, 0.75, -0.3}, {0.48, 1.29, -0.3}, {0, 0},
+        window_wall("screen", {-0.72, 0.75, -0.3}, {0.72, 0.75, -0.3}, {0.72, 1.56, -0.3}, {0, 0},
                     {1920, 1080}),
-        window_wall("table", {-0.48, 0.75, 0.24}, {0.48, 0.75, 0.24}, {0.48, 0.75, -0.3}, {0, 1080},
+        window_wall("table", {-0.72, 0.75, 0.51}, {0.72, 0.75, 0.51}, {0.72, 0.75, -0.3}, {0, 1080},
                     {1920, 1080}),
     };
     return file;

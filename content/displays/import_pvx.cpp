@@ -23,8 +23,8 @@ constexpr double same_corner = 1e-6;             // m
 
 class PvxImport {
   public:
-    PvxImport(std::string_view text, const std::string& file, double scale)
-        : text_(text), messages_(text, file), scale_(scale) {}
+    PvxImport(std::string_view text, const std::string& file, const PvxOptions& options)
+        : text_(text), messages_(text, file), scale_(options.scale), eye_height_(options.eye_height) {}
 
     ImportedDisplays run();
 
@@ -45,6 +45,7 @@ class PvxImport {
     std::string_view text_;
     PvxMessages messages_;
     double scale_;
+    std::optional<double> eye_height_;
     std::vector<PvxMachine> machines_;
     DisplayFile displays_;
 };
@@ -226,7 +227,8 @@ void PvxImport::place_head() {
         middle += (center + 0.5 * width(wall) * axes_of(wall).normal) / static_cast<double>(machines_.size());
     }
     Vec3& head = displays_.head.fixed_head.position;
-    for (const Vec3& point : {head, Vec3(0.0), middle}) {
+    if (eye_height_) head.y = *eye_height_;
+    for (const Vec3& point : {head, Vec3(0.0, eye_height_.value_or(0.0), 0.0), middle}) {
         head = point;
         const auto is_in_front = [&](const Wall& wall) {
             return distance_in_front(axes_of(wall), point) > 0.05;
@@ -285,6 +287,9 @@ ImportedDisplays PvxImport::run() {
         join_stereo_pairs();
         for (PvxMachine& machine : machines_) {
             read_stereo(machine);
+            for (Vec3* corner :
+                 {&machine.wall.lower_left, &machine.wall.lower_right, &machine.wall.upper_right})
+                corner->y += eye_height_.value_or(0.0);
             displays_.walls.push_back(machine.wall);
         }
         place_head();
@@ -298,13 +303,13 @@ ImportedDisplays PvxImport::run() {
 
 }  // namespace
 
-ImportedDisplays import_pvx(std::string_view text, const std::string& file, double scale) {
-    return PvxImport(text, file, scale).run();
+ImportedDisplays import_pvx(std::string_view text, const std::string& file, const PvxOptions& options) {
+    return PvxImport(text, file, options).run();
 }
 
-ImportedDisplays load_pvx(const std::filesystem::path& path, double scale) {
+ImportedDisplays load_pvx(const std::filesystem::path& path, const PvxOptions& options) {
     const Result<std::string> text = read_file(path, max_pvx_size, ErrorCode::bad_content);
-    if (text) return import_pvx(*text, path.string(), scale);
+    if (text) return import_pvx(*text, path.string(), options);
     ImportedDisplays failed;
     failed.errors.push_back(text.error());
     return failed;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,8 +22,13 @@ struct ImportedDisplays {
 
 // Each Machine becomes a wall with a window at its Geometry; machines of one Name are shown by one process.
 // Two machines with the same corners and the stereo types Left and Right become one wall with two outputs.
-// `scale`: metres per unit of the file's corners and eye separation.
-ImportedDisplays import_pvx(std::string_view text, const std::string& file, double scale = 1.0);
-ImportedDisplays load_pvx(const std::filesystem::path& path, double scale = 1.0);
+struct PvxOptions {
+    double scale = 1.0;  // metres per unit of the file's corners and eye separation
+    // m, of the file's origin above the floor. In many files the origin is between the viewer's eyes; the
+    // head is then placed there.
+    std::optional<double> eye_height{};
+};
+ImportedDisplays import_pvx(std::string_view text, const std::string& file, const PvxOptions& options = {});
+ImportedDisplays load_pvx(const std::filesystem::path& path, const PvxOptions& options = {});
 
 }  // namespace bolt::content

@@ -30,7 +30,7 @@ namespace {
 
 struct DisplaysArguments {
     std::string file, pvx, kind = "cave", stereo = "mono", name;
-    double scale = 1.0;     // import
+    content::PvxOptions pvx_options;
     double seconds = 10.0;  // track
     int process = 0;
     bool force = false, without_monitors = false;
@@ -121,7 +121,7 @@ int check_display_file(const DisplaysArguments& options) {
 }
 
 int import_displays(const DisplaysArguments& options) {
-    content::ImportedDisplays imported = content::load_pvx(options.pvx, options.scale);
+    content::ImportedDisplays imported = content::load_pvx(options.pvx, options.pvx_options);
     for (Error& warning : imported.warnings) {
         warning.what = "warning: " + warning.what;
         print_to_stderr(warning.message() + "\n");
@@ -261,7 +261,15 @@ void add_displays_import(CLI::App& displays, const std::shared_ptr<DisplaysArgum
                                 "of the two is wrong");
     imported->add_option("PVX", options->pvx, "ParaView's file, .pvx")->required();
     imported->add_option("FILE", options->file, "The display file to write")->required();
-    imported->add_option("--scale", options->scale, "Metres per unit of ParaView's file, such as 0.01")
+    imported
+        ->add_option(
+            "--eye-height", options->pvx_options.eye_height,
+            "Height of ParaView's origin above the floor, m, if it is between the viewer's eyes: all "
+            "walls are raised by it")
+        ->check(CLI::Range(0.3, 3.0));
+    imported
+        ->add_option("--scale", options->pvx_options.scale,
+                     "Metres per unit of ParaView's file, such as 0.01")
         ->check(CLI::Range(1e-4, 1e4))
         ->capture_default_str();
     add_writing_options(*imported, *options);

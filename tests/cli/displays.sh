@@ -62,6 +62,11 @@ check 'no file is written' test ! -e lab.json
 expect 0 'cave.pvx:7:6: warning: the file does not have the viewer|cave.pvx:8:.*warning: the StereoType "Anaglyph" has no counterpart: the wall is mono' "${run[@]}" import cave.pvx lab.json --scale 0.01 --name Lab
 expect 2 'lab.json exists already' "${run[@]}" import cave.pvx lab.json --scale 0.01
 expect 0 'front +2.000x1.500' "${run[@]}" check lab.json
+sed 's/-100 0 /-100 -100 /g; s/100 0 /100 -100 /g; s/150/100/g' cave.pvx > eyes.pvx
+expect 0 'eyes.json:[0-9]+:5: warning: wall "front": its lowest corner is 1.00 m below the floor' "${run[@]}" import eyes.pvx eyes.json --scale 0.01 --force
+expect 0 'warning: the fixed head, 1.60 m high, is above all walls, which end at 1.00 m; .* --eye-height' "${run[@]}" check eyes.json --without-monitors
+expect 0 'fixed head at 0.00, 1.25, 0.00 m' "${run[@]}" import eyes.pvx eyes.json --scale 0.01 --force --eye-height 1.25
+check 'walls at the height of the eyes are neither too low nor too high' bash -c "! $bin/boltwright displays check eyes.json --without-monitors 2>&1 | grep -qE 'below the floor|above all walls|dmm'"
 sed 's/-100 150 -100/-100 150 -90/' cave.pvx > bent.pvx
 expect 3 'bent.json:[0-9]+:5: wall "left": its angle' "${run[@]}" import bent.pvx bent.json --scale 0.01
 check 'it can be corrected' test -s bent.json

@@ -152,7 +152,7 @@ TEST_CASE("Displays: lists of numbers are written in one line, and texts with an
     file.head.tracker = HeadTracker::file;
     file.head.recording = "[x\\\"] ,{";
     const std::string text = displays_json(file);
-    CHECK_MESSAGE(has(text, "\"lower_left_m\": [-0.48, 0.75, -0.3],"), text);
+    CHECK_MESSAGE(has(text, "\"lower_left_m\": [-0.72, 0.75, -0.3],"), text);
     CHECK(has(text, "\"axes\": [\"+x\", \"+y\", \"+z\"],"));
     CHECK(std::count(text.begin(), text.end(), '\n') < 60);
     CHECK(read(text) == file);

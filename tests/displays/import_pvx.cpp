@@ -43,8 +43,9 @@ std::string machine(const std::string& attributes) {
 }
 std::string file_of(const std::string& machines) { return "<pvx>\n" + machines + "</pvx>\n"; }
 
-ImportedDisplays imported(const std::string& text, double scale = 1.0) {
-    ImportedDisplays result = import_pvx(text, "c.pvx", scale);
+ImportedDisplays imported(const std::string& text, double scale = 1.0,
+                          std::optional<double> eye_height = std::nullopt) {
+    ImportedDisplays result = import_pvx(text, "c.pvx", {scale, eye_height});
     for (const Error& error : result.errors) FAIL_CHECK(error.message());
     // An imported file can be written and read.
     const LoadedDisplays again = parse_displays(displays_json(result.displays), "d.json");
@@ -84,7 +85,9 @@ TEST_CASE(".pvx: walls, windows and the eye separation are imported") {
     CHECK(file.walls[1].output.display.empty());
     CHECK(file.eye_separation == 0.065);
     const auto found = texts(check_displays(file));
-    CHECK_MESSAGE(found.empty(), found.front());
+    REQUIRE(found.size() == 2);
+    CHECK(has(found[0], "the fixed head, 1.60 m high, is above all walls, which end at 1.50 m"));
+    CHECK(has(found[1], "dmm"));  // the panel is far below the eyes
     REQUIRE(result.warnings.size() == 1);
     CHECK(has(result.warnings[0].message(),
               "c.pvx:8:6: the file does not have the viewer and its tracker: enter them; until then the head "
@@ -171,11 +174,29 @@ TEST_CASE(".pvx: the head is placed where all walls are seen from the front") {
                          "Geometry=\"800x800+0+0\"/><Machine LowerLeft=\"-1 1 -1\" LowerRight=\"1 1 -1\" "
                          "UpperRight=\"1 1 1\" Geometry=\"800x800+800+0\"/>"));
     CHECK(origin.displays.head.fixed_head.position == Vec3(0.0));  // 1.6 m would be above the ceiling
-    CHECK(check_displays(origin.displays).empty());
+    const auto found = texts(check_displays(origin.displays));
+    REQUIRE(found.size() == 1);
+    CHECK(has(found[0], "its lowest corner is 1.00 m below the floor"));
     const ImportedDisplays away =
         imported(file_of("<Machine LowerLeft=\"-1 0 5\" LowerRight=\"1 0 5\" UpperRight=\"1 2 5\" "
                          "Geometry=\"800x800+0+0\"/>"));
     CHECK(away.displays.head.fixed_head.position == Vec3(0.0, 1.0, 6.0));
+}
+
+TEST_CASE(".pvx: an origin between the viewer's eyes is placed at their height") {
+    const std::string eyes_at_origin = file_of(
+        "<Machine LowerLeft=\"-1.5 -1 -1\" LowerRight=\"1.5 -1 -1\" UpperRight=\"1.5 1 -1\" "
+        "Geometry=\"1200x800+0+0\"/>");
+    const auto found = texts(check_displays(imported(eyes_at_origin).displays));
+    REQUIRE(found.size() == 3);
+    CHECK(has(found[0], "below the floor"));
+    CHECK(has(found[1], "above all walls"));
+    CHECK(has(found[2], "dmm"));  // far below the eyes
+    const ImportedDisplays raised = imported(eyes_at_origin, 1.0, 1.2);
+    CHECK(raised.displays.head.fixed_head.position == Vec3(0.0, 1.2, 0.0));
+    CHECK(raised.displays.walls[0].lower_left == Vec3(-1.5, -1.0 + 1.2, -1.0));
+    CHECK(raised.displays.walls[0].upper_right == Vec3(1.5, 1.0 + 1.2, -1.0));
+    CHECK(check_displays(raised.displays).empty());
 }
 
 TEST_CASE(".pvx: attributes and elements without a counterpart are named") {
