@@ -393,6 +393,11 @@ inline constexpr KeyRow key_rows[] = {
     {"action.restart_step", ""},
     {"action.recentre", ""},
     {"action.close_up", ""},
+    {"action.place_again", ""},
+    {"action.turn_left", ""},
+    {"action.turn_right", ""},
+    {"action.raise", ""},
+    {"action.lower", ""},
     // Captions of sounds (game/trainer/hud.cpp).
     {"caption.slip", ""},
     {"caption.mistake", ""},

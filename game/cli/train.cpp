@@ -159,6 +159,7 @@ Result<std::unique_ptr<xr::Headset>> open_headset(HeadsetUse use, bool quiet) {
 // The display that surrounds the user; at most one is set.
 struct Surroundings {
     xr::Headset* headset = nullptr;
+    bool needs_headset = false;
     view::Walls* walls = nullptr;
 };
 
@@ -217,11 +218,12 @@ Status run_window(WindowRequest request, const Surroundings& surroundings, platf
     const view::WindowRunOptions run_options{.gpu = options.gpu,
                                              .stop = [] { return interrupted(); },
                                              .headset = headset,
+                                             .needs_headset = surroundings.needs_headset,
                                              .walls = surroundings.walls,
                                              .adapts_resolution = !options.full_resolution,
                                              .instance = instance_options};
-    if (headset != nullptr) instance_options.creator = headset->creator();
-    BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create(instance_options));
+    BOLT_TRY_ASSIGN(auto instance,
+                    view::make_instance(instance_options, headset, surroundings.needs_headset));
     trainer::App app(std::move(app_options), std::move(request.study));
     catch_interruption();
     BOLT_TRY(view::run_in_window(app, *window, instance, run_options));
@@ -249,7 +251,7 @@ Status check_hands(const TrainArguments& options, const trainer::Equipment& equi
 }
 
 // Shows the lesson, or, in a process that another one leads, that one's lesson.
-Status show(WindowRequest request, xr::Headset* headset, platform::Desktop& desktop) {
+Status show(WindowRequest request, Surroundings surroundings, platform::Desktop& desktop) {
     const TrainArguments& options = request.options;
     OpenedWalls opened;
     if (!options.displays.empty()) {
@@ -260,8 +262,8 @@ Status show(WindowRequest request, xr::Headset* headset, platform::Desktop& desk
         trainer::FollowedLesson lesson;
         return follow_first_process(lesson, opened, desktop, {options.gpu, options.validate});
     }
-    view::Walls* walls = opened.walls.get();
-    const Status done = run_window(std::move(request), {headset, walls}, desktop);
+    view::Walls* walls = surroundings.walls = opened.walls.get();
+    const Status done = run_window(std::move(request), surroundings, desktop);
     if (!done && walls != nullptr && walls->leader() != nullptr) walls->leader()->end(done.error());
     return done;
 }
@@ -305,7 +307,8 @@ int run_train(TrainArguments options) {
     std::error_code ignored;
     if (std::filesystem::exists(options.assembly, ignored))
         named.assembly = std::filesystem::absolute(options.assembly).lexically_normal().string();
-    const Status done = show({named, *train, *equipment}, headset->get(), *desktop);
+    const Status done =
+        show({named, *train, *equipment}, {headset->get(), *headset_use == HeadsetUse::required}, *desktop);
     return done ? 0 : print_error(done.error());
 }
 
@@ -335,7 +338,8 @@ Status run_study(const TrainArguments& options, trainer::StudyRun study) {
     if (headset && headset->creator() != nullptr && !equipment.needs_station())
         equipment.hand = trainer::HandMode::tracked;
     const trainees::TrainOptions unused{};  // the plan has the settings of the lessons
-    return show({used, unused, equipment, std::move(study)}, headset.get(), desktop);
+    return show({used, unused, equipment, std::move(study)},
+                {headset.get(), headset_use == HeadsetUse::required}, desktop);
 }
 
 void add_train(CLI::App& app, int& exit_code) {

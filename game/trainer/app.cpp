@@ -140,13 +140,6 @@ void App::perform(ScreenAction action) {
         case ScreenAction::pause:
             active_->clock.paused = true;
             return;
-        case ScreenAction::turn_left:
-        case ScreenAction::turn_right:
-            room_->turns += action == ScreenAction::turn_left ? -1 : 1;
-            return;
-        case ScreenAction::raise:
-        case ScreenAction::lower:
-            return raise(*room_, action == ScreenAction::raise ? raise_step : -raise_step);
         case ScreenAction::resume:
             active_->clock.paused = false;
             return;
@@ -185,6 +178,16 @@ void App::perform(ScreenAction action) {
             return cancel_start();
         case ScreenAction::end_touch_check:
             return end_touch_check();
+        case ScreenAction::place_again:
+            return perform_in_room(Action::place_again);
+        case ScreenAction::turn_left:
+            return perform_in_room(Action::turn_left);
+        case ScreenAction::turn_right:
+            return perform_in_room(Action::turn_right);
+        case ScreenAction::raise:
+            return perform_in_room(Action::raise);
+        case ScreenAction::lower:
+            return perform_in_room(Action::lower);
         case ScreenAction::select_trainee:
             return select_trainee();
         case ScreenAction::quit:
@@ -265,7 +268,8 @@ void App::draw_screen(const ScreenContext& context) {
         perform(draw_instruction_page(context));
     } else if (in_lesson && active_->clock.paused) {
         const bool lost = missing_headset_.noticed && active_->station && active_->station->tracked;
-        perform(draw_pause(context, preferences_, active_->session->lesson().mode, lost));
+        perform(draw_pause(context, preferences_, active_->session->lesson().mode,
+                           {lost, room_ && room_->present}));
     } else if (in_lesson && in_room()) {
         perform(draw_room_bar(context, {controls_text(room_->controller), !room_->arm}));
     } else if (screen_ == ShownScreen::menu) {

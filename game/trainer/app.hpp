@@ -65,7 +65,7 @@ class App : public view::WindowContent {
 
     // Fails if the session cannot be recorded.
     Status update(const view::WindowFrame& window) override;
-    Status share(cluster::MessageWriter& message) override;
+    Status share(cluster::MessageWriter& message, cluster::MessageWriter& bulk) override;
     // Fails if the GPU fails, or the session cannot be recorded.
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
     bool move_eyes(const view::WindowFrame& window) override;
@@ -141,8 +141,11 @@ class App : public view::WindowContent {
     ScreenAction draw_instruction_page(const ScreenContext& context);
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
     [[nodiscard]] bool in_room() const { return room_ && room_->surrounds_user; }
-    void pause_unseen(bool seen);
+    void pause_unseen(bool seen, bool immersive);
     void follow_headset(const view::ImmersiveFrame* immersive);
+    void perform_in_room(Action action);
+    void follow_placement(const view::ImmersiveFrame& immersive, std::span<const platform::InputEvent> events,
+                          double seconds);
     void place_in_room(const view::ImmersiveFrame& immersive);
     void start_registered_arm(const view::ImmersiveFrame& immersive);
     void follow_touch_check(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);

@@ -3,14 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include "content/displays/panel_fit.hpp"
 #include "game/trainer/app.hpp"
 
 namespace bolt::trainer {
 
 namespace {
 
+static_assert(panel_points.x == content::panel_width_points &&
+              panel_points.y == content::panel_height_points);
+constexpr std::array room_actions{Action::place_again, Action::turn_left, Action::turn_right, Action::raise,
+                                  Action::lower};
 constexpr double default_seated_eyes = 1.2;  // m above the floor, about the mean of DIN 33402-2
 
 }  // namespace
@@ -38,7 +44,7 @@ RoomInput App::room_input(const view::ImmersiveFrame& immersive) const {
     return input;
 }
 
-Status App::share(cluster::MessageWriter& message) {
+Status App::share(cluster::MessageWriter& message, cluster::MessageWriter& bulk) {
     if (!sender_) sender_.emplace();
     SharedFrame frame;
     if (active_) {
@@ -48,16 +54,22 @@ Status App::share(cluster::MessageWriter& message) {
         frame.scene = &active_->scene;
     }
     frame.scene_in_room = scene_in_room();
-    if (in_room()) frame.panel = room_->panel;
-    sender_->write(message, frame);
+    if (in_room()) {
+        frame.panel = room_->panel;
+        frame.panel_point = room_->panel_point;
+    }
+    sender_->write(message, bulk, frame);
     return {};
 }
 
-// Pauses a lesson when its user no longer sees it: no device may push, and a tracked hand is lost. The lesson
-// continues when the user sees it again, unless the user resumes or ends it in the window before that.
-void App::pause_unseen(bool seen) {
+// Pauses a lesson when its user no longer sees it, and one that begins unseen in a room: no device may push,
+// and a tracked hand is lost. The lesson continues when the user sees it again, unless the user resumes or
+// ends it in the window before that. `immersive`: the frame has a room.
+void App::pause_unseen(bool seen, bool immersive) {
     if (!room_) return;
-    const bool was_seen = std::exchange(room_->seen, seen);
+    bool was_seen = std::exchange(room_->seen, seen);
+    if (active_ && immersive)
+        was_seen = std::exchange(room_->watched_lesson, lesson_number_) != lesson_number_ || was_seen;
     if (!active_ || screen_ != ShownScreen::lesson || !active_->station) return;
     bool& paused = active_->clock.paused;
     if (was_seen && !seen && !paused) room_->paused = paused = true;
@@ -173,8 +185,12 @@ void App::end_touch_check() {
 void App::place_in_room(const view::ImmersiveFrame& immersive) {
     RoomState& room = *room_;
     const Pose& viewer = immersive.expected_head ? *immersive.expected_head : immersive.head;
-    const bool placed = immersive.tracked || immersive.expected_head || room.panel;
-    if (placed && !room.panel) room.panel = place_panel(viewer);
+    const bool placed = can_place(room.placement, immersive);
+    if (placed && !room.panel) {
+        room.panel = immersive.panel ? immersive.panel->pose : place_panel(viewer);
+        room.panel_point = immersive.panel ? immersive.panel->point_size : point_size;
+        room.placement.provisional = !immersive.expected_head && !is_worn(immersive);
+    }
     if (!active_) room.workpiece.reset();
     start_registered_arm(immersive);
     if (placed && active_ && !room.workpiece) {
@@ -184,6 +200,7 @@ void App::place_in_room(const view::ImmersiveFrame& immersive) {
         if (!user.seated_eyes && !immersive.floor_known) user.seated_eyes = default_seated_eyes;
         room.workpiece = place_workpiece(viewer, box, user);
         if (immersive.shows) room.workpiece = moved_into_view(*room.workpiece, box, viewer, immersive.shows);
+        room.placement.workpiece_faced = false;
     }
 }
 
@@ -198,24 +215,63 @@ std::optional<xr::Side> App::working_hand() const {
     return busy ? std::optional(client.tracked->side) : std::nullopt;
 }
 
+// What a key or a button of the pause does in a room.
+void App::perform_in_room(Action action) {
+    if (!room_) return;
+    RoomState& room = *room_;
+    if (action == Action::place_again) room.placement.requested = true;
+    if (action == Action::turn_left) --room.turns;
+    if (action == Action::turn_right) ++room.turns;
+    if (action == Action::raise) raise(room, raise_step);
+    if (action == Action::lower) raise(room, -raise_step);
+}
+
+// Removes the places that are to be chosen again in this frame.
+void App::follow_placement(const view::ImmersiveFrame& immersive,
+                           std::span<const platform::InputEvent> events, double seconds) {
+    RoomState& room = *room_;
+    const bool types = settings_ || gpu_->ui->edits_text();
+    for (const platform::InputEvent& event : events) {
+        const auto* key = std::get_if<platform::KeyEvent>(&event);
+        if (key == nullptr || !key->down || key->repeated || types) continue;
+        for (const Action action : room_actions)
+            if (key->key == preferences_.keys.of(action)) perform_in_room(action);
+    }
+    if (immersive.expected_head && room.placement.requested) {
+        // On walls all stands in front of the viewer but for what the user has changed.
+        room.turns = 0;
+        room.height = 0.0;
+    }
+    PlacedObjects placed{room.panel, std::nullopt};
+    if (active_ && room.workpiece)
+        placed.workpiece =
+            scene_in_room() *
+            (0.5 * (Vec3(active_->workplace.workpiece.low) + Vec3(active_->workplace.workpiece.high)));
+    const ReplacedObjects replaced = trainer::update(room.placement, immersive, placed, seconds);
+    if (replaced.panel) room.panel.reset();
+    if (replaced.workpiece) room.workpiece.reset();
+    if (immersive.origin_moved) room.touch_done = false;  // the registration may be wrong from now on
+}
+
 // Places workpiece and panel, and adds the input of the hands as events.
 void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
     const view::ImmersiveFrame* immersive = window.immersive;
-    pause_unseen(immersive != nullptr && immersive->attentive);
-    follow_headset(immersive);
-    if (room_) room_->surrounds_user = false;
-    if (immersive == nullptr) return;
+    if (room_) room_->surrounds_user = room_->present = false;
+    if (immersive == nullptr) {
+        pause_unseen(false, false);
+        follow_headset(nullptr);
+        return;
+    }
     if (!room_) room_.emplace();
     RoomState& room = *room_;
+    room.present = true;
     // On walls a lesson by mouse is played in the window, and the walls show it.
     room.surrounds_user = immersive->tracks_hands || !active_ || options_.choice.equipment.has_hardware();
-    room.seen = immersive->attentive;
     if (immersive->tracks_hands) offer_tracked_hand(menu_.devices);
-    if (immersive->recentred) {
-        room.panel = room.workpiece = std::nullopt;
-        room.touch_done = false;  // the registration may be wrong from now on
-    }
+    follow_placement(*immersive, events, window.seconds);
     place_in_room(*immersive);
+    pause_unseen(immersive->attentive && room.panel && (!active_ || room.workpiece), true);
+    follow_headset(immersive);
     if (!room.surrounds_user) return;
     if (immersive->tracks_hands) {
         // The window's pointer would compete with the hands'.
@@ -258,7 +314,8 @@ Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& imme
     }
     BOLT_TRY(draw_hands(scene, immersive));
     if (in_room() && room_->panel)
-        scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
+        scene.panels.push_back(
+            panel_in_scene(*room_->panel, room_->panel_point, place, gpu_->panel->image()));
     BOLT_TRY(draw_in_room(*gpu_->context->renderer, frame, scene, place, immersive));
     if (!room_) return {};
     room_->drawn_scene = place;

@@ -30,16 +30,21 @@ enum class Action : std::uint8_t {
     mute,  // mutes and unmutes the sound
     undo,  // returns to the previous step
     restart_step,
-    recentre,  // at a station: moves the tool to its initial pose
-    close_up,  // shows and hides the close-up
+    recentre,     // at a station: moves the tool to its initial pose
+    close_up,     // shows and hides the close-up
+    place_again,  // in a room: places panel and workpiece in front of the user
+    turn_left,    // in a room, by a step: the workpiece
+    turn_right,
+    raise,
+    lower,
 };
-inline constexpr std::size_t action_count = static_cast<std::size_t>(Action::close_up) + 1;  // the last one
+inline constexpr std::size_t action_count = static_cast<std::size_t>(Action::lower) + 1;  // the last one
 
 // As in settings files, whose names for clamp_map and mute are older.
 constexpr std::string_view name(Action action) {
     constexpr std::array names = std::to_array<std::string_view>(
         {"tool", "find_view", "whole_view", "hint", "flange_map", "pause", "full_screen", "quiet", "undo",
-         "restart_step", "recentre", "close_up"});
+         "restart_step", "recentre", "close_up", "place_again", "turn_left", "turn_right", "raise", "lower"});
     static_assert(names.size() == action_count);
     return names.at(static_cast<std::size_t>(action));
 }
@@ -47,7 +52,8 @@ constexpr std::string_view name(Action action) {
 inline constexpr std::array default_keys = std::to_array<platform::Key>(
     {platform::Key::t, platform::Key::v, platform::Key::f, platform::Key::h, platform::Key::c,
      platform::Key::escape, platform::Key::f11, platform::Key::m, platform::Key::backspace, platform::Key::r,
-     platform::Key::home, platform::Key::i});
+     platform::Key::home, platform::Key::i, platform::Key::p, platform::Key::j, platform::Key::l,
+     platform::Key::plus, platform::Key::minus});
 static_assert(default_keys.size() == action_count);
 
 struct KeyMap {

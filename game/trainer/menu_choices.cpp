@@ -153,25 +153,22 @@ void draw_devices(const ScreenContext& context, float width, std::span<const Dev
     }
 }
 
-// The field for a name or a code, with the code of the person whom it means beside it in small letters.
+// The field for a name or a code, with the code of the person whom it means beside it.
 ScreenAction draw_trainee(const ScreenContext& context, float width, const SelectedTrainee& trainee,
                           LessonChoice& choice) {
-    constexpr float small = 0.8F;
     const content::IdentifiedPerson& identified = trainee.identified;
     const std::string& code = identified.person.code;
     const std::string shown_code =
         words::format_text(context.words, "menu.trainee.code", {{"code", code.empty() ? "T-000000" : code}});
-    const float beside = small * ImGui::CalcTextSize(shown_code.c_str()).x + 8.0F * context.scale;
+    const float beside = ImGui::CalcTextSize(shown_code.c_str()).x + 8.0F * context.scale;
     ChoiceRow row(context, context.words["menu.trainee"], width);
     text_field("##trainee", width - label_width(context) - beside, choice.trainee);
     note_widget(context, "menu.trainee");
     const bool entered = ImGui::IsItemDeactivatedAfterEdit();
     if (!code.empty() && choice.trainee == trainee.text) {
         ImGui::SameLine();
-        ImGui::SetWindowFontScale(small);
         ImGui::AlignTextToFramePadding();
         draw_wrapped(shown_code, muted_text, beside);
-        ImGui::SetWindowFontScale(1.0F);
         note_widget(context, "menu.trainee.code");
         if (identified.names_error)
             draw_wrapped(words::format_text(context.words, "menu.trainee.no_names",

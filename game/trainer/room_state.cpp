@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "game/scene/workplace.hpp"
 
@@ -17,6 +18,7 @@ constexpr double panel_below_eyes = 0.02, panel_least_height = 0.9;  // m
 // Deflections of a stick: above the first it turns or raises the workpiece, below the second it is at rest.
 constexpr float stick_turns = 0.7F, stick_rests = 0.3F;
 constexpr double stick_raise = 0.2, max_raise = 0.4;          // m/s; m
+constexpr double menu_hold = 1.0;                             // s
 constexpr float pressed_above = 0.6F, released_below = 0.4F;  // of the trigger
 // Design choices. The angles are from the direction of the head, rad: the vignette is clear inside its edge
 // and black from `vignette_blur` outside it. When it is fully open, its edge is outside the view.
@@ -36,6 +38,12 @@ Vec3 middle_of(const render::BoundingBox& box) { return 0.5 * (Vec3(box.low) + V
 
 void add_key(std::vector<platform::InputEvent>& events, platform::Key key, bool down, bool& was_down) {
     if (std::exchange(was_down, down) != down) events.emplace_back(platform::KeyEvent{key, down, false, {}});
+}
+
+// Requests once that all is placed again, when the menu button has been held for long enough.
+void hold_menu(RoomState& room, bool down, double& held, double seconds) {
+    const double before = std::exchange(held, down ? held + seconds : 0.0);
+    if (before < menu_hold && held >= menu_hold) room.placement.requested = true;
 }
 
 // The stick turns the workpiece by steps, once for each deflection: smooth turning makes people sick.
@@ -133,6 +141,10 @@ Pose adjusted(const Pose& workpiece, const render::BoundingBox& box, int turns, 
     return workpiece * Pose{middle, {1.0, 0.0, 0.0, 0.0}} * turned * Pose{-middle, {1.0, 0.0, 0.0, 0.0}};
 }
 
+void raise(RoomState& room, double height) {
+    room.height = std::clamp(room.height + height, -max_raise, max_raise);
+}
+
 std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim) {
     const Pose in_panel = inverse(panel) * aim;
     const Vec3 along = in_panel.orientation * Vec3(0.0, 0.0, -1.0);
@@ -150,8 +162,6 @@ Vec3 point_on_panel(const Pose& panel, const glm::dvec2& at) {
     return panel * Vec3(from_middle.x * point_size, -from_middle.y * point_size, 0.0);
 }
 
-void raise(RoomState& room, double by) { room.height = std::clamp(room.height + by, -max_raise, max_raise); }
-
 std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& hands, const HandKeys& keys,
                                               double seconds, std::optional<xr::Side> working) {
     std::vector<platform::InputEvent> events;
@@ -162,6 +172,7 @@ std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& 
     for (std::size_t side = 0; side < hands.sides.size(); ++side) {
         const xr::HandInput& hand = hands.sides[side];
         add_key(events, keys.pause, hand.active && hand.menu, room.menu_down[side]);
+        hold_menu(room, hand.active && hand.menu, room.menu_held[side], seconds);
         add_key(events, keys.tool, hand.active && hand.secondary, room.secondary_down[side]);
         apply_stick(room, hand.active ? hand.stick : glm::vec2(0.0F), room.stick_used[side], seconds);
         if (hand.active && hand.controller != nullptr) room.controller = hand.controller;
@@ -252,9 +263,10 @@ Status draw_vignette(render::Renderer& renderer, gpu::FrameContext& frame, const
     return {};
 }
 
-render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture) {
+render::Panel panel_in_scene(const Pose& panel, double point, const Pose& scene_in_room,
+                             const gpu::Image& picture) {
     const Pose at = inverse(scene_in_room) * panel;
-    const glm::dvec2 half = 0.5 * point_size * panel_points;
+    const glm::dvec2 half = 0.5 * point * panel_points;
     render::Panel shown;
     shown.picture = &picture;
     shown.centre = glm::vec3(at.position);

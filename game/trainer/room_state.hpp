@@ -13,6 +13,7 @@
 #include "engine/render/gpu_model.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/render/scene.hpp"
+#include "game/trainer/room_placement.hpp"
 #include "game/trainer/touch_check.hpp"
 #include "game/view/immersive_frame.hpp"
 
@@ -45,8 +46,11 @@ struct Vignette {
 struct RoomState {
     std::optional<Pose> workpiece;  // pose of the assembly's frame; none: not placed yet
     std::optional<Pose> panel;  // pose of its centre: x right, y up, z towards the user; none: not placed yet
+    double panel_point = point_size;  // m per point of the panel
+    Placement placement;
     PanelPointer pointer;
     std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};  // in the last frame, for each hand
+    std::array<double, 2> menu_held{};                                // s, for each hand
     const xr::ControllerProfile* controller = nullptr;  // in a hand in the last frame; null: none is known
     double height = 0.0;                                // m that the user has raised the workpiece
     int turns = 0;                                      // steps by which the user has turned it
@@ -57,10 +61,12 @@ struct RoomState {
     std::optional<TouchCheck> touch;  // checks that registration before the lesson begins
     bool touch_done = false;          // the check ended or was skipped since the room was centred
     Vignette vignette;
-    Pose drawn_scene;             // pose of the scene's frame in the room, as it was last drawn
-    bool surrounds_user = false;  // the display surrounds the user in this frame
-    bool seen = false;            // the user saw the lesson in the last frame
-    bool paused = false;          // the lesson is paused because the user does not see it
+    Pose drawn_scene;                  // pose of the scene's frame in the room, as it was last drawn
+    bool present = false;              // this frame has a room
+    bool surrounds_user = false;       // the display surrounds the user in this frame
+    bool seen = false;                 // the user saw the lesson in the last frame
+    bool paused = false;               // the lesson is paused because the user does not see it
+    std::uint32_t watched_lesson = 0;  // number of the last lesson that was paused or seen
 };
 
 // The functions below take the bounding box of the workpiece as `box`, in the assembly's frame.
@@ -86,6 +92,10 @@ Pose place_panel(const Pose& head);
 // middle, and raised it by `height` m.
 Pose adjusted(const Pose& workpiece, const render::BoundingBox& box, int turns, double height);
 inline constexpr double turn_step = to_radians(30.0);
+inline constexpr double raise_step = 0.05;  // m, by a key or a button
+
+// Raises the workpiece, by up to 0.4 m from where it was placed; negative: lowers it.
+void raise(RoomState& room, double height);
 
 // The pose of the scene in the room, when the arm's frame is registered to it: the end of the handle is shown
 // where the hand is. `room_from_arm`: the registration; `arm_in_scene`: StationTick::mover_in_assembly.
@@ -104,14 +114,11 @@ struct HandKeys {
     platform::Key pause = platform::Key::escape, tool = platform::Key::unknown;
 };
 // The events of the hands in a frame of `seconds`: pointer and button on the panel, and the keys of the
-// buttons. Updates the room: its pointer, its controller, and the turns and the height by the sticks. The
-// hand `working` does not point: its ray crosses the panel by chance, and it closes on a tool.
+// buttons. Updates the room: its pointer, its controller, the turns and the height by the sticks, and the
+// request to place all again by a menu button that is held for 1 s. The hand `working` does not point: its
+// ray crosses the panel by chance, and it closes on a tool.
 std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& hands, const HandKeys& keys,
                                               double seconds, std::optional<xr::Side> working = {});
-
-// Raises the workpiece by `by` m, within the permitted range.
-void raise(RoomState& room, double by);
-inline constexpr double raise_step = 0.05;  // m, of the panel's buttons
 
 // The position of an event of the pointer, px; null for other events.
 glm::dvec2* pointer_position(platform::InputEvent& event);
@@ -137,7 +144,8 @@ void update(Vignette& vignette, const Pose& scene_in_room, double seconds);
 Status draw_vignette(render::Renderer& renderer, gpu::FrameContext& frame, const Vignette& vignette,
                      const view::ImmersiveFrame& immersive);
 
-// The panel in the scene whose frame is `scene_in_room`.
-render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture);
+// The panel in the scene whose frame is `scene_in_room`. `point`: m per point of the panel.
+render::Panel panel_in_scene(const Pose& panel, double point, const Pose& scene_in_room,
+                             const gpu::Image& picture);
 
 }  // namespace bolt::trainer

@@ -125,18 +125,32 @@ void draw_settings_file(const ScreenContext& context, const Preferences& prefere
 }
 
 ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode,
-                        bool headset_lost) {
+                        const PauseOptions& options) {
     ScreenAction action = ScreenAction::none;
     begin_dialog(context, "##pause", 300.0F * context.scale, 0.94F);
     draw_text(context.words["menu.paused"]);
     ImGui::Separator();
-    if (headset_lost) draw_wrapped(context.words["room.lost"], warning_text);
+    if (options.headset_lost) draw_wrapped(context.words["room.lost"], warning_text);
     if (preferences.file_error != Preferences::FileError::none) draw_settings_file(context, preferences);
-    if (draw_button(context, headset_lost ? words::TextKey("room.use_mouse") : words::TextKey("menu.go_on")))
+    if (draw_button(context,
+                    options.headset_lost ? words::TextKey("room.use_mouse") : words::TextKey("menu.go_on")))
         action = ScreenAction::resume;
     if (mode != lesson::Mode::assessment) {
         if (draw_button(context, "menu.undo")) action = ScreenAction::undo_step;
         if (draw_button(context, "menu.restart_step")) action = ScreenAction::restart_step;
+    }
+    if (options.in_room) {
+        struct RoomButton {
+            words::TextKey label;
+            ScreenAction action;
+        };
+        constexpr RoomButton buttons[] = {{"action.place_again", ScreenAction::place_again},
+                                          {"action.turn_left", ScreenAction::turn_left},
+                                          {"action.turn_right", ScreenAction::turn_right},
+                                          {"action.raise", ScreenAction::raise},
+                                          {"action.lower", ScreenAction::lower}};
+        for (const RoomButton& button : buttons)
+            if (draw_button(context, button.label)) action = button.action;
     }
     if (draw_button(context, "menu.settings")) action = ScreenAction::open_settings;
     if (draw_button(context, "menu.end")) action = ScreenAction::end_lesson;

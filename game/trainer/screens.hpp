@@ -21,10 +21,6 @@ enum class ScreenAction : std::uint8_t {
     start_tour,
     pause,
     resume,
-    turn_left,  // the workpiece in the room, by a step
-    turn_right,
-    raise,
-    lower,
     undo_step,     // begins the previous step again
     restart_step,  // begins the due step again
     end_lesson,
@@ -37,7 +33,12 @@ enum class ScreenAction : std::uint8_t {
     permit_move,  // the arm may move by itself
     cancel_start,
     end_touch_check,  // skips it, or starts the lesson after its result
-    select_trainee,   // LessonChoice::trainee was edited
+    place_again,      // panel and workpiece of a room, in front of the user
+    turn_left,        // the workpiece of a room, by a step
+    turn_right,
+    raise,
+    lower,
+    select_trainee,  // LessonChoice::trainee was edited
     quit,
 };
 
@@ -61,9 +62,13 @@ struct ScreenContext {
     std::optional<std::string>& selected_language;  // receives the language that the user selects
 };
 
-// `headset_lost`: says so, and that the mouse can go on.
+// How a lesson is paused.
+struct PauseOptions {
+    bool headset_lost = false;  // says so, and that the mouse can go on
+    bool in_room = false;  // offers to place panel and workpiece again, and to turn and raise the workpiece
+};
 ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode,
-                        bool headset_lost = false);
+                        const PauseOptions& options);
 struct ResultOptions {
     bool menu = false;   // offers the way back to the menu
     bool tour = false;   // the lesson was the tour

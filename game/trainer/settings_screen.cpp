@@ -16,7 +16,9 @@ words::TextKey text_key(Action action) {
     constexpr words::TextKey keys[] = {"action.tool",         "action.find_view",  "action.whole_view",
                                        "action.hint",         "action.flange_map", "action.pause",
                                        "action.full_screen",  "action.quiet",      "action.undo",
-                                       "action.restart_step", "action.recentre",   "action.close_up"};
+                                       "action.restart_step", "action.recentre",   "action.close_up",
+                                       "action.place_again",  "action.turn_left",  "action.turn_right",
+                                       "action.raise",        "action.lower"};
     static_assert(std::size(keys) == action_count);
     return keys[static_cast<std::size_t>(action)];
 }

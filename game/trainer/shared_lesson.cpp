@@ -29,7 +29,8 @@ render::Scene empty_room() {
     return scene;
 }
 
-void LessonSender::write(cluster::MessageWriter& message, const SharedFrame& frame) {
+void LessonSender::write(cluster::MessageWriter& message, cluster::MessageWriter& bulk,
+                         const SharedFrame& frame) {
     const std::uint32_t lesson = frame.models != nullptr ? frame.lesson : 0;
     message.put(lesson);
     const bool is_new_lesson = lesson != lesson_;
@@ -47,9 +48,15 @@ void LessonSender::write(cluster::MessageWriter& message, const SharedFrame& fra
     message.put(frame.panel.has_value());
     if (frame.panel) {
         message.put_pose(*frame.panel);
-        panel.write(message);
+        message.put(frame.panel_point);
+        message.put(panel.write(bulk));
     }
-    if (lesson != 0) scene_.write(message, *frame.scene, streamed(*frame.on_gpu));
+    if (lesson == 0) return;
+    cluster::MessageWriter scene;
+    scene_.write(scene, *frame.scene, streamed(*frame.on_gpu));
+    const bool is_large = scene.size() > max_scene_change;
+    message.put(is_large);
+    (is_large ? bulk : message).put_all(std::span<const std::byte>(scene.message()));
 }
 
 Status FollowedLesson::start(view::GpuContext& gpu_context) {
@@ -82,7 +89,7 @@ Status FollowedLesson::load(const SharedModels& shared) {
     return {};
 }
 
-Status FollowedLesson::follow(cluster::MessageReader& message) {
+Status FollowedLesson::follow(cluster::MessageReader& message, cluster::MessageReader& bulk) {
     const auto lesson = message.get<std::uint32_t>();
     const bool is_new_lesson = message.get<bool>();
     if (is_new_lesson || lesson != lesson_) scene_ = empty_room();
@@ -101,17 +108,21 @@ Status FollowedLesson::follow(cluster::MessageReader& message) {
     panel_pose_.reset();
     if (message.get<bool>()) {
         panel_pose_ = message.get_pose();
-        BOLT_TRY(panel_.read(message));
+        panel_point_ = message.get<double>();
+        if (message.get<bool>()) BOLT_TRY(panel_.read(bulk));
     }
-    if (lesson != 0) return view::read_scene(message, streamed(*models_), scene_);
-    return message.ok() ? Status{} : fail(unknown_scene());
+    if (lesson == 0) return message.ok() ? Status{} : fail(unknown_scene());
+    const cluster::Message sent = (message.get<bool>() ? bulk : message).get_all<std::byte>();
+    cluster::MessageReader scene(sent);
+    return view::read_scene(scene, streamed(*models_), scene_);
 }
 
 Status FollowedLesson::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
     BOLT_TRY(panel_.draw(*gpu_->device, frame));
     scene_.panels.clear();
     if (panel_pose_ && panel_.picture() != nullptr)
-        scene_.panels.push_back(panel_in_scene(*panel_pose_, scene_in_room_, panel_.picture()->image()));
+        scene_.panels.push_back(
+            panel_in_scene(*panel_pose_, panel_point_, scene_in_room_, panel_.picture()->image()));
     return draw_in_room(*gpu_->renderer, frame, scene_, scene_in_room_, *window.immersive);
 }
 

@@ -27,12 +27,17 @@ struct SharedFrame {
     const render::Scene* scene = nullptr;
     Pose scene_in_room;
     std::optional<Pose> panel;  // of its centre in the room; none: the room does not show it
+    double panel_point = 0.0;   // m per point of the panel
 };
+
+inline constexpr std::size_t max_scene_change = 3584;  // bytes in the state of a frame
 
 // Writes the frames of the first process for the others.
 class LessonSender {
   public:
-    void write(cluster::MessageWriter& message, const SharedFrame& frame);
+    // The scene goes into `bulk` if it has changed by more than max_scene_change, as at the begin of a
+    // lesson.
+    void write(cluster::MessageWriter& message, cluster::MessageWriter& bulk, const SharedFrame& frame);
     view::PanelSender panel;
 
   private:
@@ -49,7 +54,7 @@ class FollowedLesson : public view::WindowContent {
     void release() override;
     Status update(const view::WindowFrame&) override { return {}; }
     // Loads the models of a new lesson.
-    Status follow(cluster::MessageReader& message) override;
+    Status follow(cluster::MessageReader& message, cluster::MessageReader& bulk) override;
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
     [[nodiscard]] bool closed() const override { return false; }
 
@@ -62,6 +67,7 @@ class FollowedLesson : public view::WindowContent {
     render::Scene scene_;
     Pose scene_in_room_;
     std::optional<Pose> panel_pose_;
+    double panel_point_ = 0.0;
     view::PanelReceiver panel_;
 };
 

@@ -10,7 +10,8 @@ namespace {
 Status draw_followed(WindowContent& content, Walls& walls, const GpuContext& gpu, const ClusterFrame& shared,
                      WallFollower& follower, bool& ended) {
     cluster::MessageReader message(shared.content);
-    BOLT_TRY(content.follow(message));
+    cluster::MessageReader bulk(shared.bulk);
+    BOLT_TRY(content.follow(message, bulk));
     BOLT_TRY_ASSIGN(const ImmersiveFrame immersive, walls.begin_frame(shared.head, shared.tracked));
     WindowFrame window;
     window.immersive = &immersive;

@@ -46,4 +46,25 @@ VkRect2D filling_part(VkExtent2D picture, VkExtent2D window) { return inscribed(
 
 VkRect2D fitted(VkExtent2D picture, VkExtent2D window) { return inscribed(picture, window); }
 
+ImmersiveFrame immersive_frame(xr::Headset& headset, const xr::HeadsetFrame& frame) {
+    ImmersiveFrame immersive;
+    immersive.head = frame.view.head;
+    immersive.tracked = frame.view.tracked;
+    immersive.attentive = frame.focused;
+    for (const xr::SessionEvent& event : frame.events) {
+        const auto* recentred = std::get_if<xr::Recentred>(&event);
+        if (recentred == nullptr) continue;
+        immersive.recentred = true;
+        immersive.origin_moved = immersive.origin_moved || recentred->base;
+    }
+    immersive.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
+    immersive.has_passthrough = headset.runtime().passthrough().has_value();
+    immersive.hands = frame.hands;
+    immersive.tracks_hands = true;
+    immersive.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
+        headset.vibrate(side, vibration);
+    };
+    return immersive;
+}
+
 }  // namespace bolt::view

@@ -18,16 +18,28 @@ struct EyeGroup {
     std::vector<render::Eye> eyes;
 };
 
+// A panel in the plane of a wall.
+struct PanelPlace {
+    Pose pose;                // of its centre: x right, y up, z towards the viewer
+    double point_size = 0.0;  // m
+};
+
 struct ImmersiveFrame {
     Pose head;
-    bool tracked = false;    // false: the pose is an old or an estimated one
+    bool tracked = false;  // false: the pose is an old or an estimated one
+    // The headset's runtime is late: poses and hands are those of the last frame, and nothing is drawn.
+    bool repeated = false;
     bool attentive = false;  // false: the user does not see the picture; pause, and output no force
     // Workpiece and panel are placed for this pose of the head if the display is fixed in the room. None:
     // they are placed for the tracked head.
     std::optional<Pose> expected_head;
     // Returns true if the display shows a point of the room to the expected head; empty: it shows all points.
     std::function<bool(const Vec3&)> shows;
-    bool recentred = false;   // the room's origin has moved since the last frame
+    // Where a display that is fixed in the room shows the panel; none: in front of the head.
+    std::optional<PanelPlace> panel;
+    // Since the last frame the user has recentred the headset, and the room's origin has moved. Headsets may
+    // recentre without moving this origin.
+    bool recentred = false, origin_moved = false;
     bool floor_known = true;  // y is 0 at the floor; false: at the eyes of a seated user
     // Group i is drawn as the renderer's group immersive_group + i; a group without eyes is not drawn.
     std::vector<EyeGroup> groups;
@@ -44,6 +56,9 @@ inline constexpr xr::DepthRange immersive_range{0.03F, 50.0F};
 
 // The eyes of a headset, for pictures of this size.
 EyeGroup eye_group(const xr::HeadView& view, VkExtent2D size);
+
+// What a frame of the headset shows, without groups. `headset` must outlive it.
+ImmersiveFrame immersive_frame(xr::Headset& headset, const xr::HeadsetFrame& frame);
 
 // The part of a picture of this size that fills a window of `window`'s shape, in the middle.
 VkRect2D filling_part(VkExtent2D picture, VkExtent2D window);

@@ -111,7 +111,7 @@ Result<std::vector<PanelTile>> get_tiles(cluster::MessageReader& message, VkExte
 
 Status PanelSender::record(gpu::Device& device, gpu::FrameContext& frame, const render::PanelPicture& panel) {
     ++frame_;
-    if (recorded_) return {};
+    if (recorded_ || !waiting_.empty()) return {};
     const std::size_t size = bytes_of(panel.extent());
     if (copy_.size() < size) {
         BOLT_TRY_ASSIGN(auto copy, gpu::Buffer::create(device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -131,18 +131,20 @@ Status PanelSender::record(gpu::Device& device, gpu::FrameContext& frame, const 
 }
 
 // The frame that recorded the copy is complete once gpu::frames_in_flight later frames have begun.
-void PanelSender::write(cluster::MessageWriter& message) {
-    std::vector<PanelTile> tiles;
-    if (recorded_ && copy_.size() > 0 && frame_ >= *recorded_ + gpu::frames_in_flight) {
+bool PanelSender::write(cluster::MessageWriter& message) {
+    if (recorded_ && waiting_.empty() && copy_.size() > 0 && frame_ >= *recorded_ + gpu::frames_in_flight) {
         const std::span<const std::byte> now = copy_.bytes().first(bytes_of(extent_));
-        tiles = changed_tiles(now, sent_, extent_);
+        waiting_ = changed_tiles(now, sent_, extent_);
         sent_.assign(now.begin(), now.end());
         recorded_.reset();
     }
+    if (waiting_.empty()) return false;
+    const std::size_t count = std::min(waiting_.size(), panel_piece);
     message.put(extent_.width);
     message.put(extent_.height);
-    message.put(!tiles.empty());
-    if (!tiles.empty()) put_tiles(message, tiles);
+    put_tiles(message, std::span(waiting_).first(count));
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
+    return true;
 }
 
 void PanelSender::release() {
@@ -152,9 +154,7 @@ void PanelSender::release() {
 
 Status PanelReceiver::read(cluster::MessageReader& message) {
     const VkExtent2D extent{message.get<std::uint32_t>(), message.get<std::uint32_t>()};
-    const bool changed = message.get<bool>();
     if (!message.ok() || extent.width > max_panel || extent.height > max_panel) return fail(damaged_panel());
-    if (!changed) return {};
     if (extent.width != extent_.width || extent.height != extent_.height) waiting_.clear();
     extent_ = extent;
     BOLT_TRY_ASSIGN(auto tiles, get_tiles(message, extent));

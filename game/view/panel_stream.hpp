@@ -13,6 +13,7 @@
 namespace bolt::view {
 
 inline constexpr std::uint32_t panel_tile = 64;   // px, edge of a tile
+inline constexpr std::size_t panel_piece = 48;    // tiles in a frame, at most
 inline constexpr std::uint32_t max_panel = 4096;  // px, edge of a panel
 
 // A part of a panel's picture: texels in the panel's format, rows from the top.
@@ -35,9 +36,9 @@ class PanelSender {
     // Copies the panel's picture, which this frame has drawn, for a later write(). Does nothing if the last
     // copy has not been written yet.
     Status record(gpu::Device& device, gpu::FrameContext& frame, const render::PanelPicture& panel);
-    // Writes the changed tiles of the copy once the GPU has completed it, two frames after record() or later;
-    // before that, no tiles.
-    void write(cluster::MessageWriter& message);
+    // Writes the next changed tiles of the copy, at most panel_piece, once the GPU has completed it, two
+    // frames after record() or later. Writes nothing and returns false if there are none.
+    bool write(cluster::MessageWriter& message);
     // Call it before the GPU objects are destroyed; the receivers keep their picture.
     void release();
 
@@ -46,7 +47,8 @@ class PanelSender {
     VkExtent2D extent_{};
     std::uint64_t frame_ = 0;                // counts record()
     std::optional<std::uint64_t> recorded_;  // when copy_ was recorded; none: it has been written
-    std::vector<std::byte> sent_;            // the picture, as the receivers have it
+    std::vector<std::byte> sent_;            // the picture, as the receivers have it with waiting_
+    std::vector<PanelTile> waiting_;         // changed, and not written yet
 };
 
 class PanelReceiver {

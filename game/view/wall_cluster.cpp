@@ -25,6 +25,8 @@ constexpr double forever = std::numeric_limits<double>::infinity();
 enum class MessageKind : std::uint8_t {
     hello,    // the fingerprint of a process that is ready
     frame,    // a ClusterFrame
+    bulk,     // ClusterFrame::bulk of the next frame
+    ping,     // 4 KiB, which come back
     drawn,    // the sender's delay in the frame before, and the input of its windows
     present,  // the permission
     failed,   // exit code and text of an error
@@ -169,7 +171,38 @@ Result<WallLeader> WallLeader::begin(Cluster& cluster, std::uint64_t fingerprint
     return leader;
 }
 
+// Sends messages of 4 KiB to each process and back. Call it when all processes wait for a frame.
+Status WallLeader::measure_transport() {
+    constexpr int rounds = 15;
+    MessageWriter message;
+    message.put(MessageKind::ping);
+    message.put_all(std::span<const std::byte>(Message(4096 - message.size() - sizeof(std::uint32_t))));
+    for (int process = 1; process < cluster_->size(); ++process)
+        for (int round = 0; round < rounds; ++round) {
+            const double begin = steady_seconds();
+            BOLT_TRY(cluster_->send(process, message.message()));
+            BOLT_TRY_ASSIGN(const auto answer, answer_of(process));
+            if (!answer) return {};
+            MessageReader reader(*answer);
+            const auto kind = reader.get<MessageKind>();
+            if (kind == MessageKind::failed) return fail(reported_error(*cluster_, process, reader));
+            if (kind != MessageKind::ping) return fail(strange_message(*cluster_, process));
+            transports_.push_back(static_cast<float>(0.5 * (steady_seconds() - begin)));
+        }
+    return {};
+}
+
 Status WallLeader::send(const ClusterFrame& frame) {
+    // All have drawn the first frame, so they do nothing else now.
+    if (sizes_.size() == 1) BOLT_TRY(measure_transport());
+    if (!frame.bulk.empty()) {
+        MessageWriter bulk;
+        bulk.put(MessageKind::bulk);
+        bulk.put_all(std::span<const std::byte>(frame.bulk));
+        largest_bulk_ = std::max(largest_bulk_, static_cast<std::uint32_t>(bulk.size()));
+        for (int process = 1; process < cluster_->size(); ++process)
+            BOLT_TRY(cluster_->send(process, bulk.message()));
+    }
     MessageWriter message;
     message.put(MessageKind::frame);
     message.put(frame.number);
@@ -228,13 +261,17 @@ void WallLeader::end_others(Cluster& cluster, const std::optional<Error>& error)
 
 std::string WallLeader::summary() const {
     const std::vector<float> sizes(sizes_.begin(), sizes_.end());
+    const auto largest = [](const std::vector<float>& values) {
+        return values.empty() ? 0.0 : static_cast<double>(*std::max_element(values.begin(), values.end()));
+    };
     return fmt::format(
-        "walls: {} frames in {} processes; a frame has {:.0f} bytes (median; largest {}); the processes "
-        "presented "
-        "{:.2f} ms apart (median; largest {:.2f} ms)",
-        sizes_.size(), cluster_->size(), median(sizes),
-        sizes_.empty() ? 0U : *std::max_element(sizes_.begin(), sizes_.end()), 1e3 * median(skews_),
-        1e3 * static_cast<double>(skews_.empty() ? 0.0F : *std::max_element(skews_.begin(), skews_.end())));
+        "walls: {} frames in {} processes; a frame has {:.0f} bytes (median; largest {:.0f}), and up to {} "
+        "bytes "
+        "of new lessons and of the panel; a message of 4 KiB takes {:.3f} ms (median; longest {:.3f} ms); "
+        "the "
+        "processes presented {:.2f} ms apart (median; largest {:.2f} ms)",
+        sizes_.size(), cluster_->size(), median(sizes), largest(sizes), largest_bulk_,
+        1e3 * median(transports_), 1e3 * largest(transports_), 1e3 * median(skews_), 1e3 * largest(skews_));
 }
 
 Result<WallFollower> WallFollower::begin(Cluster& cluster, std::uint64_t fingerprint, StopWaiting stop) {
@@ -246,22 +283,38 @@ Result<WallFollower> WallFollower::begin(Cluster& cluster, std::uint64_t fingerp
 }
 
 Result<std::optional<ClusterFrame>> WallFollower::next_frame() {
-    // The first process may be in a menu for hours; if it dies, mpirun ends this one.
-    BOLT_TRY_ASSIGN(const auto received, cluster_->receive(0, forever, stop_));
-    if (!received) return std::optional<ClusterFrame>();
-    MessageReader message(*received);
-    const auto kind = message.get<MessageKind>();
-    if (kind == MessageKind::end) {
-        if (auto error = reason_of_end(*cluster_, message)) return fail(std::move(*error));
-        return std::optional<ClusterFrame>();
-    }
     ClusterFrame frame;
+    // The first process may be in a menu for hours; if it dies, mpirun ends this one.
+    for (;;) {
+        BOLT_TRY_ASSIGN(const auto received, cluster_->receive(0, forever, stop_));
+        if (!received) return std::optional<ClusterFrame>();
+        MessageReader message(*received);
+        switch (message.get<MessageKind>()) {
+            case MessageKind::end:
+                if (auto error = reason_of_end(*cluster_, message)) return fail(std::move(*error));
+                return std::optional<ClusterFrame>();
+            case MessageKind::ping:
+                BOLT_TRY(cluster_->send(0, *received));
+                break;
+            case MessageKind::bulk:
+                frame.bulk = message.get_all<std::byte>();
+                if (!message.ok()) return fail(strange_message(*cluster_, 0));
+                break;
+            case MessageKind::frame:
+                BOLT_TRY(read_frame(message, frame));
+                return std::optional(std::move(frame));
+            default:
+                return fail(strange_message(*cluster_, 0));
+        }
+    }
+}
+
+Status WallFollower::read_frame(MessageReader& message, ClusterFrame& frame) {
     frame.number = message.get<std::uint64_t>();
     frame.head = message.get_pose();
     frame.tracked = message.get<bool>();
     frame.content = message.get_all<std::byte>();
-    if (kind != MessageKind::frame || !message.ok()) return fail(strange_message(*cluster_, 0));
-    return std::optional(std::move(frame));
+    return message.ok() ? Status{} : fail(strange_message(*cluster_, 0));
 }
 
 Result<bool> WallFollower::wait_for_permission(std::span<const InputEvent> events) {

@@ -15,6 +15,7 @@
 
 #include "engine/base/math.hpp"
 #include "engine/cluster/cluster.hpp"
+#include "engine/cluster/message.hpp"
 #include "engine/platform/input.hpp"
 
 namespace bolt::view {
@@ -24,7 +25,8 @@ struct ClusterFrame {
     std::uint64_t number = 0;
     Pose head;                 // of the viewer, in the room
     bool tracked = false;      // ImmersiveFrame::tracked
-    cluster::Message content;  // WindowContent::share
+    cluster::Message content;  // the state of the frame, from WindowContent::share; below 4 KiB
+    cluster::Message bulk;     // what has changed and is larger; a message of its own, before the frame
 };
 
 // Polled while a process waits for another one. Returns true once the program was asked to end, which ends
@@ -52,13 +54,15 @@ class WallLeader {
     // As end(), for a start that fails before begin() has succeeded.
     static void end_others(cluster::Cluster& cluster, const std::optional<Error>& error);
 
-    // One line for the log: frames, bytes of a frame, and how far apart the processes presented.
+    // One line for the log: frames, bytes of a frame, how long a message takes, and how far apart the
+    // processes presented.
     [[nodiscard]] std::string summary() const;
 
   private:
     WallLeader(cluster::Cluster& cluster, StopWaiting stop, std::function<void(const std::string&)> log)
         : cluster_(&cluster), stop_(std::move(stop)), log_(std::move(log)) {}
     Result<std::optional<cluster::Message>> answer_of(int process);
+    Status measure_transport();
 
     cluster::Cluster* cluster_;
     StopWaiting stop_;
@@ -67,7 +71,9 @@ class WallLeader {
     double own_delay_ = 0.0;  // s, from then until this process had presented it
     bool ended_ = false;
     std::vector<float> skews_;          // s, of each frame: from the first process that presented to the last
-    std::vector<std::uint32_t> sizes_;  // bytes of each frame
+    std::vector<std::uint32_t> sizes_;  // bytes of each frame, without its bulk
+    std::uint32_t largest_bulk_ = 0;    // bytes
+    std::vector<float> transports_;     // s, of messages of 4 KiB to the other processes
 };
 
 // The part of every other process.
@@ -88,6 +94,7 @@ class WallFollower {
 
   private:
     WallFollower(cluster::Cluster& cluster, StopWaiting stop) : cluster_(&cluster), stop_(std::move(stop)) {}
+    Status read_frame(cluster::MessageReader& message, ClusterFrame& frame);
 
     cluster::Cluster* cluster_;
     StopWaiting stop_;

@@ -105,12 +105,12 @@ Status WallPattern::update(const WindowFrame& window) {
     return {};
 }
 
-Status WallPattern::share(cluster::MessageWriter& message) {
+Status WallPattern::share(cluster::MessageWriter& message, cluster::MessageWriter& /*bulk*/) {
     message.put(frame_number_);
     return {};
 }
 
-Status WallPattern::follow(cluster::MessageReader& message) {
+Status WallPattern::follow(cluster::MessageReader& message, cluster::MessageReader& /*bulk*/) {
     follows_ = true;
     frame_number_ = message.get<std::uint64_t>();
     return {};

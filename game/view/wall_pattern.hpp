@@ -20,8 +20,8 @@ class WallPattern : public WindowContent {
     Status start(GpuContext& gpu_context) override;
     void release() override;
     Status update(const WindowFrame& window) override;
-    Status share(cluster::MessageWriter& message) override;
-    Status follow(cluster::MessageReader& message) override;
+    Status share(cluster::MessageWriter& message, cluster::MessageWriter& bulk) override;
+    Status follow(cluster::MessageReader& message, cluster::MessageReader& bulk) override;
     Status draw(gpu::FrameContext& frame, const WindowFrame& window) override;
     [[nodiscard]] bool closed() const override { return closed_; }
 

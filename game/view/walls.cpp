@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "content/displays/panel_fit.hpp"
 #include "content/displays/wall_geometry.hpp"
 
 namespace bolt::view {
@@ -163,6 +164,8 @@ Result<std::unique_ptr<Walls>> Walls::open(const platform::Desktop& desktop, Wal
         walls->outputs_.push_back({wanted, std::move(window), nullptr, {}});
     }
     walls->displays_ = std::move(options.displays);
+    if (const auto fit = content::fit_panel(walls->displays_.walls, walls->displays_.head.fixed_head))
+        walls->panel_ = PanelPlace{fit->pose, fit->point_size};
     walls->head_ = std::move(options.head);
     walls->cluster_ = options.cluster;
     walls->log_ = std::move(options.log);
@@ -186,12 +189,14 @@ Result<gpu::Surface> Walls::make_surface(const gpu::Instance& instance) {
     return outputs_.front().window.make_surface(instance);
 }
 
-Status Walls::share(const ImmersiveFrame& immersive, const cluster::Message& content) {
+Status Walls::share(const ImmersiveFrame& immersive, const cluster::Message& content,
+                    const cluster::Message& bulk) {
     ClusterFrame frame;
     frame.number = ++frame_;
     frame.head = immersive.head;
     frame.tracked = immersive.tracked;
     frame.content = content;
+    frame.bulk = bulk;
     return leader_->send(frame);
 }
 
@@ -270,6 +275,7 @@ Result<ImmersiveFrame> Walls::begin_frame(const Pose& head, bool tracked) {
     immersive.shows = [this](const Vec3& point) {
         return on_a_wall(displays_.walls, displays_.head.fixed_head.position, point);
     };
+    immersive.panel = panel_;
     immersive.attentive = true;
     for (const content::Wall& wall : displays_.walls) {
         VkExtent2D size{};

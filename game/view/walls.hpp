@@ -88,8 +88,9 @@ class Walls {
 
     // Null: this is not the first of several processes.
     [[nodiscard]] WallLeader* leader() { return leader_ ? &*leader_ : nullptr; }
-    // Sends the frame to the other processes. `content`: WindowContent::share.
-    Status share(const ImmersiveFrame& immersive, const cluster::Message& content);
+    // Sends the frame to the other processes. `content`, `bulk`: from WindowContent::share.
+    Status share(const ImmersiveFrame& immersive, const cluster::Message& content,
+                 const cluster::Message& bulk);
     // Waits until the other processes have drawn the frame, and permits all to present it.
     Status wait_for_others();
 
@@ -109,6 +110,7 @@ class Walls {
     void log_status(tracking::HeadStatus status);
 
     content::DisplayFile displays_;
+    std::optional<PanelPlace> panel_;
     std::optional<head_tracking::HeadSource> head_;
     cluster::Cluster* cluster_ = nullptr;
     std::optional<WallLeader> leader_;

@@ -37,7 +37,10 @@ struct Canvas {
     const ResolutionControl* adapted = nullptr;  // the one of the two that the last frame adapted
     int old_frames = 0;                          // frames in flight that were drawn at another resolution
     double late_since = 0.0;  // s, time since which the headset's runtime is late; 0: it is not
-    std::vector<platform::InputEvent> events;  // for the next frame
+    bool hangs = false;       // it is late for so long that the window goes on without it
+    std::optional<ImmersiveFrame> last_immersive;  // of the headset
+    std::optional<VkExtent2D> mirrored;            // size of the headset's picture in the window
+    std::vector<platform::InputEvent> events;      // for the next frame
 
     Canvas() = default;
     Canvas(Canvas&&) = default;
@@ -77,12 +80,6 @@ std::vector<xr::EyePicture> eye_pictures(const render::Renderer& renderer, const
     return pictures;
 }
 
-bool has_recentred(const xr::HeadsetFrame& frame) {
-    return std::any_of(frame.events.begin(), frame.events.end(), [](const xr::SessionEvent& event) {
-        return std::holds_alternative<xr::Recentred>(event);
-    });
-}
-
 // s, that the GPU took for the last completed frame; 0 on GPUs without timestamps.
 double gpu_time(const GpuContext& gpu) {
     double sum = 0.0;
@@ -90,9 +87,17 @@ double gpu_time(const GpuContext& gpu) {
     return sum;
 }
 
+// The error of a headset that the program needs.
+Error needed(Error error) {
+    error.code = ErrorCode::no_device;
+    error.lost = false;  // the GPU is not lost
+    return error;
+}
+
 enum class Ending : std::uint8_t {
     closed,
-    headset_found,  // the GPU objects are to be created by its runtime
+    headset_found,    // the GPU objects are to be created by its runtime
+    headset_refused,  // the GPU objects are to be created without it
 };
 
 // Shows the content frame by frame, until it is closed.
@@ -119,8 +124,12 @@ class FrameLoop {
     Status draw();
     Status draw_window(WindowFrame window);
     Status draw_headset(xr::HeadsetFrame& frame, WindowFrame window);
+    // A frame of the content and the window while the headset's runtime is late.
+    Status draw_late(WindowFrame window);
     // Moves the eyes of the recorded pictures to the latest prediction of the headset's pose.
     void latch_eyes(xr::HeadsetFrame& frame, const WindowFrame& window, ImmersiveFrame& immersive);
+    // Submits the frame and shows the first eye's picture, of this size, in the window.
+    Status present_mirror(gpu::FrameContext& recorded, VkExtent2D size);
     Status draw_walls(WindowFrame window);
     // Adapts the resolution to the time that the GPU took for the last frame. `period`: s, that a frame may
     // take; `elapsed`: s, since the last call.
@@ -134,7 +143,8 @@ class FrameLoop {
 
 FrameLoop::Display FrameLoop::display() const {
     if (options_.walls != nullptr) return Display::walls;
-    return options_.headset != nullptr && options_.headset->running() ? Display::headset : Display::window;
+    const bool headset = options_.headset != nullptr && options_.headset->running() && !canvas_.hangs;
+    return headset ? Display::headset : Display::window;
 }
 
 bool FrameLoop::minimised() const {
@@ -188,22 +198,12 @@ Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
     xr::Headset& headset = *options_.headset;
     GpuContext& gpu = canvas_.gpu_context;
     const VkExtent2D size = scaled(share_of(canvas_.headset_resolution), headset.session().extent());
-    ImmersiveFrame immersive;
-    immersive.head = frame.view.head;
-    immersive.tracked = frame.view.tracked;
-    immersive.attentive = frame.focused;
-    immersive.recentred = has_recentred(frame);
-    immersive.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
-    immersive.has_passthrough = headset.runtime().passthrough().has_value();
-    immersive.hands = frame.hands;
-    immersive.tracks_hands = true;
-    immersive.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
-        headset.vibrate(side, vibration);
-    };
+    ImmersiveFrame immersive = immersive_frame(headset, frame);
     if (!frame.view.eyes.empty()) immersive.groups = {eye_group(frame.view, size)};
     window.immersive = &immersive;
     BOLT_TRY(content_.update(window));
     BOLT_TRY_ASSIGN(const auto recorded, gpu.frames->begin());
+    canvas_.last_immersive = immersive;
     if (!immersive.groups.empty()) {
         headset.locate(frame);
         immersive.head = frame.view.head;
@@ -218,14 +218,34 @@ Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
         BOLT_TRY(gpu.frames->submit(*recorded));
     } else {
         headset.record(recorded->commands(), eye_pictures(*gpu.renderer, immersive.groups.front()));
-        const render::ImageLayer picture = gpu.renderer->picture(0, immersive_group);
-        BOLT_TRY(canvas_.swapchain->present(
-            *gpu.frames, *recorded,
-            {picture.image, picture.layer, filling_part(size, canvas_.swapchain->plan().extent), {}}, false));
+        canvas_.mirrored = size;
+        BOLT_TRY(present_mirror(*recorded, size));
     }
     headset.end_frame(frame, drawn, immersive_range);
     adapt(canvas_.headset_resolution, frame.timing.period, frame.timing.period);
     return {};
+}
+
+Status FrameLoop::present_mirror(gpu::FrameContext& recorded, VkExtent2D size) {
+    const render::ImageLayer picture = canvas_.gpu_context.renderer->picture(0, immersive_group);
+    BOLT_TRY(canvas_.swapchain->present(
+        *canvas_.gpu_context.frames, recorded,
+        {picture.image, picture.layer, filling_part(size, canvas_.swapchain->plan().extent), {}}, false));
+    return {};
+}
+
+Status FrameLoop::draw_late(WindowFrame window) {
+    ImmersiveFrame& immersive = *canvas_.last_immersive;
+    immersive.repeated = true;
+    immersive.recentred = immersive.origin_moved = false;
+    immersive.groups.clear();
+    immersive.vibrate = {};
+    window.immersive = &immersive;
+    BOLT_TRY(content_.update(window));
+    BOLT_TRY_ASSIGN(const auto recorded, canvas_.gpu_context.frames->begin());
+    BOLT_TRY(content_.draw(*recorded, window));
+    return canvas_.mirrored ? present_mirror(*recorded, *canvas_.mirrored)
+                            : canvas_.gpu_context.frames->submit(*recorded);
 }
 
 // A frame on projection walls. The content's picture for the control window is shown whole; all windows are
@@ -238,9 +258,9 @@ Status FrameLoop::draw_walls(WindowFrame window) {
     BOLT_TRY(content_.update(window));
     WallLeader* leader = walls.leader();
     if (leader != nullptr) {
-        cluster::MessageWriter shared;
-        BOLT_TRY(content_.share(shared));
-        BOLT_TRY(walls.share(immersive, shared.message()));
+        cluster::MessageWriter state, bulk;
+        BOLT_TRY(content_.share(state, bulk));
+        BOLT_TRY(walls.share(immersive, state.message(), bulk.message()));
     }
     BOLT_TRY_ASSIGN(const auto recorded, gpu.frames->begin());
     BOLT_TRY(content_.draw(*recorded, window));
@@ -264,19 +284,22 @@ Status FrameLoop::draw_walls(WindowFrame window) {
     return {};
 }
 
-// The headset's frame is begun when its runtime releases it, which paces the loop. If the runtime is late, no
-// frame is drawn; after `max_hitch` the window draws without it.
+// The headset's frame is begun when its runtime releases it, which paces the loop. If the runtime is late by
+// more than a frame or two, lesson and window go on with the last poses; after `max_hitch` without the
+// headset.
 Status FrameLoop::draw() {
-    static constexpr double max_wait = 0.1, max_hitch = 0.5;  // s
+    static constexpr double max_wait = 1.0 / 30, late_wait = 1.0 / 60, max_hitch = 0.5;  // s
     BOLT_TRY_ASSIGN(const auto size, canvas_.swapchain->prepare(size_of(window_)));
     xr::Headset* headset = options_.headset;
     std::optional<xr::HeadsetFrame> headset_frame;
-    if (headset != nullptr) headset_frame = headset->begin_frame(headset->running() ? max_wait : 0.0);
+    const double wait = display() != Display::headset ? 0.0 : canvas_.late_since > 0.0 ? late_wait : max_wait;
+    if (headset != nullptr) headset_frame = headset->begin_frame(wait);
     const double now = seconds();
-    const bool late = display() == Display::headset && !headset_frame;
+    const bool late = headset != nullptr && headset->running() && !headset_frame;
     if (late && canvas_.late_since == 0.0) canvas_.late_since = now;
     if (!late) canvas_.late_since = 0.0;
-    if (late && now - canvas_.late_since < max_hitch) return {};
+    canvas_.hangs = late && now - canvas_.late_since >= max_hitch;
+    if (!late && display() == Display::window) canvas_.last_immersive.reset();
     const double elapsed = now - canvas_.last_frame;
     canvas_.last_frame = now;
     const std::vector<platform::InputEvent> events = std::exchange(canvas_.events, {});
@@ -284,6 +307,7 @@ Status FrameLoop::draw() {
     if (headset_frame && headset_frame->timing.should_render) return draw_headset(*headset_frame, frame);
     if (headset_frame) headset->end_frame(*headset_frame, false, immersive_range);
     if (display() == Display::walls) return draw_walls(frame);
+    if (late && !canvas_.hangs && canvas_.last_immersive) return draw_late(frame);
     return minimised() ? content_.frame_while_hidden() : draw_window(frame);
 }
 
@@ -306,7 +330,7 @@ Result<Ending> FrameLoop::run() {
     canvas_.last_frame = seconds();
     while (!content_.closed() && !(options_.stop && options_.stop())) {
         xr::Headset* headset = options_.headset;
-        if (headset != nullptr && headset->find(seconds())) return Ending::headset_found;
+        if (headset != nullptr && headset->find_in_background(seconds())) return Ending::headset_found;
         if (headset != nullptr && headset->exit_requested()) return Ending::closed;
         const Display shown = display();
         const bool open = poll_events(shown == Display::window && minimised());
@@ -323,30 +347,38 @@ Result<Ending> FrameLoop::run() {
     return Ending::closed;
 }
 
-// Creates Vulkan's instance anew: by the headset's runtime, or, if that fails, without it.
+// Creates Vulkan's instance anew. The functions of Vulkan are loaded for one instance at a time, so the old
+// one is destroyed first.
 Status remake_instance(gpu::Instance& instance, const WindowRunOptions& options) {
     gpu::InstanceOptions again = options.instance;
     again.log = instance.shared_log();
-    again.creator = options.headset->creator();
-    // The functions of Vulkan are loaded for one instance at a time.
     { const gpu::Instance ended = std::move(instance); }
-    Result<gpu::Instance> made = gpu::Instance::create(again);
-    if (!made) {
-        options.headset->end();
-        again.creator = nullptr;
-        made = gpu::Instance::create(again);
-    }
-    if (!made) return fail(made.error());
-    instance = std::move(*made);
+    BOLT_TRY_ASSIGN(instance, make_instance(again, options.headset, options.needs_headset));
     return {};
+}
+
+// Runs the session of a headset that was found. Returns false if it cannot be used.
+bool begin_headset(const WindowRunOptions& options, const Result<Canvas>& canvas) {
+    xr::Headset& headset = *options.headset;
+    if (canvas)
+        headset.begin(*canvas->gpu_context.device);
+    else
+        headset.refuse(canvas.error());
+    return headset.connected();
 }
 
 // Runs the content with one set of GPU objects.
 Result<Ending> run_on_canvas(WindowContent& content, platform::Window& window, const gpu::Instance& instance,
-                             const WindowRunOptions& options) {
-    BOLT_TRY_ASSIGN(auto canvas, make_canvas(window, instance, options));
-    if (options.headset != nullptr && options.headset->creator() != nullptr)
-        options.headset->begin(*canvas.gpu_context.device);
+                             WindowRunOptions& options) {
+    Result<Canvas> made = make_canvas(window, instance, options);
+    if (options.headset != nullptr && options.headset->creator() != nullptr &&
+        !begin_headset(options, made)) {
+        if (options.needs_headset) return fail(needed(*options.headset->absence()));
+        if (!made) return Ending::headset_refused;
+    }
+    if (!made) return fail(made.error());
+    options.needs_headset = false;
+    Canvas& canvas = *made;
     Result<Ending> ending = Ending::closed;
     Status started =
         options.walls != nullptr ? options.walls->start(*canvas.gpu_context.device, instance) : Status{};
@@ -366,49 +398,23 @@ Result<Ending> run_on_canvas(WindowContent& content, platform::Window& window, c
 
 }  // namespace
 
-void OrbitControl::stop() {
-    drag_ = Drag::none;
-    held_ = platform::Button::other;
-}
-
-bool OrbitControl::apply(std::span<const platform::InputEvent> events, const PictureShape& picture,
-                         Orbit& orbit, const render::BoundingBox& box) {
-    using namespace platform;
-    bool moved = false;
-    for (const InputEvent& event : events) {
-        if (const auto* button = std::get_if<ButtonEvent>(&event)) {
-            cursor_ = button->at;
-            // A second button is ignored while one is held.
-            if (button->down && drag_ == Drag::none && button->button != Button::other) {
-                drag_ = button->button == Button::left ? Drag::turn : Drag::pan;
-                held_ = button->button;
-            } else if (!button->down && button->button == held_) {
-                stop();
-            }
-        } else if (const auto* cursor = std::get_if<CursorEvent>(&event)) {
-            const glm::dvec2 motion = (cursor->at - cursor_) / picture.height;
-            cursor_ = cursor->at;
-            if (drag_ == Drag::turn) turn(orbit, {motion.x, -motion.y});
-            if (drag_ == Drag::pan) pan(orbit, {motion.x, -motion.y});
-            moved = moved || drag_ != Drag::none;
-        } else if (const auto* wheel = std::get_if<WheelEvent>(&event)) {
-            const glm::dvec2 at(wheel->at.x / picture.height - 0.5 * picture.aspect,
-                                0.5 - wheel->at.y / picture.height);
-            zoom(orbit, wheel->notches.y, at, box);
-            moved = true;
-        } else if (const auto* focus = std::get_if<FocusEvent>(&event)) {
-            if (!focus->focused) stop();  // the release may go to another window
-        }
-    }
-    return moved;
+Result<gpu::Instance> make_instance(gpu::InstanceOptions instance_options, xr::Headset* headset,
+                                    bool needs_headset) {
+    instance_options.creator = headset != nullptr ? headset->creator() : nullptr;
+    Result<gpu::Instance> made = gpu::Instance::create(instance_options);
+    if (made || instance_options.creator == nullptr) return made;
+    headset->refuse(made.error());
+    if (needs_headset) return fail(needed(made.error()));
+    instance_options.creator = nullptr;
+    return gpu::Instance::create(instance_options);
 }
 
 Status run_in_window(WindowContent& content, platform::Window& window, gpu::Instance& instance,
-                     const WindowRunOptions& options) {
+                     WindowRunOptions options) {
     gpu::DeviceLossPolicy loss_policy;
     for (;;) {
         const Result<Ending> ending = run_on_canvas(content, window, instance, options);
-        if (ending && *ending == Ending::headset_found) {
+        if (ending && *ending != Ending::closed) {
             BOLT_TRY(remake_instance(instance, options));
             continue;
         }

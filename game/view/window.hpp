@@ -56,8 +56,9 @@ class WindowContent {
     // On walls of several processes, the first one calls share() after update(), to write what the others
     // need to draw the frame. The others call follow() before update(), to read it. Contents that only one
     // process shows need neither.
-    virtual Status share(cluster::MessageWriter&) { return {}; }
-    virtual Status follow(cluster::MessageReader&) { return {}; }
+    // The state of a frame stays below 4 KiB; what is larger, and rarely changes, is in `bulk`.
+    virtual Status share(cluster::MessageWriter& /*state*/, cluster::MessageWriter& /*bulk*/) { return {}; }
+    virtual Status follow(cluster::MessageReader& /*state*/, cluster::MessageReader& /*bulk*/) { return {}; }
     // Called instead of update() and draw() while the window is minimised and no headset is used.
     virtual Status frame_while_hidden() { return {}; }
     // Called once, when the window closes or drawing has failed permanently.
@@ -100,7 +101,10 @@ struct WindowRunOptions {
     std::string gpu{};               // part of the name of the GPU to use; empty: the best
     std::function<bool()> stop{};    // polled every frame; true closes the window
     xr::Headset* headset = nullptr;  // null: none is used
-    Walls* walls = nullptr;          // null: there are none; not together with a headset
+    // The first headset must work: if it does not, the run fails with ErrorCode::no_device. False: a headset
+    // that cannot be used leaves the content in the window, as one that fails later does.
+    bool needs_headset = false;
+    Walls* walls = nullptr;  // null: there are none; not together with a headset
     // Lower the resolution of a headset if the GPU cannot keep its frame rate, and that of scenes in the
     // window if it cannot draw 30 frames a second.
     bool adapts_resolution = true;
@@ -109,11 +113,16 @@ struct WindowRunOptions {
     gpu::InstanceOptions instance{};
 };
 
+// Creates the Vulkan instance, by the runtime of a headset that was found. If that fails, the headset is
+// refused and the instance is created without it, unless `needs_headset`.
+Result<gpu::Instance> make_instance(gpu::InstanceOptions instance_options, xr::Headset* headset,
+                                    bool needs_headset);
+
 // Returns when the window is closed. After the loss of the GPU it creates a new GPU context and restarts the
 // content, unless the GPU was lost shortly before (gpu::DeviceLossPolicy). A headset may be found, be lost
 // and return at any time; meanwhile the content is shown in the window.
 Status run_in_window(WindowContent& content, platform::Window& window, gpu::Instance& instance,
-                     const WindowRunOptions& options = {});
+                     WindowRunOptions options = {});
 
 // Shows the walls of this process in step with the first one, until that ends. `gpu`: as in WindowRunOptions.
 Status follow_on_walls(WindowContent& content, Walls& walls, WallFollower& follower,

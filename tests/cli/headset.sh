@@ -45,6 +45,37 @@ assert len(set(left)) > 60                 # a scene, not a colour
 END
 done
 
+# The headset lies on a table when the program begins, then its user puts it on; later the user turns round and presses the headset's
+# button that moves the seated space only, and a moment later takes it off: the runtime senses that and keeps the session's focus.
+cat >script <<END
+0 config width 240
+0 config height 220
+0 config with XR_EXT_user_presence
+0 report $work/report
+1 head 0.5 0.78 0.4 0 0.7071 0 0.7071
+8 head 0 1.65 0 -0.1 0 0 0.995
+24 picture $work/worn.ppm
+28 head 0 1.65 0 0 1 0 0
+32 picture $work/turned.ppm
+34 event recentre seated
+44 picture $work/recentred.ppm
+48 event not_worn
+52 exit
+END
+rm -f report
+expect 0 'headset: Mock headset' timeout 200 "$bin/boltwright" train --silent --validate --full-resolution --size 160x120 --hmd first-nut --out placed
+check 'the runtime was used correctly' test "$(violations report)" = 0
+check 'the menu is in front of the user, before and after' python3 - worn.ppm turned.ppm recentred.ppm <<'END'
+import sys
+def shows_panel(name):  # the menu is dark with bright text; without it the empty room has few edges
+    data = open(name, 'rb').read()[-3 * 480 * 220:]
+    gray = [sum(data[i:i + 3]) for i in range(0, len(data), 3)]
+    edges = sum(abs(gray[y * 480 + x] - gray[y * 480 + x + 1]) > 120 for y in range(70, 150) for x in range(60, 180))
+    return edges
+worn, turned, recentred = [shows_panel(name) for name in sys.argv[1:]]
+assert worn > 100 and recentred > 100 and turned < 50, (worn, turned, recentred)
+END
+
 # The user wants to see the real room, with a headset that can show it and with one that cannot.
 echo '{"format": "boltwright settings 1", "trainee": "Ada", "language": "en", "volume": 1, "captions": false, "palette": "usual",
  "left_handed": false, "force_scale": 1, "surroundings": true, "seated_height_m": null, "keys": {}}' >settings.json
@@ -108,6 +139,48 @@ kill -INT $player
 check 'the program ends in order' wait $player
 player=
 check 'one line tells of the absence' test "$(grep -c 'no OpenXR runtime' log)" = 1
+
+# A headset that appears during a lesson and fails leaves the lesson in the window, with one line; it is used when it works.
+refused='the headset cannot be used, and the window is used without it'
+expect_refusal() {  # expect_refusal REASON OUT LINE: the script has this line
+    printf '0 config width 64\n0 config height 60\n%s\n' "$3" >script
+    rm -f later.json
+    "${train[@]}" --hmd optional first-nut --out "$2" >log 2>&1 &
+    player=$!
+    check "the lesson begins in the window ($3)" eventually grep -qs 'lesson begun' log
+    cp "$manifest" later.json
+    check "one line says why the headset is not used ($3)" eventually grep -q "$refused: .*$1" log
+    [[ $3 = *foreign* ]] || check "it is used when it works ($3)" eventually grep -q '^headset: 2 eye' log
+    check "the program still runs ($3)" kill -0 $player
+    kill -INT $player
+    check "the program ends in order ($3)" wait $player
+    player=
+    check "the reason is told once ($3)" test "$(grep -c "$refused" log)" = 1
+    check "the lesson was recorded ($3)" test -s "$2/session.boltwright"
+}
+expect_refusal 'xrCreateVulkanInstanceKHR returned' fails1 '0 fail xrCreateVulkanInstanceKHR -2 1'
+expect_refusal 'xrGetVulkanGraphicsDevice2KHR returned' fails2 '0 fail xrGetVulkanGraphicsDevice2KHR -38 2'
+expect_refusal 'xrCreateVulkanDeviceKHR returned' fails3 '0 fail xrCreateVulkanDeviceKHR -2 1'
+expect_refusal 'xrCreateSession returned' fails4 '0 fail xrCreateSession -2 1'
+expect_refusal 'connected to a GPU that Vulkan does not list' fails5 '0 config foreign_gpu 1'
+
+# With --hmd the program needs the headset.
+export XR_RUNTIME_JSON=$manifest
+for line in '0 fail xrCreateVulkanInstanceKHR -2 1' '0 fail xrGetVulkanGraphicsDevice2KHR -38 1' '0 fail xrCreateVulkanDeviceKHR -2 1' \
+    '0 fail xrCreateSession -2 1' '0 config foreign_gpu 1'; do
+    echo "$line" >script
+    word=${line#0 }
+    word=${word#* }
+    word=${word%% *}
+    expect 4 "${word/foreign_gpu/a GPU that Vulkan does not list}" timeout 100 "${train[@]}" --hmd first-nut --out never
+done
+# The GPU that the user chooses must be the headset's.
+echo >script
+expect 4 "the headset's GPU, .*, does not match \"nonesuch\"" timeout 100 "${train[@]}" --gpu nonesuch --hmd first-nut --out never
+echo '30 exit' >script
+expect 0 'headset: 2 eye' timeout 200 "${train[@]}" --gpu llvmpipe --hmd first-nut --out chosen
+
+printf '0 config width 64\n0 config height 60\n' >script
 
 # A lesson with an arm that is registered to the room begins after a touch of the check point. The axes of the emulated arm are x to the
 # user, y to the right, z up.

@@ -63,6 +63,48 @@ check 'an interrupt ends the program with exit code 0' wait $player
 player=
 check 'the interrupted lesson has a report' test -s out/report.html
 
+# The menu is whole on a screen of a desk and on a wall of 2.4 m without a ceiling: the edges of their pictures are the dark room.
+cat > edges.py <<'END'
+import struct, sys, zlib
+data = open(sys.argv[1], 'rb').read()
+width, height, depth, kind = struct.unpack('>IIBB', data[16:26])
+at, packed = 8, b''
+while at < len(data):
+    length, name = struct.unpack('>I4s', data[at:at + 8])
+    if name == b'IDAT': packed += data[at + 8:at + 8 + length]
+    at += 12 + length
+raw, size = zlib.decompress(packed), {2: 3, 6: 4}[kind]
+rows, before = [], bytes(width * size)
+for y in range(height):
+    filter_type, line = raw[y * (width * size + 1)], bytearray(raw[y * (width * size + 1) + 1:(y + 1) * (width * size + 1)])
+    for i in range(len(line)):
+        a, b, c = (line[i - size] if i >= size else 0), before[i], (before[i - size] if i >= size else 0)
+        p = a + b - c
+        paeth = a if abs(p - a) <= abs(p - b) and abs(p - a) <= abs(p - c) else b if abs(p - b) <= abs(p - c) else c
+        line[i] = (line[i] + [0, a, b, (a + b) // 2, paeth][filter_type]) % 256
+    rows.append(bytes(line))
+    before = bytes(line)
+pixel = lambda x, y: rows[y][x * size:x * size + 3]
+edge = {pixel(x, y) for x in range(width) for y in (0, height - 1)} | {pixel(x, y) for x in (0, width - 1) for y in range(height)}
+inside = {pixel(x, y) for x in range(width) for y in range(height)}
+assert len(edge) == 1 and len(inside) > 50, (len(edge), len(inside))
+END
+for kind in desk tall; do
+    if [[ $kind = desk ]]; then corners='"lower_left_m": [-0.72, 0.75, -0.3], "lower_right_m": [0.72, 0.75, -0.3], "upper_right_m": [0.72, 1.56, -0.3]' head='0, 1.2, 0.45'
+    else corners='"lower_left_m": [-1.5, 0, -1.5], "lower_right_m": [1.5, 0, -1.5], "upper_right_m": [1.5, 2.4, -1.5]' head='0, 2.1, 0.3'; fi
+    cat > $kind.json <<END
+{ "format": "boltwright displays 1", "head": { "tracker": "fixed", "fixed": { "position_m": [$head] } },
+  "walls": [ { "name": "screen", $corners, "output": { "position_px": [600, 300], "resolution_px": [576, $([[ $kind = desk ]] && echo 324 || echo 460)] } } ] }
+END
+    "$bin/boltwright" train first-nut --silent --validate --size 280x180 --displays $kind.json --out out 2>log >/dev/null &
+    player=$!
+    whole() { shows menu-$kind 600 300 576 $([[ $kind = desk ]] && echo 324 || echo 460) 8000 && python3 edges.py "$pictures/menu-$kind.png"; }
+    check "the menu is whole ($kind)" eventually whole
+    kill -INT $player
+    check "the program ends ($kind)" wait $player
+    player=
+done
+
 # Mistakes: before any window opens.
 train=("$bin/boltwright" train first-nut --start --silent --out out --displays)
 expect 3 'crossed.json:[0-9]+:' bash -c "sed '0,/\[1.5, 0, -1.5\]/s//[1.5, 0.4, -1.5]/' walls.json > crossed.json; $(printf '%q ' "${train[@]}") crossed.json"

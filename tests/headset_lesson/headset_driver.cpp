@@ -12,6 +12,15 @@
 
 namespace bolt::test {
 
+namespace {
+
+// True for a frame of the headset that its user sees, and whose poses came from the runtime.
+bool is_new(const view::WindowFrame& window) {
+    return window.immersive != nullptr && window.immersive->attentive && !window.immersive->repeated;
+}
+
+}  // namespace
+
 Status HeadsetDriver::start(view::GpuContext& gpu_context) {
     gpu_ = &gpu_context;
     return app_.start(gpu_context);
@@ -43,7 +52,7 @@ Status HeadsetDriver::update(const view::WindowFrame& window) {
     view::WindowFrame stepped = window;
     stepped.seconds = options_.step;
     const auto now = std::chrono::steady_clock::now();
-    const bool seen = window.immersive != nullptr && window.immersive->attentive;
+    const bool seen = is_new(window);
     if (seen) {
         compare(*window.immersive);
         received_ = window.immersive->hands;
@@ -56,7 +65,7 @@ Status HeadsetDriver::update(const view::WindowFrame& window) {
 }
 
 Status HeadsetDriver::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
-    const bool seen = window.immersive != nullptr && window.immersive->attentive;
+    const bool seen = is_new(window);
     const double time = app_.lesson() ? app_.lesson()->session->time() : 0.0;
     newly_drawn_ = !seen || !drawn_ || app_.screen() != trainer::ShownScreen::lesson ||
                    time >= drawn_at_ + options_.draw_interval || time < drawn_at_;

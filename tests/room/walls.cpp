@@ -68,3 +68,54 @@ TEST_CASE("Walls: the menu is a panel on the walls, and the window's pointer pre
     CHECK_FALSE(driver.app().room()->surrounds_user);
     CHECK(driver.app().room()->workpiece);
 }
+
+TEST_CASE("Walls: the panel is where and as large as the display shows it whole") {
+    HeadlessTrainer driver(test::options("first-nut", true), {panel_extent, 1.0F, 0.02});
+    driver.draws = false;
+    driver.immersive = in_front_of_wall(-100.0);
+    driver.immersive->panel = view::PanelPlace{{{0.1, 1.4, -1.5}, rotation({0.0, 0.2, 0.0})}, 0.7e-3};
+    driver.frame();
+    const RoomState& room = *driver.app().room();
+    REQUIRE(room.panel);
+    CHECK(room.panel->position == driver.immersive->panel->pose.position);
+    CHECK(room.panel->orientation == driver.immersive->panel->pose.orientation);
+    CHECK(room.panel_point == 0.7e-3);
+}
+
+TEST_CASE("Walls: keys and buttons of the pause turn and raise the workpiece, also in a lesson by mouse") {
+    HeadlessTrainer driver(test::options("first-nut", false), {{640, 700}, 1.0F, 0.02});
+    driver.draws = false;
+    driver.immersive = in_front_of_wall(-100.0);
+    driver.frame();
+    REQUIRE(driver.app().room()->workpiece);
+    const auto room = [&]() -> const RoomState& { return *driver.app().room(); };
+    driver.key(platform::Key::l);
+    driver.key(platform::Key::l);
+    driver.key(platform::Key::j);
+    CHECK(room().turns == 1);
+    for (int i = 0; i < 3; ++i) driver.key(platform::Key::plus);
+    driver.key(platform::Key::minus);
+    CHECK(room().height == doctest::Approx(2 * raise_step));
+    for (int i = 0; i < 20; ++i) driver.key(platform::Key::plus);
+    CHECK(room().height == doctest::Approx(0.4));
+    driver.key(platform::Key::p);
+    CHECK(room().turns == 0);
+    CHECK(room().height == 0.0);
+    driver.key(platform::Key::l);
+    driver.draws = true;
+    driver.draw_interval = 1;
+    driver.key(platform::Key::escape);
+    driver.frame();
+    driver.frame();
+    for (const auto& [label, turns] : {std::pair{words::TextKey("action.turn_right"), 2},
+                                       std::pair{words::TextKey("action.turn_left"), 1}}) {
+        glm::dvec2 at(0.0);
+        for (const DrawnWidget& widget : driver.app().drawn_widgets())
+            if (widget.label == label) at = widget.middle;
+        REQUIRE(at.x > 0.0);
+        driver.press(at);
+        driver.release(at);
+        for (int i = 0; i < 3; ++i) driver.frame();
+        CHECK(room().turns == turns);
+    }
+}
