@@ -256,8 +256,8 @@ void App::draw_screen(const ScreenContext& context) {
     if (in_lesson) draw_hud(*active_, texts, context.size, context.scale);
     if (in_lesson && tour_) draw_tour(*tour_, *active_, texts, context.size, context.scale);
     if (settings_) {
-        const ScreenAction action =
-            settings_->draw(context, preferences_, {active_ && in_lesson, study_.has_value()});
+        const ScreenAction action = settings_->draw(
+            context, preferences_, {active_ && in_lesson, study_.has_value(), room_ && room_->present});
         apply_preferences();
         perform(action);
     } else if (start_thread_ || arm_screen_.needs.any()) {

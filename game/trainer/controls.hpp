@@ -52,7 +52,7 @@ constexpr std::string_view name(Action action) {
 inline constexpr std::array default_keys = std::to_array<platform::Key>(
     {platform::Key::t, platform::Key::v, platform::Key::f, platform::Key::h, platform::Key::c,
      platform::Key::escape, platform::Key::f11, platform::Key::m, platform::Key::backspace, platform::Key::r,
-     platform::Key::home, platform::Key::i, platform::Key::p, platform::Key::j, platform::Key::l,
+     platform::Key::home, platform::Key::i, platform::Key::b, platform::Key::j, platform::Key::l,
      platform::Key::plus, platform::Key::minus});
 static_assert(default_keys.size() == action_count);
 

@@ -129,11 +129,17 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     }
 }
 
-void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {
+// The keys of a room are offered only in one. The rows are then closer, so that the dialog is not too high.
+void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys, bool in_room) {
     const words::Words& words = context.words;
     draw_text(words["menu.keys"]);
     ImGui::Columns(2, "keys", false);
-    for (std::size_t i = 0; i < action_count; ++i) {
+    const std::size_t shown = in_room ? action_count : static_cast<std::size_t>(Action::place_again);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
+                        {ImGui::GetStyle().ItemSpacing.x, in_room ? 1.0F : ImGui::GetStyle().ItemSpacing.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x,
+                                                     in_room ? 1.0F : ImGui::GetStyle().FramePadding.y});
+    for (std::size_t i = 0; i < shown; ++i) {
         const auto action = static_cast<Action>(i);
         const bool waits = waiting_ == action;
         ImGui::PushID(static_cast<int>(i));
@@ -145,8 +151,9 @@ void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {
         ImGui::PopID();
         ImGui::SameLine();
         draw_text(words[text_key(action)]);
-        if (i + 1 == action_count / 2) ImGui::NextColumn();
+        if (i + 1 == (shown + 1) / 2) ImGui::NextColumn();
     }
+    ImGui::PopStyleVar(2);
     ImGui::Columns(1);
     if (waiting_)
         draw_wrapped(
@@ -168,7 +175,7 @@ ScreenAction SettingsScreen::draw(const ScreenContext& context, Preferences& pre
     draw_person(context, preferences.settings, opened_in.study);
     if (opened_in.lesson) draw_wrapped(context.words["settings.next_lesson"], muted_text);
     ImGui::Separator();
-    draw_keys(context, preferences.keys);
+    draw_keys(context, preferences.keys, opened_in.room);
     ImGui::Separator();
     draw_settings_file(context, preferences);
     const bool back = draw_button(context, "menu.back");

@@ -10,8 +10,9 @@ class SettingsScreen {
   public:
     // Where the settings were opened. `lesson`: adds the note about changes that wait for the next lesson;
     // `study`: leaves out the strength of forces, which must not change between the conditions of a study.
+    // `room`: adds the keys of a room.
     struct OpenedIn {
-        bool lesson = false, study = false;
+        bool lesson = false, study = false, room = false;
     };
     // Returns close_settings or none.
     ScreenAction draw(const ScreenContext& context, Preferences& preferences, OpenedIn opened_in);
@@ -23,7 +24,7 @@ class SettingsScreen {
 
   private:
     void draw_person(const ScreenContext& context, content::TraineeSettings& settings, bool in_study);
-    void draw_keys(const ScreenContext& context, KeyMap& keys);
+    void draw_keys(const ScreenContext& context, KeyMap& keys, bool in_room);
     void bind_key(platform::Key key, const words::Words& words, KeyMap& keys);
 
     std::optional<Action> waiting_;  // the action to which the next key is bound

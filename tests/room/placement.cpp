@@ -146,7 +146,7 @@ TEST_CASE(
         room.driver.immersive->recentred = true;
         room.frames(moved, frame_step);
     });
-    check("key", [&](PlacementRoom& room) { room.driver.key(platform::Key::p); });
+    check("key", [&](PlacementRoom& room) { room.driver.key(platform::Key::b); });
     check("button", [&](PlacementRoom& room) {
         room.driver.immersive->hands[xr::Side::left].active = true;
         room.driver.immersive->hands[xr::Side::left].menu = true;

@@ -98,7 +98,7 @@ TEST_CASE("Walls: keys and buttons of the pause turn and raise the workpiece, al
     CHECK(room().height == doctest::Approx(2 * raise_step));
     for (int i = 0; i < 20; ++i) driver.key(platform::Key::plus);
     CHECK(room().height == doctest::Approx(0.4));
-    driver.key(platform::Key::p);
+    driver.key(platform::Key::b);
     CHECK(room().turns == 0);
     CHECK(room().height == 0.0);
     driver.key(platform::Key::l);
