@@ -25,10 +25,9 @@
 //   F head valid|tracked 0|1
 //   F hand left|right grip|aim POSE
 //   F hand SIDE trigger|squeeze VALUE
-//   F hand SIDE stick X Y
+//   F hand SIDE stick X Y, or profile /interaction_profiles/...
 //   F hand SIDE active|menu|secondary|valid|tracked|joints|pinch 0|1   joints: a flat hand around the grip;
 //                                                                      pinch: of the joints
-//   F hand SIDE profile /interaction_profiles/...
 //   F event ready|stopping|visible|focused|session_loss|instance_loss|exit|profile|mask|events_lost
 //   F event worn|not_worn   sensed by XR_EXT_user_presence; the session keeps its state
 //   F event recentre stage|floor|seated [POSE]     the origin moves to POSE in the old space
