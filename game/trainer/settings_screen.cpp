@@ -83,10 +83,17 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
                                  bool in_study) {
     const words::Words& words = context.words;
     draw_languages(context, settings);
-    draw_slider(words["menu.sound"].c_str(), settings.volume, {});
-    note_widget(context, "menu.sound");
-    draw_slider(words["menu.vibration"].c_str(), settings.vibration, {});
-    note_widget(context, "menu.vibration");
+    // Two sliders in a row, so that the dialog is not too high for a small window.
+    const auto half_slider = [&](words::TextKey key, double& value, const SliderRange& range) {
+        ImGui::SetNextItemWidth(0.34F * ImGui::GetColumnWidth());  // the label needs the rest of the column
+        draw_slider(words[key].c_str(), value, range);
+        note_widget(context, key);
+        ImGui::NextColumn();
+    };
+    ImGui::Columns(2, "levels", false);
+    half_slider("menu.sound", settings.volume, {});
+    half_slider("menu.vibration", settings.vibration, {});
+    ImGui::Columns(1);
     ImGui::Checkbox(words["menu.captions"].c_str(), &settings.captions);
     note_widget(context, "menu.captions");
     ImGui::AlignTextToFramePadding();
@@ -119,14 +126,13 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     checkbox("menu.surroundings", settings.passthrough);
     checkbox("menu.vignette", settings.vignette);
     ImGui::Columns(1);
-    draw_slider(words["settings.arm_reach"].c_str(), settings.arm_reach,
+    ImGui::Columns(2, "sizes", false);
+    half_slider("settings.arm_reach", settings.arm_reach,
                 {content::min_arm_reach, content::max_arm_reach, "%.2f m", 1.0});
-    note_widget(context, "settings.arm_reach");
-    if (settings.seated_eye_height) {
-        draw_slider(words["settings.seated_height"].c_str(), *settings.seated_eye_height,
+    if (settings.seated_eye_height)
+        half_slider("settings.seated_height", *settings.seated_eye_height,
                     {content::min_seated_eye_height, content::max_seated_eye_height, "%.2f m", 1.0});
-        note_widget(context, "settings.seated_height");
-    }
+    ImGui::Columns(1);
 }
 
 // The keys of a room are offered only in one. The rows are then closer, so that the dialog is not too high.
