@@ -76,9 +76,16 @@ struct Exception {
     lesson::Situation situation;
     const char* reason;
 };
+constexpr const char* by_torque = "the lives tighten by torque; tests/lesson/angle.cpp tightens by angle";
 constexpr Exception exceptions[] = {
     {lesson::Situation::run_down_by_wrench, "no shipped assembly has nuts that fingers cannot turn"},
     {lesson::Situation::twist_back, "the lesson run does not limit how far fingers twist"},
+    {lesson::Situation::turn_on, by_torque},
+    {lesson::Situation::ease_to_angle, by_torque},
+    {lesson::Situation::stop_at_angle, by_torque},
+    {lesson::Situation::stop_too_far, by_torque},
+    {lesson::Situation::pass_turn, by_torque},
+    {lesson::Situation::pass_turn_back, "no life that loosens the flange shows a hint at its first pass"},
     {lesson::Situation::leave_stripped, "in every shipped assembly the bolt breaks before the threads shear"},
 };
 
@@ -147,7 +154,7 @@ TEST_CASE("Dead ends: a competent trainee can finish a lesson, whatever was done
         CAPTURE(describe(plan));
         CHECK(life.problems.empty());
     }
-    CHECK(coverage_errors(coverage, exceptions) == std::vector<std::string>{});
+    for (const std::string& error : coverage_errors(coverage, exceptions)) FAIL_CHECK(error);
 }
 
 TEST_CASE("Dead ends: an unmet situation without a reason is an error, and so is a stale reason") {
