@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -18,7 +19,6 @@ constexpr double tick_width = to_radians(1.0), mark_width = to_radians(2.5), poi
 constexpr double arc_step = to_radians(3.0);  // largest angle of a facet
 // Relative to the nut's width across flats: outside the head of a wrench and above it.
 constexpr double dial_radius = 1.35, dial_height = 0.2;
-constexpr double same_angle = 1e-9;  // rad
 constexpr float dial_outline_opacity = 0.5F;
 constexpr glm::vec4 scale_color{0.92F, 0.93F, 0.95F, 1.0F};
 
@@ -84,15 +84,6 @@ DialWindow window_of(const content::Assembly& assembly, const lesson::LessonStep
     return {window.low, window.high};
 }
 
-// The window of a step in its list; the list's length if it is not there.
-std::size_t find_window(const std::vector<DialWindow>& windows, const DialWindow& window) {
-    for (std::size_t i = 0; i < windows.size(); ++i)
-        if (std::abs(windows[i].low - window.low) < same_angle &&
-            std::abs(windows[i].high - window.high) < same_angle)
-            return i;
-    return windows.size();
-}
-
 }  // namespace
 
 std::vector<DialWindow> dial_windows(const content::Assembly& assembly) {
@@ -100,7 +91,7 @@ std::vector<DialWindow> dial_windows(const content::Assembly& assembly) {
     for (const lesson::LessonStep& step : lesson::make_plan(assembly, lesson::Task::tighten)) {
         if (step.kind != lesson::StepKind::turn) continue;
         const DialWindow window = window_of(assembly, step);
-        if (find_window(windows, window) == windows.size()) windows.push_back(window);
+        if (std::find(windows.begin(), windows.end(), window) == windows.end()) windows.push_back(window);
     }
     return windows;
 }
@@ -148,7 +139,7 @@ std::optional<Dial> dial_of(const lesson::Lesson& lesson, const servo::Setup& se
     const double turned = lesson::angle_from_mark(lesson, joints, due->joint);
     dial.angle = nut.sense * turned;
     const content::ToleranceWindow window = lesson::angle_window(*lesson.assembly, *due);
-    dial.window = find_window(dial_windows(*lesson.assembly), window_of(*lesson.assembly, *due));
+    dial.window = window_of(*lesson.assembly, *due);
     dial.shows_window = lesson.mode != lesson::Mode::assessment;
     dial.window_color = palette.ok;
     dial.pointer_color = palette.due;

@@ -12,11 +12,6 @@
 
 namespace bolt::scene {
 
-// rad from the mark, clockwise seen from the side of the tool: negative at a left-hand thread.
-struct DialWindow {
-    double low = 0.0, high = 0.0;
-};
-
 // The windows of all steps that turn a nut by an angle, each once; none if the lesson has no such step.
 std::vector<DialWindow> dial_windows(const content::Assembly& assembly);
 
@@ -28,7 +23,7 @@ assets::Model dial_model(const std::vector<DialWindow>& windows);
 struct Dial {
     glm::dmat4 world{1.0};  // from the meshes' frame to the assembly's
     double angle = 0.0;     // rad, of the pointer, as in DialWindow
-    std::size_t window = 0;
+    DialWindow window;
     bool shows_window = false;
     glm::vec4 window_color{1.0F}, pointer_color{1.0F};
 };

@@ -88,7 +88,8 @@ Result<LessonModels> load_lesson_models(const content::Assembly& assembly, hand:
             tool.turn = turn;
         }
     }
-    models.dial = dial_model(dial_windows(assembly));
+    models.dial_windows = dial_windows(assembly);
+    models.dial = dial_model(models.dial_windows);
     load_pictures(assembly, models);
     Result<shading::RadianceImage> light = assets::read_hdr(content / "environments/workshop.hdr");
     if (light)
@@ -259,14 +260,17 @@ void add_arrows(Workplace& workplace, const GpuLessonModels& on_gpu) {
 }
 
 void add_dial(Workplace& workplace, const LessonModels& models, const GpuLessonModels& on_gpu) {
-    for (std::size_t mesh = 0; mesh < models.dial.meshes.size(); ++mesh) {
+    if (models.dial_windows.empty()) return;
+    std::uint32_t mesh = 0;
+    const auto add = [&](DialShape shape, const DialWindow& window) {
         const ecs::Entity entity = workplace.world.create();
         workplace.world.add<Transform>(entity);
-        workplace.world.add<Drawable>(entity, &on_gpu.dial, static_cast<std::uint32_t>(mesh), -1, true);
-        const auto window = static_cast<std::size_t>(DialShape::window);
-        workplace.world.add<DialMarker>(entity, static_cast<DialShape>(std::min(mesh, window)),
-                                        mesh < window ? 0 : mesh - window);
-    }
+        workplace.world.add<Drawable>(entity, &on_gpu.dial, mesh++, -1, true);
+        workplace.world.add<DialMarker>(entity, shape, window);
+    };
+    add(DialShape::scale, {});
+    add(DialShape::pointer, {});
+    for (const DialWindow& window : models.dial_windows) add(DialShape::window, window);
 }
 
 }  // namespace

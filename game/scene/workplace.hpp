@@ -75,9 +75,14 @@ struct ArrowMarker {
 
 // A part of the protractor at a nut that is turned by an angle (angle_dial.hpp).
 enum class DialShape : std::uint8_t { scale, pointer, window };
+// rad from the mark, clockwise seen from the side of the tool: negative at a left-hand thread.
+struct DialWindow {
+    double low = 0.0, high = 0.0;
+    friend bool operator==(const DialWindow&, const DialWindow&) = default;
+};
 struct DialMarker {
     DialShape shape = DialShape::scale;
-    std::size_t window = 0;  // index in dial_windows()
+    DialWindow window;  // of DialShape::window
     bool shown = false;
     glm::vec4 color{1.0F};
 };
@@ -132,8 +137,9 @@ struct ToolModel {
 struct LessonModels {
     view::LoadedModel workpiece;
     assets::Model workshop, hand;
-    assets::Model dial;            // angle_dial.hpp; empty if no nut is turned by an angle
-    std::vector<ToolModel> tools;  // in the order of content::LessonTools
+    assets::Model dial;                    // angle_dial.hpp; empty if no nut is turned by an angle
+    std::vector<DialWindow> dial_windows;  // of the dial's meshes
+    std::vector<ToolModel> tools;          // in the order of content::LessonTools
     std::optional<shading::RadianceImage> light;
     std::map<std::string, assets::Bitmap> pictures;  // of the author's instructions, decoded, by path
     std::vector<std::string> missing;                // error messages

@@ -124,7 +124,7 @@ Progress progress_of(std::span<const JournalEntry> entries, bool simulated) {
                 break;
             case JournalKind::clock_set_back:
                 progress.clock_set_back += entry.value.value_or(0.0);
-                // Nothing was done after this moment, so a waiting time that began later begins now.
+                // A recorded time later than this one is wrong: a waiting time that began then begins now.
                 for (auto& [step, time] : progress.done) time = std::min(time, entry.time);
                 break;
         }

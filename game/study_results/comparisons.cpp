@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/base/math.hpp"
-#include "game/study_results/sample.hpp"
+#include "game/study_results/parts.hpp"
 
 namespace bolt::study {
 

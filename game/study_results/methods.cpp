@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "game/plot/html.hpp"
-#include "game/study_results/page_parts.hpp"
+#include "game/study_results/parts.hpp"
 
 namespace bolt::study {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "engine/base/math.hpp"
-#include "game/study_results/sample.hpp"
+#include "game/study_results/parts.hpp"
 
 namespace bolt::study {
 

@@ -7,7 +7,7 @@
 #include "game/plot/html.hpp"
 #include "game/plot/plot.hpp"
 #include "game/plot/strips.hpp"
-#include "game/study_results/page_parts.hpp"
+#include "game/study_results/parts.hpp"
 
 namespace bolt::study {
 

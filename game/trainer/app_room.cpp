@@ -215,7 +215,7 @@ std::optional<xr::Side> App::working_hand() const {
     return busy ? std::optional(client.tracked->side) : std::nullopt;
 }
 
-// What a key or a button of the pause does in a room.
+// Performs an action of a key or of a button of the pause, in a room.
 void App::perform_in_room(Action action) {
     if (!room_) return;
     RoomState& room = *room_;

@@ -23,7 +23,8 @@ const content::Instruction& instruction_of(const lesson::Lesson& lesson, const l
 }  // namespace
 
 bool update(InstructionState& state, const lesson::Lesson& lesson, bool paused) {
-    if (!paused) state.shown = nullptr;
+    if (paused) return false;
+    state.shown = nullptr;
     const lesson::LessonStep* due = lesson.due();
     if (due == nullptr || due->pass <= state.latest_pass) return false;
     state.latest_pass = due->pass;

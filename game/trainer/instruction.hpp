@@ -15,7 +15,8 @@ struct InstructionState {
 };
 
 // Call it once a frame. Returns true in the frame in which a page appears: the caller pauses the lesson. The
-// page goes when the lesson is no longer paused. Undoing steps does not show a page again.
+// page goes when the lesson is no longer paused. A lesson that is paused for another reason, such as the
+// touch check of an arm, shows its page after that. Undoing steps does not show a page again.
 bool update(InstructionState& state, const lesson::Lesson& lesson, bool paused);
 
 struct InstructionPicture {

@@ -24,7 +24,7 @@ struct PlacedObjects {
     std::optional<Vec3> workpiece;
 };
 
-// What is to be placed again.
+// The objects that are to be placed again.
 struct ReplacedObjects {
     bool panel = false, workpiece = false;
 };

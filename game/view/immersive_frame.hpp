@@ -57,7 +57,7 @@ inline constexpr xr::DepthRange immersive_range{0.03F, 50.0F};
 // The eyes of a headset, for pictures of this size.
 EyeGroup eye_group(const xr::HeadView& view, VkExtent2D size);
 
-// What a frame of the headset shows, without groups. `headset` must outlive it.
+// Makes the frame that the headset shows, without groups. `headset` must outlive it.
 ImmersiveFrame immersive_frame(xr::Headset& headset, const xr::HeadsetFrame& frame);
 
 // The part of a picture of this size that fills a window of `window`'s shape, in the middle.

@@ -1,11 +1,8 @@
 // Lessons that turn nuts by an angle from a mark, and loosening lessons that turn them back in rounds.
 #include <doctest/doctest.h>
 
-#include "game/session/replay.hpp"
-#include "game/session/session_file.hpp"
-#include "game/trainees/trainee.hpp"
+#include "tests/lesson/played_session.hpp"
 #include "tests/lesson/script.hpp"
-#include "tests/support/folder.hpp"
 
 namespace bolt::lesson::angle {
 
@@ -176,27 +173,15 @@ TEST_CASE(
     for (const Task task : {Task::tighten, Task::loosen})
         for (const char* profile : {"expert", "novice", "clumsy"}) {
             CAPTURE(profile);
-            const test::Folder folder;
             session::LessonOptions options;
             options.task = task;
             options.seed = 3;
             options.obstacles = session::Obstacles::none;
-            trainees::TrainOptions train;
-            train.lesson = options;
-            train.trainee = trainees::find_profile(profile).value();
-            const auto outcome = trainees::train(cover, train, folder / "lesson.boltwright",
-                                                 [](const trainees::TrainingProgress&) { return true; });
-            REQUIRE_MESSAGE(outcome, (outcome ? "" : outcome.error().message()));
-            CHECK(outcome->result.finished);
-            if (std::string(profile) == "expert") CHECK(outcome->result.score == 100.0);
-            const auto reader = session::SessionReader::open(folder / "lesson.boltwright");
-            REQUIRE(reader);
-            auto start = session::prepare_session(cover, options);
-            REQUIRE(start);
-            const auto replayed =
-                session::replay(*reader, std::move(*start), [](const session::ReplayTick&) { return true; });
-            REQUIRE(replayed);
-            CHECK(replayed->mismatches == 0);
+            const test::PlayedSession played =
+                test::play_and_replay(cover, options, profile, test::setup_from_memory(cover, options));
+            CHECK(played.result.finished);
+            if (std::string(profile) == "expert") CHECK(played.result.score == 100.0);
+            CHECK(played.mismatches == 0);
         }
 }
 

@@ -5,10 +5,8 @@
 
 #include "game/motion/path_planning.hpp"
 #include "game/session/export.hpp"
-#include "game/session/replay.hpp"
-#include "game/session/session_file.hpp"
-#include "game/trainees/trainee.hpp"
 #include "tests/lesson/left_threads.hpp"
+#include "tests/lesson/played_session.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
 
@@ -17,8 +15,7 @@ namespace bolt::lesson::left_thread {
 namespace {
 
 struct Played {
-    LessonResult result;
-    std::uint64_t mismatches = 0;
+    test::PlayedSession session;
     int wrong_turns = 0;  // ticks in which a pull turned the handle against the direction of the thread
     int pulls = 0;        // ticks in which a pull turned the nut
 };
@@ -29,26 +26,11 @@ bool is_left(std::size_t joint) {
 
 // Plays the lesson of a file and replays its session from its own text.
 Played play(const content::Assembly& cover, const char* profile, const session::LessonOptions& options) {
-    const test::Folder folder;
-    trainees::TrainOptions train;
-    train.lesson = options;
-    train.trainee = trainees::find_profile(profile).value();
-    const auto outcome = trainees::train(cover, train, folder / "lesson.boltwright",
-                                         [](const trainees::TrainingProgress&) { return true; });
-    REQUIRE_MESSAGE(outcome, (outcome ? "" : outcome.error().message()));
-    const auto reader = session::SessionReader::open(folder / "lesson.boltwright");
-    REQUIRE(reader);
-    auto start = session::restore_setup(*reader);
-    REQUIRE(start);
-    const std::string table = session::summary_table(cover, outcome->result);
-    CHECK(table.find("\nB1       M8 LH ") != std::string::npos);
-    CHECK(table.find("\nB2       M8    ") != std::string::npos);
     Played played;
-    played.result = outcome->result;
     Pose before;
     double angle_before = 0.0;
     int held = -1;
-    const auto replayed = session::replay(*reader, std::move(*start), [&](const session::ReplayTick& tick) {
+    const auto watch = [&](const session::ReplayTick& tick) {
         const servo::Output& out = tick.output;
         const bool pulls = out.joint >= 0 && out.joint == held && tick.input.grip == servo::Grip::wrench;
         if (pulls && std::abs(out.nut_angle - angle_before) > 1e-5) {
@@ -63,10 +45,14 @@ Played play(const content::Assembly& cover, const char* profile, const session::
         held = out.joint;
         angle_before = out.nut_angle;
         before = out.constrained_tool;
-        return true;
-    });
-    REQUIRE(replayed);
-    played.mismatches = replayed->mismatches;
+    };
+    const test::ReplaySetup own_setup = [](const session::SessionReader& r) {
+        return session::restore_setup(r);
+    };
+    played.session = test::play_and_replay(cover, options, profile, own_setup, watch);
+    const std::string table = session::summary_table(cover, played.session.result);
+    CHECK(table.find("\nB1       M8 LH ") != std::string::npos);
+    CHECK(table.find("\nB2       M8    ") != std::string::npos);
     return played;
 }
 
@@ -93,11 +79,11 @@ TEST_CASE(
                 options.seed = 2;
                 options.obstacles = obstacles;
                 const Played played = play(cover, profile, options);
-                CHECK(played.result.finished);
-                REQUIRE(played.result.joints.size() == 4);
-                for (const JointResult& joint : played.result.joints)
+                CHECK(played.session.result.finished);
+                REQUIRE(played.session.result.joints.size() == 4);
+                for (const JointResult& joint : played.session.result.joints)
                     CHECK(joint.torque_verdict != Verdict::low);
-                CHECK(played.mismatches == 0);
+                CHECK(played.session.mismatches == 0);
                 CHECK(played.pulls > 1000);
                 // A trembling hand turns back by a little now and then.
                 CHECK(played.wrong_turns < 0.05 * played.pulls);
@@ -111,8 +97,8 @@ TEST_CASE("Left-hand thread: a lesson is taken apart with the ratchet's lever th
     session::LessonOptions options;
     options.task = Task::loosen;
     const Played played = play(cover, "expert", options);
-    CHECK(played.result.finished);
-    CHECK(played.mismatches == 0);
+    CHECK(played.session.result.finished);
+    CHECK(played.session.mismatches == 0);
     CHECK(played.wrong_turns < 0.05 * played.pulls);
 }
 

@@ -1,4 +1,4 @@
-// What a user sees of the own hands while they point at the panel, and the buttons that the panel names.
+// The hands that a user sees while they point at the panel, and the buttons that the panel names.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a study tells of wrong clocks, second programs, and lessons that cannot be played.
+// The messages of a study about wrong clocks, second programs, and lessons that cannot be played.
 #include "game/study/study_lesson.hpp"
 #include "game/study_results/results.hpp"
 #include "tests/study/participants.hpp"

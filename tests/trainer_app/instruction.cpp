@@ -98,6 +98,8 @@ TEST_CASE("Instruction: a page appears once for each pass, in the order of the p
     REQUIRE(loaded.ok());
     lesson::Lesson lesson = lesson::begin(loaded.assembly, lesson::Mode::guided, lesson::Task::tighten);
     InstructionState state;
+    CHECK_FALSE(update(state, lesson, true));  // paused by the touch check of an arm, which comes first
+    CHECK(state.shown == nullptr);
     CHECK(update(state, lesson, false));
     CHECK_FALSE(update(state, lesson, true));
     CHECK(state.shown == &loaded.assembly.passes[0].instruction);

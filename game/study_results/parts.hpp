@@ -1,9 +1,18 @@
-// Parts of the page with the results of a study.
+// Functions that the files of this folder share: the description of values, and parts of the page.
+// results.hpp has those for other folders.
 #pragma once
 
 #include "game/study_results/results.hpp"
 
 namespace bolt::study {
+
+// Describes values; leaves out those that are not finite. Without `bootstrap` the mean has no interval.
+Sample sample_of(std::string name, const std::vector<double>& values,
+                 const statistics::BootstrapOptions* bootstrap);
+
+// Between subjects a form at the end belongs to the participant's only condition, unless it is presented in
+// the condition too.
+bool belongs_to_condition(const content::Study& study, const content::StudyForm& form);
 
 // The lessons of each person in their order: training, conditions, retention test (curves.cpp).
 std::string learning_curves(const StudyData& data);
