@@ -192,8 +192,9 @@ constexpr std::size_t largest_validation_file = 4U << 20U;  // bytes
 // Writes the page of a validation and returns its text.
 Result<std::string> written_validation(const measure::Validation& validation,
                                        const std::filesystem::path& page) {
-    report::SeriesPage shown{validation.title,   validation.source,  validation.verdict,
-                             validation.x_label, validation.y_label, {}};
+    report::SeriesPage shown{
+        validation.title,   validation.source,  validation.verdict,     validation.x_label,
+        validation.y_label, validation.caption, validation.is_sequence, {}};
     for (const measure::ValidationSeries& series : validation.series)
         shown.plots.push_back({series.name, series.x, series.measured, series.law});
     BOLT_TRY(write_file(page, report::series_page(shown)));

@@ -96,6 +96,20 @@ std::optional<joint::Lubrication> lubrication_named(std::string_view name) {
     return std::nullopt;
 }
 
+std::string printed_name(joint::Lubrication lubrication) {
+    switch (lubrication) {
+        case joint::Lubrication::oiled:
+            return "oiled";
+        case joint::Lubrication::dry:
+            return "dry";
+        case joint::Lubrication::mos2:
+            return "MoS2";
+        case joint::Lubrication::as_received:
+            break;
+    }
+    return "as received";
+}
+
 }  // namespace
 
 Result<LooseningValidation> validate_loosening(const joint::JointDesign& design,
@@ -185,6 +199,8 @@ Result<Validation> validate_retightening(const joint::JointDesign& design, doubl
     v.source = "Acta Polytechnica Hungarica 21(2) (2024) 133–150, figures digitised. K = T/(F d).";
     v.x_label = "tightening";
     v.y_label = "K";
+    v.caption = "Open rings: measured. Dots: the law.";
+    v.is_sequence = true;
     std::string out = fmt::format(
         "## {}\n\n{}\n\n"
         "| lubrication | friction, fitted to the first | first K | last K measured | last K law | MAPE of K "
@@ -200,7 +216,7 @@ Result<Validation> validate_retightening(const joint::JointDesign& design, doubl
         joint.friction.lubrication = *lubrication;
         const double friction = friction_for(joint, torque, measured.front());
         const std::vector<double> law = law_factors(joint, friction, torque, measured.size());
-        ValidationSeries shown{name, {}, measured, law};
+        ValidationSeries shown{printed_name(*lubrication), {}, measured, law};
         for (std::size_t use = 1; use <= measured.size(); ++use) shown.x.push_back(static_cast<double>(use));
         v.series.push_back(std::move(shown));
         double sum = 0.0, largest = 0.0;
@@ -211,8 +227,8 @@ Result<Validation> validate_retightening(const joint::JointDesign& design, doubl
         }
         worst = std::max(worst, largest);
         out +=
-            fmt::format("| {} | {:.3f} | {:.4f} | {:.4f} | {:.4f} | {:.3f} | {:.3f} |\n", name, friction,
-                        measured.front(), measured.back(), law.back(),
+            fmt::format("| {} | {:.3f} | {:.4f} | {:.4f} | {:.4f} | {:.3f} | {:.3f} |\n",
+                        printed_name(*lubrication), friction, measured.front(), measured.back(), law.back(),
                         measured.size() > 1 ? sum / static_cast<double>(measured.size() - 1) : nan, largest);
     }
     v.verdict = fmt::format(
@@ -232,9 +248,11 @@ Result<Validation> validate_preload_table(std::string_view table, const std::str
     BOLT_TRY_ASSIGN(const auto classes, parse_table(table, file, {}, wanted, "class"));
     Validation v;
     v.title = "Table A1 of VDI 2230-1: preload and torque at 90 % of yield";
-    v.source = "VDI 2230 part 1, table A1. The torque of each row.";
-    v.x_label = "printed torque, N·m";
-    v.y_label = "torque, N·m";
+    v.source =
+        "VDI 2230 part 1, table A1. The torque of each row: the computed value against the printed one.";
+    v.x_label = "printed torque, kN·m";
+    v.y_label = "error, %";
+    v.caption = "Dots: the computed torque is larger than the printed one by this share.";
     std::map<std::string, ValidationSeries> series;
     std::map<std::string, std::array<double, 5>>
         by_class;  // rows, sums and maxima of force and torque errors
@@ -246,18 +264,17 @@ Result<Validation> validate_preload_table(std::string_view table, const std::str
             joint::assembly_preload(thread.thread, bolt, mu, mu,
                                     joint::bearing_mean_diameter(thread.size.head_bearing, thread.size.hole));
         const double force = std::abs(p.force / (1e3 * sizes.columns[1][row]) - 1.0),
-                     torque = std::abs(p.torque / sizes.columns[2][row] - 1.0);
+                     torque_error = p.torque / sizes.columns[2][row] - 1.0;
         ValidationSeries& shown = series[classes.labels[row]];
         shown.name = "class " + classes.labels[row];
-        shown.x.push_back(sizes.columns[2][row]);
-        shown.measured.push_back(sizes.columns[2][row]);
-        shown.law.push_back(p.torque);
+        shown.x.push_back(1e-3 * sizes.columns[2][row]);
+        shown.law.push_back(100.0 * torque_error);
         auto& sums = by_class[classes.labels[row]];
         sums[0] += 1.0;
         sums[1] += force;
-        sums[2] += torque;
+        sums[2] += std::abs(torque_error);
         sums[3] = std::max(sums[3], force);
-        sums[4] = std::max(sums[4], torque);
+        sums[4] = std::max(sums[4], std::abs(torque_error));
     }
     for (auto& [name, one] : series) v.series.push_back(std::move(one));
     std::string out = "## " + v.title +

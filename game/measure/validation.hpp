@@ -30,14 +30,15 @@ Result<LooseningValidation> validate_loosening(const joint::JointDesign& design,
                                                const analysis::MeasuredRecord& record);
 std::string loosening_text(const LooseningValidation& v);
 
-// Values over one axis, measured or printed and by the law, for a page.
+// Values over one axis, measured and by the law, or the error of the law alone, for a page.
 struct ValidationSeries {
     std::string name;
-    std::vector<double> x, measured, law;
+    std::vector<double> x, measured, law;  // `measured` may be empty
 };
 struct Validation {
     std::string title, source, verdict;
-    std::string x_label, y_label;
+    std::string x_label, y_label, caption;
+    bool is_sequence = false;  // the values of a series follow each other
     std::vector<ValidationSeries> series;
     std::string text;  // Markdown, with the verdict
 };

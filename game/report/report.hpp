@@ -64,13 +64,15 @@ struct MaterialComparison {
 std::string paper_table_page(std::span<const MaterialComparison> materials);
 std::string paper_table_text(std::span<const MaterialComparison> materials);
 
-// A page with plots of two series over one axis: measured or printed values, and those of the law.
+// A page with plots over one axis: measured values and those of the law, or the error of the law alone.
 struct SeriesPlot {
     std::string name;
-    std::vector<double> x, measured, law;  // in the order of the line
+    std::vector<double> x, measured, law;  // `measured` may be empty
 };
 struct SeriesPage {
     std::string title, source, verdict, x_label, y_label;
+    std::string caption;       // the meaning of rings (measured) and dots (law)
+    bool is_sequence = false;  // the points of a plot follow each other; a line connects them
     std::vector<SeriesPlot> plots;
 };
 std::string series_page(const SeriesPage& page);

@@ -8,8 +8,6 @@ namespace bolt::report {
 
 namespace {
 
-constexpr std::size_t longest_line = 40;  // points; more are drawn without a line between them
-
 std::string series_plot(const SeriesPage& page, const SeriesPlot& series) {
     plot::Plot plot;
     plot.title = series.name;
@@ -29,7 +27,7 @@ std::string series_plot(const SeriesPage& page, const SeriesPlot& series) {
             drawn.points.push_back({series.x[i], values[i]});
             plot.markers.push_back({drawn.points.back(), shape, dots, {}, false, false});
         }
-        if (drawn.points.size() <= longest_line) plot.lines.push_back(std::move(drawn));
+        if (page.is_sequence) plot.lines.push_back(std::move(drawn));
     };
     add(series.measured, "ln me1", plot::MarkerShape::ring, "mbreak");
     add(series.law, "ln p2", plot::MarkerShape::dot, "mpeak");
@@ -44,10 +42,8 @@ std::string series_page(const SeriesPage& page) {
               plot::escape(page.title), plot::escape(page.source));
     body += "<div class=\"grid\">\n";
     for (const SeriesPlot& series : page.plots) body += series_plot(page, series);
-    plot::put(
-        body,
-        "</div>\n<p class=\"note\">Open rings: measured or printed. Dots: the law.</p>\n<p>Verdict: {}</p>\n",
-        plot::escape(page.verdict));
+    plot::put(body, "</div>\n<p class=\"note\">{}</p>\n<p>Verdict: {}</p>\n", plot::escape(page.caption),
+              plot::escape(page.verdict));
     return plot::page(page.title, body);
 }
 
