@@ -168,19 +168,32 @@ LoadedAssembly parse_assembly(std::string_view text, std::string_view file, std:
     return parse(text, file, variant, {fs::path(file).parent_path(), "tools", {}});
 }
 
+std::vector<const Tool*> choosable_tools(const Assembly& assembly) {
+    std::vector<const Tool*> tools;
+    for (const Tool& tool : assembly.tools) {
+        const bool own = std::any_of(assembly.joints.begin(), assembly.joints.end(),
+                                     [&](const AssemblyJoint& joint) { return joint.tool == tool.name; });
+        if (tools.empty() || !own) tools.push_back(&tool);
+    }
+    return tools;
+}
+
 Status choose_tool(Assembly& assembly, std::string_view name) {
     std::vector<std::string> names;
-    for (const Tool& tool : assembly.tools) {
-        names.push_back(tool.name);
-        if (tool.name != name && !(name.empty() && names.size() == 1)) continue;
-        assembly.tool = tool.name;
-        assembly.wrench = tool.wrench;
+    for (const Tool* tool : choosable_tools(assembly)) {
+        names.push_back(tool->name);
+        if (tool->name != name && !(name.empty() && names.size() == 1)) continue;
+        assembly.tool = tool->name;
+        assembly.wrench = tool->wrench;
         return {};
     }
+    const bool known = std::any_of(assembly.tools.begin(), assembly.tools.end(),
+                                   [&](const Tool& tool) { return tool.name == name; });
     Error error;
     error.code = ErrorCode::bad_content;
     error.file = assembly.file;
-    error.what = fmt::format("there is no tool {} in this file", in_quotes(name));
+    error.what = known ? fmt::format("the tool {} turns only the joints that name it", in_quotes(name))
+                       : fmt::format("there is no tool {} in this file", in_quotes(name));
     error.expected = suggest(name, names);
     return fail(error);
 }

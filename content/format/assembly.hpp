@@ -188,7 +188,11 @@ LoadedAssembly parse_assembly(std::string_view text, std::string_view file, std:
 // within its own folder.
 LoadedAssembly load_assembly(const std::filesystem::path& where, std::string_view variant = {});
 
-// Selects one of the assembly's tools; empty: the default one. Fails if there is no tool of this name.
+// The tools that a trainee can choose for the joints that name no tool: the default one, and those that no
+// joint names as its own.
+std::vector<const Tool*> choosable_tools(const Assembly& assembly);
+
+// Selects one of these tools; empty: the default one. Fails if there is none of this name.
 Status choose_tool(Assembly& assembly, std::string_view name);
 
 // The tools that a lesson needs. A lesson begins with the first one.

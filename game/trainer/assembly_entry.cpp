@@ -24,6 +24,20 @@ std::string sizes_of(const content::Assembly& assembly) {
     return text;
 }
 
+// The variant that is played unless another is chosen comes first.
+std::vector<content::AssemblyVariant> variants_of(const content::Assembly& assembly) {
+    std::vector<content::AssemblyVariant> variants = assembly.variants;
+    std::stable_partition(variants.begin(), variants.end(),
+                          [&](const auto& variant) { return variant.name == assembly.variant; });
+    return variants;
+}
+
+std::vector<content::Tool> tools_of(const content::Assembly& assembly) {
+    std::vector<content::Tool> tools;
+    for (const content::Tool* tool : content::choosable_tools(assembly)) tools.push_back(*tool);
+    return tools;
+}
+
 AssemblyEntry entry_of(const std::string& name) {
     const content::LoadedAssembly loaded = content::load_assembly(content::assembly_folder(name));
     const content::Assembly& assembly = loaded.assembly;
@@ -31,8 +45,8 @@ AssemblyEntry entry_of(const std::string& name) {
                         assembly.variant,
                         assembly.title,
                         assembly.instructions,
-                        assembly.variants,
-                        assembly.tools,
+                        variants_of(assembly),
+                        tools_of(assembly),
                         assembly.law,
                         assembly.joints.size(),
                         sizes_of(assembly),

@@ -15,8 +15,8 @@ namespace bolt::trainer {
 struct AssemblyEntry {
     std::string name, default_variant;
     std::map<std::string, std::string> title, instructions;  // by language
-    std::vector<content::AssemblyVariant> variants;
-    std::vector<content::Tool> tools;
+    std::vector<content::AssemblyVariant> variants;          // the default one first
+    std::vector<content::Tool> tools;                        // to choose from, the default one first
     joint::Law law = joint::Law::mechanistic;
     std::size_t joints = 0;
     std::string sizes;           // of the bolts: "M16×180, M16×75"

@@ -125,6 +125,13 @@ TEST_CASE("Tools: a joint type names the only tool that turns it") {
     const content::LessonTools lesson = content::lesson_tools(a);
     REQUIRE(lesson.tools.size() == 1);
     CHECK(a.tools[lesson.tools[0]].name == "ring");
+    // The ring is not a tool to choose, because it belongs to its joints.
+    REQUIRE(content::choosable_tools(a).size() == 2);
+    CHECK(content::choosable_tools(a)[1]->name == "clicker");
+    const Status own = content::choose_tool(a, "ring");
+    REQUIRE_FALSE(own);
+    CHECK(own.error().message() ==
+          "f: the tool \"ring\" turns only the joints that name it; expected one of wrench, clicker");
     // One joint without it: the chosen tool turns this one.
     a.joints.back().tool.clear();
     REQUIRE(content::choose_tool(a, "clicker"));
