@@ -16,15 +16,15 @@
 #include "game/station/controller_tip.hpp"
 #include "game/station/frame_registration.hpp"
 #include "game/station/point_source.hpp"
+#include "game/station/station_setup.hpp"
+#include "game/station/worn_glove.hpp"
 
 namespace bolt::cli {
 
 namespace {
 
-using station_setup::max_check_error;
-
 struct RegisterArguments {
-    std::string file, points, device, targets, controller, from, to = "room";
+    std::string file, points, device, targets, controller, hand, trainee, from, to = "room";
     std::vector<double> tip{};  // empty: with --check the stored tip, else the handle's origin
     std::vector<double> controller_tip{0.0, 0.0, 0.0};
     std::size_t count = 7;
@@ -36,6 +36,8 @@ struct FramePair {
 };
 
 Result<FramePair> frames_of(const RegisterArguments& options) {
+    if (!options.hand.empty())
+        return FramePair{content::CoordinateFrame::hand, content::CoordinateFrame::controller};
     const std::string from = !options.from.empty()    ? options.from
                              : options.points.empty() ? "arm"
                                                       : "tracker";
@@ -128,6 +130,33 @@ Result<std::vector<PointPair>> touch(const RegisterArguments& options, const con
     return station_setup::measure_points(source, targets);
 }
 
+// The glove of the station on its wearer's hand.
+Result<station_setup::WornGlove> open_glove(const RegisterArguments& options,
+                                            const content::StationFile& station) {
+    if (station.glove_port.empty())
+        return fail(ErrorCode::bad_content, fmt::format("{}: the station has no \"glove\"", options.file),
+                    "a glove, or --points FILE");
+    BOLT_TRY_ASSIGN(const auto folder, station_setup::calibrations_folder());
+    BOLT_TRY_ASSIGN(const auto person, person_argument(options.trainee, folder, NewPerson::unchanged));
+    BOLT_TRY(hand::check_port_access(station.glove_port));
+    hand::GloveIdentity glove;
+    {
+        hand::GloveDriver driver = hand::GloveDriver::start(station.glove_port);
+        BOLT_TRY_ASSIGN(glove, station_setup::wait_for_glove(driver, station.glove_port));
+    }
+    const std::string_view side = glove.side == hand::Side::left ? "left" : "right";
+    if (side != options.hand)
+        return fail(ErrorCode::usage, fmt::format("--hand {}: the glove is a {} one", options.hand, side),
+                    fmt::format("--hand {}", side));
+    BOLT_TRY_ASSIGN(
+        const auto calibration,
+        station_setup::find_calibration(person.code.empty() ? person.name : person.code, glove, folder));
+    hand::GloveWearer wearer;
+    wearer.calibration = calibration.calibration;
+    wearer.hand = hand::make_hand(calibration.hand, calibration.hand_length);
+    return station_setup::WornGlove::start(station.glove_port, std::move(wearer));
+}
+
 // Opens the tracker of the controller. Fails without a stage, because only the stage is fixed in the room.
 Result<std::unique_ptr<xr::PoseTracker>> open_controller(const std::string& side) {
     BOLT_TRY_ASSIGN(auto tracker,
@@ -139,6 +168,17 @@ Result<std::unique_ptr<xr::PoseTracker>> open_controller(const std::string& side
     return tracker;
 }
 
+// The functions with which ControllerTip reads the controller and the Enter key; the arguments must outlive
+// them.
+station_setup::ControllerIo controller_io(xr::PoseTracker& tracker, EnterKey& enter) {
+    const auto read = [&tracker]() -> Result<station_setup::ControllerSample> {
+        BOLT_TRY_ASSIGN(const std::optional<Pose> pose, tracker.read());
+        return station_setup::ControllerSample{pose, tracker.pressed(), tracker.origin_moves()};
+    };
+    return {read, [&enter] { return enter.pressed(); }, [] { return interrupted(); }, show_line,
+            device::steady_timer()};
+}
+
 // Measures `count` points with the controller and with the tip of the station's arm.
 Result<std::vector<PointPair>> touch_with_both(const RegisterArguments& options,
                                                const content::StationFile& station, std::size_t count) {
@@ -148,25 +188,38 @@ Result<std::vector<PointPair>> touch_with_both(const RegisterArguments& options,
     catch_interruption();
     EnterKey enter;
     station_setup::ArmTip arm(arm_io(device, enter), point_of(options.tip));
-    const auto read = [&]() -> Result<station_setup::ControllerSample> {
-        BOLT_TRY_ASSIGN(const std::optional<Pose> pose, tracker->read());
-        return station_setup::ControllerSample{pose, tracker->pressed(), tracker->origin_moves()};
-    };
-    station_setup::ControllerTip controller({read, [&] { return enter.pressed(); },
-                                             [] { return interrupted(); }, show_line, device::steady_timer()},
-                                            point_of(options.controller_tip));
+    station_setup::ControllerTip controller(controller_io(*tracker, enter), point_of(options.controller_tip));
     if (options.find_tip) BOLT_TRY(controller.find_tip());
     return station_setup::measure_pairs(arm, controller, count);
+}
+
+// Measures the fingertips of a gloved hand in the frame of the controller that is fixed to it.
+Result<std::vector<PointPair>> turn_about_fingertips(const RegisterArguments& options,
+                                                     const content::StationFile& station) {
+    BOLT_TRY_ASSIGN(auto glove, open_glove(options, station));
+    BOLT_TRY_ASSIGN(const auto tracker, open_controller(options.hand));
+    catch_interruption();
+    EnterKey enter;
+    station_setup::ControllerTip controller(controller_io(*tracker, enter), Vec3(0.0));
+    return station_setup::measure_fingertips(controller, [&]() -> Result<hand::Skeleton> {
+        glove.update();
+        const station_setup::WornFingers& fingers = glove.fingers();
+        if (!fingers.measured || fingers.lost)
+            return fail(ErrorCode::no_device, "the glove sends no samples", "a glove that stays connected");
+        return fingers.joints;
+    });
 }
 
 Result<std::vector<PointPair>> measured_pairs(const RegisterArguments& options,
                                               const content::StationFile& station) {
     if (!options.points.empty()) return content::load_point_pairs(options.points);
+    if (!options.hand.empty()) return turn_about_fingertips(options, station);
     if (!options.controller.empty()) return touch_with_both(options, station, options.count);
     if (options.targets.empty())
-        return fail(ErrorCode::usage, "the points to touch are not given",
-                    "--targets FILE, --controller SIDE, or --points FILE with points that a tracker has "
-                    "measured");
+        return fail(
+            ErrorCode::usage, "the points to touch are not given",
+            "--targets FILE, --controller SIDE, --hand SIDE, or --points FILE with points that a tracker has "
+            "measured");
     BOLT_TRY_ASSIGN(const std::vector<Vec3> targets, content::load_points(options.targets));
     if (targets.size() < 4)
         return fail(ErrorCode::bad_content,
@@ -205,7 +258,7 @@ Status register_station(const RegisterArguments& options) {
 }
 
 // Compares the stored registration with a touch of its check point, with a point that the arm and a
-// controller touch, or with the points of a file. Fails if a point is off by more than max_check_error.
+// controller touch, or with the points of a file. Fails if a point is off by more than the limit.
 Status check_registration(RegisterArguments options) {
     BOLT_TRY_ASSIGN(const FramePair frames, frames_of(options));
     BOLT_TRY_ASSIGN(const content::StationFile station, content::load_station(options.file));
@@ -218,6 +271,8 @@ Status check_registration(RegisterArguments options) {
     std::vector<PointPair> pairs;
     if (!options.points.empty()) {
         BOLT_TRY_ASSIGN(pairs, content::load_point_pairs(options.points));
+    } else if (!options.hand.empty()) {
+        BOLT_TRY_ASSIGN(pairs, turn_about_fingertips(options, station));
     } else if (!options.controller.empty()) {
         BOLT_TRY_ASSIGN(pairs, touch_with_both(options, station, 1));
     } else if (found->check_point) {
@@ -230,9 +285,9 @@ Status check_registration(RegisterArguments options) {
     for (const PointPair& pair : pairs) most = std::max(most, glm::length(found->pose * pair.from - pair.to));
     const std::string text = fmt::format("{} -> {} of {}: off by {:.1f} mm", content::name(frames.from),
                                          content::name(frames.to), found->date, most / mm);
-    if (!(most <= max_check_error))
-        return fail(ErrorCode::failed, text,
-                    fmt::format("at most {:.0f} mm; register it again", max_check_error / mm));
+    const double limit = station_setup::limits_between(frames.from, frames.to).check_error;
+    if (!(most <= limit))
+        return fail(ErrorCode::failed, text, fmt::format("at most {:.0f} mm; register it again", limit / mm));
     return print(text + "\n");
 }
 
@@ -261,6 +316,15 @@ void add_touch_options(CLI::App& command, RegisterArguments& options, CLI::Optio
         "left or right: the headset's controller that touches each point of the user's choice before the arm "
         "does; no file of points is needed");
     controller->check(CLI::IsMember({"left", "right"}))->excludes(points)->excludes(targets);
+    CLI::Option* hand = command.add_option("--hand", options.hand,
+                                           "left or right: the gloved hand with the headset's controller "
+                                           "fixed to it, which the wearer turns about each "
+                                           "fingertip; measures where the wrist is at the controller");
+    hand->check(CLI::IsMember({"left", "right"}))->excludes(points)->excludes(targets)->excludes(controller);
+    CLI::Option* trainee =
+        command.add_option("--trainee", options.trainee, "Name or code of the wearer of the glove");
+    trainee->needs(hand);
+    hand->needs(trainee);
     CLI::Option* controller_tip =
         add_tip("--controller-tip", options.controller_tip,
                 "Position x,y,z of the controller's tip in the frame of its grip, m");
@@ -289,17 +353,19 @@ void add_station_register(CLI::App& station, int& exit_code) {
         "CSV file with the title ax,ay,az,bx,by,bz: points in the first frame and in the second, m; the last "
         "is the check point");
     add_touch_options(*command, *options, points);
-    command->add_option("--from", options->from,
-                        "The first frame: arm, wheel, tracker, wall, workpiece or room; default: arm, with "
-                        "--points tracker");
+    command->add_option(
+        "--from", options->from,
+        "The first frame: arm, wheel, tracker, wall, workpiece, room, hand or controller; default: arm, with "
+        "--points tracker");
     command->add_option("--to", options->to, "The second frame")->capture_default_str();
     command->add_flag(
         "--check", options->check,
         "Store nothing; touch the check point, with --controller a point of the user's choice, or "
         "compare --points: exit code 0 if the stored registration is right to 5 mm, 1 if it is "
         "not");
-    command->add_flag("--force", options->force,
-                      "Store it even if an rms of 4 mm or a check point of 5 mm is exceeded");
+    command->add_flag(
+        "--force", options->force,
+        "Store it even if its rms or its check point exceeds the limit (4 and 5 mm; of a hand 12 and 15 mm)");
     command->add_flag("--yes", options->yes,
                       "Permit an arm to move by itself; without this option the terminal asks");
     command->callback([options, &exit_code] {

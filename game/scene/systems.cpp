@@ -46,11 +46,12 @@ std::shared_ptr<const render::Deformation> deform(const SkinnedHand& fingers,
 
 // The frame of an empty hand. Away from nuts a measured hand is drawn where it is; at a nut its fingers are
 // around the nut, as those of any hand, and the wrist follows the measured roll. The two differ, because a
-// hand that turns a nut bends its fingers, and a hand that holds a controller does not.
+// hand that turns a nut bends its fingers, and a hand that holds a controller does not. The fingers of a
+// measured hand with a glove are those of the glove.
 Pose frame_of_empty_hand(SkinnedHand& fingers, const ToolAndHand& state, bool first) {
     constexpr double approach = 0.15;  // s, time constant
     if (!state.palm) return state.fingers;
-    const double goal = state.at_nut ? 1.0 : 0.0;
+    const double goal = state.at_nut && state.gloved == nullptr ? 1.0 : 0.0;
     const double share = first ? 1.0 : 1.0 - std::exp(-state.seconds / approach);
     fingers.nut_share += share * (goal - fingers.nut_share);
     const Pose drawn_palm{fingers.posture.position[hand::palm], fingers.posture.rotation[hand::palm]};
@@ -146,14 +147,15 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     held.rest = hand.rest;
     held.pinches = hand.pinches;
     held.closing = hand.closing;
-    if (glove == nullptr) held.palm = hand.palm;
+    held.palm = hand.palm;
     held.at_nut = hand.nut.has_value();
     // The wrist is on the palm's side of a straight hand, because at a nut the fingers are bent.
     const Vec3 wrist =
         held.palm ? hand.pose.position - held.palm->orientation * Vec3(0.0, 1.0, 0.0) : context.shoulder;
     const double sense = hand.nut ? context.setup.nuts[*hand.nut].sense : 1.0;
-    held.fingers =
-        glove != nullptr ? hand.rest : frame_towards(hand.pose, wrist, -sense * wrist_share * hand.twisted);
+    held.fingers = glove != nullptr && !hand.palm
+                       ? hand.rest
+                       : frame_towards(hand.pose, wrist, -sense * wrist_share * hand.twisted);
     held.grip = context.grip;
     held.seconds = context.seconds;
     held.effort = context.effort;

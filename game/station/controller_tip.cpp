@@ -61,17 +61,17 @@ Result<std::vector<Pose>> ControllerTip::tracked_poses(double seconds) {
     return poses;
 }
 
-Result<PivotFit> ControllerTip::find_tip() {
+Result<PivotFit> ControllerTip::find_tip(const Pivot& pivot) {
     while (true) {
         io_.show(
-            fmt::format("Hold the tip of the controller on a fixed point, press its trigger or Enter, and "
-                        "turn the controller "
-                        "about the tip in all directions for {:.0f} s; the tip must not slip.",
-                        pivot_time));
+            fmt::format("Hold {} on a fixed point, press the trigger of the controller or Enter, and turn {} "
+                        "about the tip "
+                        "in all directions for {:.0f} s; the tip must not slip.",
+                        pivot.tip, pivot.turned, pivot_time));
         BOLT_TRY(wait_for_press());
         BOLT_TRY_ASSIGN(const std::vector<Pose> poses, tracked_poses(pivot_time));
         const Result<PivotFit> fit = fit_pivot(poses);
-        if (fit && fit->rms <= max_pivot_rms) {
+        if (fit && fit->rms <= pivot.max_rms) {
             tip_ = fit->tip;
             io_.show(
                 fmt::format("The tip is at {:.4f},{:.4f},{:.4f} m in the frame of the grip; rms {:.1f} mm.",
@@ -82,7 +82,7 @@ Result<PivotFit> ControllerTip::find_tip() {
             "{}. Once more.",
             poses.empty() ? "The controller was not tracked all the time"
             : fit         ? fmt::format("The tip has slipped: its rms is {:.1f} mm; expected at most {:.1f}",
-                                        fit->rms / mm, max_pivot_rms / mm)
+                                        fit->rms / mm, pivot.max_rms / mm)
                           : fit.error().message()));
     }
 }
@@ -103,6 +103,27 @@ Result<Vec3> ControllerTip::touch(std::size_t number, std::string_view request) 
             "Point {}: {}. Once more.", number + 1,
             touched.empty() ? "the controller was not tracked all the time" : mean.error().message()));
     }
+}
+
+Result<std::vector<PointPair>> measure_fingertips(ControllerTip& controller,
+                                                  const std::function<Result<hand::Skeleton>()>& fingers) {
+    struct Fingertip {
+        hand::Joint joint;
+        std::string_view name;
+    };
+    constexpr Fingertip fingertips[] = {{hand::thumb_tip, "the tip of the thumb"},
+                                        {hand::index_tip, "the tip of the index finger"},
+                                        {hand::middle_tip, "the tip of the middle finger"},
+                                        {hand::little_tip, "the tip of the little finger"},
+                                        {hand::ring_tip, "the tip of the ring finger"}};
+    std::vector<PointPair> pairs;
+    for (const Fingertip& fingertip : fingertips) {
+        BOLT_TRY_ASSIGN(const PivotFit fit,
+                        controller.find_tip({fingertip.name, "the stiff hand", max_fingertip_rms}));
+        BOLT_TRY_ASSIGN(const hand::Skeleton joints, fingers());
+        pairs.push_back({joints.position[fingertip.joint], fit.tip});
+    }
+    return pairs;
 }
 
 Result<std::vector<PointPair>> measure_pairs(ArmTip& arm, ControllerTip& controller, std::size_t count) {

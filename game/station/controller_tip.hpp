@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "game/station/point_source.hpp"
+#include "haptics/hand/kinematics.hpp"
 
 namespace bolt::station_setup {
 
@@ -35,6 +36,12 @@ inline constexpr TouchOptions controller_touch{0.3, 3.0e-3, 5, 1.0};
 // A tip that has slipped by some millimetres exceeds the limit.
 inline constexpr double pivot_time = 6.0, max_pivot_rms = 2.0e-3;
 
+// What the user turns about a fixed point, and with which precision.
+struct Pivot {
+    std::string_view tip = "the tip of the controller", turned = "the controller";
+    double max_rms = max_pivot_rms;  // m
+};
+
 // The tip of a controller, in the tracker's frame: the user touches a point and presses the controller's
 // button or Enter. The position is averaged; if the hand moved, or the controller was not tracked meanwhile,
 // the user must touch the point again. While the controller is not tracked, the program reports it and waits.
@@ -43,10 +50,10 @@ class ControllerTip {
     // `tip`: m, in the frame of the grip.
     ControllerTip(ControllerIo io, const Vec3& tip, const TouchOptions& options = controller_touch);
 
-    // Measures the position of the tip in the frame of the grip, and uses it in all later touches: the user
+    // Measures the position of a tip in the frame of the grip, and uses it in all later touches: the user
     // keeps the tip on one point and turns the controller about it. Repeats this if the turns do not
     // determine the tip, or if the tip has slipped.
-    Result<PivotFit> find_tip();
+    Result<PivotFit> find_tip(const Pivot& pivot = {});
 
     // Shows `request` and waits until point `number`, from 0, is measured. Fails if the tracker is lost, its
     // origin has moved since the first sample, or the user interrupts.
@@ -62,6 +69,15 @@ class ControllerTip {
     TouchOptions options_;
     std::optional<std::uint32_t> origin_moves_;  // at the first sample
 };
+
+// m, limit of the rms of a fingertip's fit: the skin yields, and the finger bends a little.
+inline constexpr double max_fingertip_rms = 5.0e-3;
+
+// Measures the fingertips of a gloved hand to which the controller is fixed: the user turns the hand about
+// each fingertip. PointPair::from is in the frame of the wrist, as `fingers` returns them after each turn;
+// PointPair::to in that of the grip. The last pair is that of the ring finger. Fails if `fingers` fails.
+Result<std::vector<PointPair>> measure_fingertips(ControllerTip& controller,
+                                                  const std::function<Result<hand::Skeleton>()>& fingers);
 
 // Measures `count` points, each with the controller first and then with the arm: PointPair::from is in the
 // frame of the arm, PointPair::to in that of the tracker.

@@ -25,7 +25,14 @@ std::size_t worst_point(const MeasuredRegistration& measured) {
     return worst;
 }
 
+RegistrationLimits limits_of(const content::Registration& one) { return limits_between(one.from, one.to); }
+
 }  // namespace
+
+RegistrationLimits limits_between(content::CoordinateFrame from, content::CoordinateFrame to) {
+    const bool hand = from == content::CoordinateFrame::hand || to == content::CoordinateFrame::hand;
+    return hand ? limits_of_hand : RegistrationLimits{};
+}
 
 Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, content::CoordinateFrame to,
                                              std::span<const PointPair> pairs, const std::string& date) {
@@ -33,7 +40,7 @@ Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, cont
         return fail(ErrorCode::failed, fmt::format("{} points are too few", pairs.size()),
                     "at least 4, of which the last is the check point");
     const std::span<const PointPair> fitted = pairs.first(pairs.size() - 1);
-    BOLT_TRY_ASSIGN(const RigidAlignment aligned, align_points(fitted));
+    BOLT_TRY_ASSIGN(const RigidAlignment aligned, align_points(fitted, limits_between(from, to).alignment));
     MeasuredRegistration measured;
     measured.residuals = aligned.residuals;
     measured.leave_one_out = leave_one_out_residuals(fitted);
@@ -61,37 +68,39 @@ std::string describe(const MeasuredRegistration& measured) {
                             measured.leave_one_out[i]
                                 ? fmt::format("{:>6.1f} mm", *measured.leave_one_out[i] / mm)
                                 : "     -");
-    text += fmt::format("  rms {:.1f} mm, at most {:.0f}; scale {:.4f}\n", one.rms / mm, max_rms / mm,
+    const RegistrationLimits limits = limits_of(one);
+    text += fmt::format("  rms {:.1f} mm, at most {:.0f}; scale {:.4f}\n", one.rms / mm, limits.rms / mm,
                         measured.scale);
     if (one.largest_left_out)
         text += fmt::format("  largest leave-one-out residual {:.1f} mm\n", *one.largest_left_out / mm);
     return text + fmt::format("  check point {:.1f} mm, at most {:.0f}\n", measured.check_error / mm,
-                              max_check_error / mm);
+                              limits.check_error / mm);
 }
 
 Status check_quality(const MeasuredRegistration& measured) {
     const double rms = measured.registration.rms;
     const std::string name = pair_name(measured.registration);
+    const RegistrationLimits limits = limits_of(measured.registration);
     const std::size_t worst = worst_point(measured);
-    if (!(rms <= max_rms))
+    if (!(rms <= limits.rms))
         return fail(ErrorCode::failed, fmt::format("{}: the rms is {:.1f} mm", name, rms / mm),
-                    fmt::format("at most {:.0f} mm; {}", max_rms / mm,
+                    fmt::format("at most {:.0f} mm; {}", limits.rms / mm,
                                 worst > 0 ? fmt::format("measure point {} again", worst) : "measure again"));
-    if (!(measured.check_error <= max_check_error))
+    if (!(measured.check_error <= limits.check_error))
         return fail(ErrorCode::failed,
                     fmt::format("{}: the check point is off by {:.1f} mm", name, measured.check_error / mm),
-                    fmt::format("at most {:.0f} mm; measure again", max_check_error / mm));
+                    fmt::format("at most {:.0f} mm; measure again", limits.check_error / mm));
     return {};
 }
 
 std::vector<std::string> warnings_of(const MeasuredRegistration& measured) {
-    constexpr double flat = 0.1;
+    const RegistrationLimits limits = limits_of(measured.registration);
     std::vector<std::string> warnings;
-    if (measured.residuals.size() < advised_points)
+    if (measured.residuals.size() < limits.advised_points)
         warnings.push_back(fmt::format(
             "{} points and a check point are few; {} or more are advised, around the place of work",
-            measured.residuals.size(), advised_points));
-    if (measured.thickness_ratio < flat)
+            measured.residuals.size(), limits.advised_points));
+    if (measured.thickness_ratio < limits.advised_thickness_ratio)
         warnings.emplace_back("the points lie near a plane, so a mirrored axis cannot be detected");
     return warnings;
 }

@@ -16,8 +16,17 @@ namespace bolt::station_setup {
 inline constexpr double max_rms = 4e-3;
 inline constexpr double max_check_error = 5e-3;
 
-// Fewer points than this give a warning; the check point does not count.
-inline constexpr std::size_t advised_points = 6;
+struct RegistrationLimits {
+    double rms = max_rms, check_error = max_check_error;
+    AlignmentLimits alignment;
+    std::size_t advised_points = 6;        // fewer give a warning; the check point does not count
+    double advised_thickness_ratio = 0.1;  // of the points; below it a mirrored axis cannot be detected
+};
+// A glove and a model of the hand give fingertips with an error of some millimetres, and nobody has exactly
+// the proportions of the model. The hand is not touched in the picture, so this suffices. Its side is known,
+// so the fingertips may lie in a plane.
+inline constexpr RegistrationLimits limits_of_hand{12e-3, 15e-3, {0.12, 0.1}, 4, 0.0};
+RegistrationLimits limits_between(content::CoordinateFrame from, content::CoordinateFrame to);
 
 struct MeasuredRegistration {
     content::Registration registration;

@@ -71,6 +71,7 @@ class FrameSteppedStation final : public SteppedStation {
         controls_ = options.controls;
         snapshot_.connection_number = 1;
         snapshot_.usable = true;
+        if (options.hand) glove_ = WornGlove::start(options.glove, options.hand->wearer);
         return {};
     }
 
@@ -83,10 +84,16 @@ class FrameSteppedStation final : public SteppedStation {
         layout_.workspace.return_time = absolute ? return_time_ : std::numeric_limits<double>::infinity();
         state_.gripper = {};
     }
-    void step(double seconds) override { run_ticks(seconds); }
+    void step(double seconds) override {
+        if (glove_) glove_->update();
+        run_ticks(seconds);
+    }
     [[nodiscard]] std::uint64_t lost_ticks() const override { return 0; }
     const station::DisplayedHand* hand() override { return nullptr; }
-    std::vector<std::string> fault_messages() override { return {}; }
+    const WornFingers* worn_fingers() override { return glove_ ? &glove_->fingers() : nullptr; }
+    std::vector<std::string> fault_messages() override {
+        return glove_ ? glove_->fault_messages() : std::vector<std::string>();
+    }
     const servo::Timing* stop() override { return nullptr; }
 
   private:
@@ -108,6 +115,7 @@ class FrameSteppedStation final : public SteppedStation {
     device::SimulatedArm arm_;
     std::unique_ptr<device::DeviceDriver> driver_;
     device::DeviceSnapshot snapshot_;
+    std::optional<WornGlove> glove_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "game/station/worn_glove.hpp"
 #include "haptics/device/preparation.hpp"
 #include "haptics/device/simulated_arm.hpp"
 #include "haptics/device/virtual_devices.hpp"
@@ -43,7 +44,9 @@ class LessonStation {
     virtual const station::StationTick& latest_tick() = 0;       // is updated in a pause too
     [[nodiscard]] virtual std::uint64_t lost_ticks() const = 0;  // dropped because they were not read in time
     virtual const station::DisplayedHand* hand() = 0;            // null: no gloved hand
-    virtual std::vector<std::string> fault_messages() = 0;       // present faults of devices and glove
+    // The fingers of a glove whose wrist a headset measures; null: there is no such glove.
+    virtual const WornFingers* worn_fingers() { return nullptr; }
+    virtual std::vector<std::string> fault_messages() = 0;  // present faults of devices and glove
     // After the device that moves the tool was lost: its needs before it can be opened again.
     virtual device::ArmNeeds needs() { return {}; }
     virtual device::DeviceHealth health() { return {}; }  // of the device that moves the tool
@@ -66,7 +69,8 @@ Result<std::unique_ptr<LessonStation>> start_threaded_station(
     std::shared_ptr<device::MovePermission> permission = {});
 
 // Starts a SteppedStation with a simulated arm, whose time advances with step(). `arm`:
-// device::simulated_arm_description() or device::tracked_hand_description().
+// device::simulated_arm_description() or device::tracked_hand_description(). With StationOptions::hand the
+// wearer's fingers are read each frame (LessonStation::worn_fingers).
 Result<std::unique_ptr<LessonStation>> start_frame_stepped_station(const station::StationOptions& options,
                                                                    const device::Description& arm);
 

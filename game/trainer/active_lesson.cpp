@@ -109,9 +109,12 @@ void enter_room(ActiveLesson& active, const std::optional<RoomInput>& room) {
     if (!active.station || !active.station->tracked) return;
     StationClient& client = *active.station;
     const bool seen = room && room->hands != nullptr;
-    track_hand(*client.tracked,
-               {seen ? (*room->hands)[client.tracked->side] : no_hand, room ? room->room_in_assembly : Pose{},
-                hand_of(active).wrench, client.latest.output.joint >= 0});
+    const xr::HandInput& measured = seen ? (*room->hands)[client.tracked->side] : no_hand;
+    const station_setup::WornFingers* glove = client.link->worn_fingers();
+    const bool gloved = glove != nullptr && glove->measured;
+    track_hand(*client.tracked, {gloved ? with_glove(measured, *glove, client.wrist_at_controller) : measured,
+                                 room ? room->room_in_assembly : Pose{}, hand_of(active).wrench,
+                                 client.latest.output.joint >= 0});
 }
 
 }  // namespace
@@ -230,8 +233,13 @@ WorkingHand write_hand(scene::SceneWorld& world, const WorkingHand& hand) {
 
 void write_glove(scene::SceneWorld& world, const StationClient& client) {
     const ecs::Entity hand = world.pool<world::WorkingHand>().entities().front();
+    const station_setup::WornFingers* worn = client.tracked ? client.link->worn_fingers() : nullptr;
+    // A hand that a headset measures closes around the wrench as the drawn handle requires.
+    const bool empty = client.latest.input.grip != servo::Grip::wrench;
     if (client.gloved)
         world.add<world::GloveHand>(hand, client.fingers, client.glove_lost);
+    else if (worn != nullptr && worn->measured && client.tracked->joints && empty)
+        world.add<world::GloveHand>(hand, *client.tracked->joints, worn->lost);
     else
         world.remove<world::GloveHand>(hand);
 }

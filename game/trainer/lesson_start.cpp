@@ -6,6 +6,7 @@
 #include <ctime>
 #include <utility>
 
+#include "game/station/frame_registration.hpp"
 #include "game/station/station_setup.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/force/output_limits.hpp"
@@ -37,7 +38,17 @@ Status start_station_of(const LessonRequest& request, StartedLesson& lesson, ses
 hand::Side working_side(const ActiveLesson& active, const content::TraineeSettings& settings) {
     if (active.station)
         if (const station::DisplayedHand* gloved = active.station->link->hand()) return gloved->side;
+    if (active.station)
+        if (const station_setup::WornFingers* worn = active.station->link->worn_fingers()) return worn->side;
     return settings.left_handed ? hand::Side::left : hand::Side::right;
+}
+
+// The registration of a glove and the controller that is fixed to it.
+std::optional<Pose> wrist_at_controller(const content::StationFile& station) {
+    using content::CoordinateFrame;
+    const Result<content::Registration> found = station_setup::registration_from(
+        station.registrations, CoordinateFrame::hand, CoordinateFrame::controller);
+    return found ? std::optional(found->pose) : std::nullopt;
 }
 
 // A view of the workpiece and the resting wrench, no higher than the eyes of a seated trainee.
@@ -187,6 +198,7 @@ void place_trainee(ActiveLesson& active, const LessonContext& context, float asp
         station.rest = hand_of(active).rest;
         station.home = hand_of(active).pose;
         if (station.tracked) station.tracked->side = worker.side;
+        station.wrist_at_controller = wrist_at_controller(context.choice.equipment.station);
         const hand::Skeleton& open = active.postures.front().open;
         const Pose fingers = scene::frame_towards(station.home, active.shoulder, 0.0);
         station.empty_hand_wrist =

@@ -51,6 +51,9 @@ struct StationClient {
     KeyboardPuck keyboard;
     std::optional<DraggedHand> dragged;  // the mouse moves a simulated arm
     std::optional<TrackedHand> tracked;  // a headset's hand moves it
+    // The wrist of a gloved hand in the frame of the grip pose of the controller that is fixed to it; none:
+    // not registered.
+    std::optional<Pose> wrist_at_controller;
 
     // Received from the station.
     station::StationTick latest;

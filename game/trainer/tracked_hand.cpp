@@ -60,12 +60,55 @@ Pose palm_joint_at_fingertips(xr::Side side) {
     return inverse(fingertips_at_palm(side)) * palm;
 }
 
+xr::HandInput with_glove(const xr::HandInput& hand, const station_setup::WornFingers& fingers,
+                         const std::optional<Pose>& wrist_at_controller) {
+    std::optional<Pose> wrist;
+    if (hand.active && hand.grip && wrist_at_controller)
+        wrist = hand.grip->pose * *wrist_at_controller;
+    else if (hand.active && hand.joints && (*hand.joints)[hand::wrist].valid)
+        wrist = (*hand.joints)[hand::wrist].pose;
+    else if (const auto palm = palm_of(hand, fingers.side)) {
+        const Pose palm_at_wrist{fingers.joints.position[hand::palm], fingers.joints.rotation[hand::palm]};
+        wrist = *palm * Pose{Vec3(0.0), glm::conjugate(grip_at_palm_joint(fingers.side))} *
+                inverse(palm_at_wrist);
+    }
+    xr::HandInput gloved = hand;
+    gloved.grip.reset();
+    gloved.joints.reset();
+    gloved.select = 0.0F;
+    gloved.grasp = static_cast<float>(fingers.closing);
+    gloved.active = wrist.has_value();
+    if (!wrist) return gloved;
+    xr::HandJoints& joints = gloved.joints.emplace();
+    for (std::size_t i = 0; i < hand::joint_count; ++i)
+        joints[i] = {*wrist * Pose{fingers.joints.position[i], fingers.joints.rotation[i]}, 0.0, true};
+    return gloved;
+}
+
+namespace {
+
+// The joints in the assembly's frame; none: not all are measured.
+std::optional<hand::Skeleton> skeleton_of(const xr::HandInput& hand, const Pose& room_in_assembly) {
+    if (!hand.joints) return std::nullopt;
+    hand::Skeleton joints;
+    for (std::size_t i = 0; i < hand::joint_count; ++i) {
+        if (!(*hand.joints)[i].valid) return std::nullopt;
+        const Pose joint = room_in_assembly * (*hand.joints)[i].pose;
+        joints.position[i] = joint.position;
+        joints.rotation[i] = joint.orientation;
+    }
+    return joints;
+}
+
+}  // namespace
+
 void track_hand(TrackedHand& tracked, const TrackedHandInput& input) {
     const std::optional<Pose> palm = palm_of(input.hand, tracked.side);
     tracked.present = palm.has_value();
     tracked.motion.gripper = palm ? 1.0 - closure(input.hand) : 1.0;
     if (!palm) return;
     const Pose hand = input.room_in_assembly * *palm;
+    tracked.joints = skeleton_of(input.hand, input.room_in_assembly);
     tracked.fingertips = hand * fingertips_at_palm(tracked.side);
     tracked.motion.target = tracked.fingertips;
     // The end of the wrench's handle is in the palm.

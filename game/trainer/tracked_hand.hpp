@@ -7,16 +7,18 @@
 
 #include "engine/base/math.hpp"
 #include "engine/xr/input.hpp"
+#include "game/station/worn_glove.hpp"
 #include "haptics/device/simulated_arm.hpp"
 
 namespace bolt::trainer {
 
 struct TrackedHand {
     xr::Side side = xr::Side::right;
-    device::HandMotion motion;  // sent to the arm (device::tracked_hand_description)
-    Pose fingertips;            // of the open hand, in the assembly's frame
-    bool present = false;       // the headset tracks the hand
-    bool had_wrench = false;    // in the previous frame
+    device::HandMotion motion;             // sent to the arm (device::tracked_hand_description)
+    Pose fingertips;                       // of the open hand, in the assembly's frame
+    std::optional<hand::Skeleton> joints;  // of the hand, in the assembly's frame; none: not measured
+    bool present = false;                  // the headset tracks the hand
+    bool had_wrench = false;               // in the previous frame
 };
 
 struct TrackedHandInput {
@@ -40,6 +42,12 @@ Pose fingertips_at_palm(xr::Side side);
 
 // The pose of the joint hand::palm in the frame of the fingertips.
 Pose palm_joint_at_fingertips(xr::Side side);
+
+// The hand with the fingers of a glove instead of those that the headset sees, and without the buttons of a
+// controller that is fixed to it. Its wrist is, in this order: at the controller where it is registered,
+// where the cameras see it, or that of a hand that holds the controller.
+xr::HandInput with_glove(const xr::HandInput& hand, const station_setup::WornFingers& fingers,
+                         const std::optional<Pose>& wrist_at_controller);
 
 // Call once a frame. A hand that is not tracked keeps its pose and opens.
 void track_hand(TrackedHand& tracked, const TrackedHandInput& input);

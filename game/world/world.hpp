@@ -97,8 +97,9 @@ struct WorkingHand {
 // The measured fingers of a hand with a glove. The hand's entity has this component only while a glove is
 // worn.
 struct GloveHand {
-    hand::Skeleton fingers;  // 26 joints in the wrench's frame
-    bool lost = false;       // the glove sends no valid samples
+    // 26 joints: in the wrench's frame, or, of an empty hand that a headset measures, in the assembly's.
+    hand::Skeleton fingers;
+    bool lost = false;  // the glove sends no valid samples
 };
 
 // A world with these components and `More`.

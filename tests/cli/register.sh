@@ -236,6 +236,67 @@ check 'and points that it touches are right' wait $player
 check 'to a tenth of a millimetre' grep -q 'off by 0.0 mm' out.txt
 tip=(--controller-tip 0,0,-0.1)
 
+# The wrist of a gloved hand at the controller that is fixed to it: the wearer turns the hand about each fingertip. The hand is flat, because
+# its calibration has only the line of the wrist, which is not used. The wrist is at (0.02, -0.05, 0.07) of the grip, turned by 90 degrees about y.
+"$bin/bolt-emulate" glove --period 0 --link "$work/worn" > /dev/null &
+emulated=$!
+player=
+check 'the glove is there' eventually test -L worn
+export XDG_DATA_HOME=$work/data
+mkdir -p data/boltwright/gloves
+echo '{"format": "boltwright glove calibration 1", "trainee": "T-7K3M9Q", "glove": "", "hand": "right", "sensors": 18, "date": "2026-11-22",
+ "quality": 1, "hand_length_mm": 188.882, "lines": {"wrist_pitch": {"offset": 50, "gain": 0.013}}}' > data/boltwright/gloves/T-7K3M9Q.right.glove.json
+cat > turn_hand.py <<'END'
+import math, os, time
+# Turns the hand about the fingertip that the program has asked for last; the fingertips of a flat hand, m.
+tips = {"thumb": (-0.046210, -0.007, -0.118548), "index": (-0.024870, 0.001, -0.179098), "middle": (-0.004497, 0.001936, -0.188882),
+        "little": (0.032198, -0.004245, -0.149149), "ring": (0.015095, -0.000018, -0.175839)}
+def turned(q, v):
+    w, x, y, z = q
+    t = (2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0]))
+    return (v[0] + w * t[0] + y * t[2] - z * t[1], v[1] + w * t[1] + z * t[0] - x * t[2], v[2] + w * t[2] + x * t[1] - y * t[0])
+begin, finger, asked = time.monotonic(), None, 0.0
+while not os.path.exists("turned") and (now := time.monotonic() - begin) < 300:
+    words = [line.split(" on a fixed")[0] for line in open("log") if line.startswith("Hold the tip of the")]
+    latest = words[-1].split()[5] if words else None
+    if (len(words), latest) != finger:
+        finger, asked = (len(words), latest), now
+    a, b = 0.3 * math.sin(3 * now), 0.3 * math.cos(2 * now)
+    q = (math.cos(a) * math.cos(b), math.sin(a) * math.cos(b), math.cos(a) * math.sin(b), math.sin(a) * math.sin(b))
+    x, y, z = tips[latest] if latest else (0, 0, 0)
+    tip = (0.02 + z, -0.05 + y, 0.07 - x)
+    place = [p - d for p, d in zip((0.5, 1.0, 0.2), turned(q, tip))]
+    with open("controller.new", "w") as out:
+        out.write("hand right active 1\nhand right grip %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n" % (*place, q[1], q[2], q[3], q[0]))
+        out.write("hand right trigger %d\n" % (now - asked > 0.5))
+    os.rename("controller.new", "controller")
+    time.sleep(0.01)
+END
+cp old.json s.json
+expect 3 's.json: the station has no "glove"' bash -c 'echo "{\"format\": \"boltwright station 1\"}" > gloveless.json; cp gloveless.json s.json; "$@"' - "${run[@]}" s.json --hand right --trainee T-7K3M9Q
+expect 2 'requires --trainee' "${run[@]}" s.json --hand right
+expect 2 'excludes' "${run[@]}" s.json --hand right --trainee T-7K3M9Q --controller left
+echo "{\"format\": \"boltwright station 1\", \"glove\": {\"port\": \"$work/worn\"}}" > s.json
+expect 2 'the glove is a right one; expected --hand right' "${run[@]}" s.json --hand left --trainee T-7K3M9Q
+expect 3 'no calibration of T-7K3M9R.s right hand' "${run[@]}" s.json --hand right --trainee T-7K3M9R
+: > log
+python3 turn_hand.py &
+turner=$!
+check 'the wrist is registered' bash -c '"$@" > out.txt 2> log' - "${run[@]}" s.json --hand right --trainee T-7K3M9Q
+touch turned
+wait $turner
+kill $emulated
+check 'its fingertips fit' grep -q 'hand -> controller, 4 points' out.txt
+check 'the place of the wrist is that on the hand' python3 - s.json <<'END'
+import json, sys
+one = json.load(open(sys.argv[1]))["registrations"][0]
+assert (one["from"], one["to"]) == ("hand", "controller"), one
+assert all(abs(a - b) < 5e-4 for a, b in zip(one["position_m"], (0.02, -0.05, 0.07))), one
+assert abs(one["orientation_wxyz"][0] - 0.5 ** 0.5) < 5e-3 and abs(one["orientation_wxyz"][2] - 0.5 ** 0.5) < 5e-3, one
+END
+
+cp old.json s.json
+
 # An interruption, or the end of the runtime, ends the registration, also while a controller is not tracked.
 control 'hand right active 0'
 start

@@ -267,4 +267,62 @@ TEST_CASE("Controller tip: it is found by turning the controller about it, and t
     CHECK(glm::length(*touched - point) < 1e-12);
 }
 
+TEST_CASE("Controller tip: turns about the fingertips of a gloved hand give the wrist at the controller") {
+    const Pose wrist_at_controller{{0.02, -0.05, 0.07}, rotation({0.4, -1.1, 0.3})};
+    const hand::Hand model = hand::make_hand(Side::right);
+    const hand::Skeleton fingers = hand::joints(model, hand::closed_hand_angles(0.1), {});
+    constexpr std::array order{hand::thumb_tip, hand::index_tip, hand::middle_tip, hand::little_tip,
+                               hand::ring_tip};
+    for (const double size : {1.0, 1.04}) {  // of the real hand, relative to the model
+        CAPTURE(size);
+        Random random(17);
+        ScriptedController worn;
+        // One fingertip every 10 s: Enter after 1 s, then 6 s of turns about it.
+        worn.at = [&](double now) {
+            const auto finger = std::min<std::size_t>(static_cast<std::size_t>(now / 10.0), 4);
+            const Quat turn = rotation({0.5 * std::sin(3.0 * now), 0.5 * std::cos(2.0 * now), 0.0});
+            const Vec3 tip = wrist_at_controller * (size * fingers.position[order[finger]]);
+            const Vec3 noise(random.normal(), random.normal(), random.normal());
+            return ControllerSample{pose_on(Vec3(0.1, 0.7, -0.2) + 1e-3 * noise, turn, tip), false};
+        };
+        worn.enter = {1.0, 11.0, 21.0, 31.0, 41.0};
+        ControllerTip controller(worn.io(), {});
+        const auto pairs = measure_fingertips(controller, [&]() -> Result<hand::Skeleton> {
+            // The next finger is turned about after the ten seconds of this one.
+            while (std::fmod(worn.time.now, 10.0) > 1.0) worn.time.now += 0.01;
+            return fingers;
+        });
+        REQUIRE(pairs);
+        REQUIRE(pairs->size() == 5);
+        const auto measured =
+            register_frames(content::CoordinateFrame::hand, content::CoordinateFrame::controller, *pairs,
+                            "2026-03-02T09:15:00Z");
+        REQUIRE_MESSAGE(measured, (measured ? "" : measured.error().message()));
+        CHECK(check_quality(*measured));
+        CHECK(warnings_of(*measured).empty());
+        const Pose& pose = measured->registration.pose;
+        MESSAGE("wrist off by " << glm::length(pose.position - wrist_at_controller.position) / mm
+                                << " mm and "
+                                << to_degrees(glm::length(
+                                       turn_between(pose.orientation, wrist_at_controller.orientation)))
+                                << " degrees");
+        // A hand that is 4 % longer than the model puts the wrist nearer to the fingertips by 4 % of their
+        // distance.
+        CHECK(glm::length(pose.position - wrist_at_controller.position) < (size == 1.0 ? 1e-3 : 8e-3));
+        CHECK(glm::length(turn_between(pose.orientation, wrist_at_controller.orientation)) < to_radians(1.0));
+        CHECK(has(worn.shown, "Hold the tip of the ring finger on a fixed point"));
+    }
+    ScriptedController silent;
+    silent.at = [](double now) {
+        const Quat turn = rotation({0.5 * std::sin(3.0 * now), 0.5 * std::cos(2.0 * now), 0.0});
+        return ControllerSample{pose_on({}, turn, Vec3(0.1, 0.0, 0.0)), now > 1.0};
+    };
+    ControllerTip controller(silent.io(), {});
+    const auto lost = measure_fingertips(controller, []() -> Result<hand::Skeleton> {
+        return fail(ErrorCode::no_device, "the glove sends no samples");
+    });
+    REQUIRE_FALSE(lost);
+    CHECK(lost.error().code == ErrorCode::no_device);
+}
+
 }  // namespace controller_tip_test

@@ -97,8 +97,10 @@ Status HeadsetDriver::take_picture() {
 
 void HeadsetDriver::frame(const Pose& head, const xr::Hands& hands) {
     sent_ = hands;
-    need(send_(head, hands));
-    turns_.take();
+    do {
+        need(send_(head, hands));
+        turns_.take();
+    } while (options_.settled && !options_.settled());
 }
 
 Status play_in_headset(Program& program, HeadsetDriver& driver, std::vector<std::string>& log,

@@ -182,3 +182,56 @@ TEST_CASE("Tracked hand: the hand at work does not press the buttons of the pane
     (void)hand_events(room, hands, {}, 0.01);
     CHECK(room.pointer.pressed);
 }
+
+TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras the wrist") {
+    for (const xr::Side side : {xr::Side::right, xr::Side::left}) {
+        const hand::Hand model = hand::make_hand(side);
+        const hand::Angles bent = hand::closed_hand_angles(0.4);
+        station_setup::WornFingers fingers;
+        fingers.joints = hand::joints(model, bent, {});
+        fingers.side = side;
+        fingers.closing = station_setup::closed_share(bent);
+        CHECK(fingers.closing == doctest::Approx(0.4));
+        const Pose wrist{{0.2, 1.1, -0.4}, glm::normalize(Quat(0.7, 0.1, -0.6, 0.3))};
+        const Pose palm_joint{wrist * fingers.joints.position[hand::palm],
+                              wrist.orientation * fingers.joints.rotation[hand::palm]};
+        const auto is_at_wrist = [&](const xr::HandInput& gloved, double degrees) {
+            REQUIRE(gloved.active);
+            REQUIRE(gloved.joints);
+            CHECK_FALSE(gloved.grip);
+            for (std::size_t i = 0; i < hand::joint_count; ++i) {
+                const xr::HandJoint& joint = (*gloved.joints)[i];
+                CHECK(joint.valid);
+                CHECK(glm::distance(joint.pose.position, wrist * fingers.joints.position[i]) < 1e-9);
+                CHECK(degrees_between(joint.pose.orientation,
+                                      wrist.orientation * fingers.joints.rotation[i]) < degrees);
+            }
+            CHECK(closure(gloved) == doctest::Approx(0.4).epsilon(1e-6));
+        };
+        // A controller whose place on the hand is registered. Its buttons do not close the hand.
+        const Pose mount{{0.02, -0.06, 0.05}, glm::normalize(Quat(0.5, -0.4, 0.3, 0.7))};
+        xr::HandInput worn;
+        worn.active = true;
+        worn.select = worn.grasp = 1.0F;
+        worn.grip = xr::LocatedPose{wrist * inverse(mount), true};
+        is_at_wrist(with_glove(worn, fingers, mount), 1e-6);
+        // Cameras that see the wrist, and other fingers than the glove measures.
+        xr::HandInput seen;
+        seen.active = true;
+        seen.joints.emplace();
+        (*seen.joints)[hand::wrist] = {wrist, 0.02, true};
+        is_at_wrist(with_glove(seen, fingers, mount), 1e-6);
+        is_at_wrist(with_glove(seen, fingers, {}), 1e-6);
+        // A controller in the hand: the palm of the glove's hand is at its grip pose.
+        xr::HandInput held;
+        held.active = true;
+        const double out = side == xr::Side::right ? 1.0 : -1.0;
+        const glm::dmat3 grip_at_palm(Vec3(0.0, out, 0.0), Vec3(0.0, 0.0, 1.0), Vec3(out, 0.0, 0.0));
+        held.grip = xr::LocatedPose{
+            {palm_joint.position, glm::normalize(palm_joint.orientation * glm::quat_cast(grip_at_palm))},
+            true};
+        is_at_wrist(with_glove(held, fingers, {}), 1e-6);
+        // A hand that is not tracked is not drawn, whatever the glove measures.
+        CHECK_FALSE(with_glove({}, fingers, mount).active);
+    }
+}
