@@ -23,8 +23,8 @@ struct HeadsetDriverOptions {
     double draw_interval = 0.0;
     // Folder for the drawn pictures, both eyes side by side, 00000.png and so on; empty: none.
     std::filesystem::path pictures;
-    // Each frame is repeated with the same poses until this is true, for devices that run in real time; empty:
-    // no frame is repeated.
+    // Each frame is repeated with the same poses until this is true, for devices that run in real time;
+    // empty: no frame is repeated.
     std::function<bool()> settled;
 };
 
