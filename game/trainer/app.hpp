@@ -146,6 +146,7 @@ class App : public view::WindowContent {
     void perform_in_room(Action action);
     void follow_placement(const view::ImmersiveFrame& immersive, std::span<const platform::InputEvent> events,
                           double seconds);
+    std::optional<Pose> registered_workpiece(const view::ImmersiveFrame& immersive);
     void place_in_room(const view::ImmersiveFrame& immersive);
     void start_registered_arm(const view::ImmersiveFrame& immersive);
     void follow_touch_check(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "content/displays/panel_fit.hpp"
+#include "game/station/frame_registration.hpp"
 #include "game/trainer/app.hpp"
 
 namespace bolt::trainer {
@@ -26,6 +27,7 @@ Pose App::scene_in_room() const {
     if (!active_ || !room_->workpiece) return {};
     if (room_->arm && active_->station)
         return registered_scene(*room_->arm, active_->station->latest.mover_in_assembly);
+    if (room_->workpiece_registered) return *room_->workpiece;
     return adjusted(*room_->workpiece, active_->workplace.workpiece, room_->turns, room_->height);
 }
 
@@ -134,13 +136,13 @@ void App::start_registered_arm(const view::ImmersiveFrame& immersive) {
     if (found == nullptr || !context_->choice.equipment.station.arm || client.dragged || client.tracked)
         return;
     const double scale = client.link->layout().workspace.scale;
-    if (scale != 1.0 || !immersive.floor_known) {
+    if (scale != 1.0 || !immersive.fixed_in_room) {
         log(fmt::format(
             "picture and arm are not aligned: {}",
             scale != 1.0
                 ? fmt::format("the scale of the arm is {:.2f}; expected 1 (\"scale\" in the station file)",
                               scale)
-                : "the headset does not report the floor of the room; expected a room setup"));
+                : "the poses of the headset are not fixed in the room; expected one whose room is set up"));
         return;
     }
     room.arm = found->from == content::CoordinateFrame::arm ? found->pose : inverse(found->pose);
@@ -181,6 +183,19 @@ void App::end_touch_check() {
     active_->clock.paused = room_->paused = !room_->seen;
 }
 
+// The pose of the real workpiece in the room, if it is registered.
+std::optional<Pose> App::registered_workpiece(const view::ImmersiveFrame& immersive) {
+    const Result<content::Registration> found =
+        station_setup::registration_from(context_->choice.equipment.station.registrations,
+                                         content::CoordinateFrame::workpiece, content::CoordinateFrame::room);
+    if (!found) return std::nullopt;
+    if (immersive.fixed_in_room) return found->pose;
+    log("the registered workpiece is not used: the poses of the headset are not fixed in the room; expected "
+        "one "
+        "whose room is set up");
+    return std::nullopt;
+}
+
 // Places panel and workpiece if they have no place yet.
 void App::place_in_room(const view::ImmersiveFrame& immersive) {
     RoomState& room = *room_;
@@ -191,8 +206,18 @@ void App::place_in_room(const view::ImmersiveFrame& immersive) {
         room.panel_point = immersive.panel ? immersive.panel->point_size : point_size;
         room.placement.provisional = !immersive.expected_head && !is_worn(immersive);
     }
-    if (!active_) room.workpiece.reset();
+    if (!active_) {
+        room.workpiece.reset();
+        room.workpiece_registered = false;
+    }
     start_registered_arm(immersive);
+    if (placed && active_ && !room.workpiece) {
+        const bool before = std::exchange(room.workpiece_registered, false);
+        room.workpiece = registered_workpiece(immersive);
+        room.workpiece_registered = room.workpiece.has_value();
+        if (room.workpiece_registered && !before)
+            log("the workpiece stands where the real one is registered");
+    }
     if (placed && active_ && !room.workpiece) {
         const render::BoundingBox& box = active_->workplace.workpiece;
         const content::TraineeSettings& settings = preferences_.settings;

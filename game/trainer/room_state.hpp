@@ -45,6 +45,8 @@ struct Vignette {
 // workpiece and panel stay where they are.
 struct RoomState {
     std::optional<Pose> workpiece;  // pose of the assembly's frame; none: not placed yet
+    // It stands where the station file registers the real workpiece, and is neither turned nor raised.
+    bool workpiece_registered = false;
     std::optional<Pose> panel;  // pose of its centre: x right, y up, z towards the user; none: not placed yet
     double panel_point = point_size;  // m per point of the panel
     Placement placement;

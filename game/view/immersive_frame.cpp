@@ -58,6 +58,7 @@ ImmersiveFrame immersive_frame(xr::Headset& headset, const xr::HeadsetFrame& fra
         immersive.origin_moved = immersive.origin_moved || recentred->base;
     }
     immersive.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
+    immersive.fixed_in_room = headset.session().base_space() == xr::BaseSpace::stage;
     immersive.has_passthrough = headset.runtime().passthrough().has_value();
     immersive.hands = frame.hands;
     immersive.tracks_hands = true;

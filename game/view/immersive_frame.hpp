@@ -40,7 +40,8 @@ struct ImmersiveFrame {
     // Since the last frame the user has recentred the headset, and the room's origin has moved. Headsets may
     // recentre without moving this origin.
     bool recentred = false, origin_moved = false;
-    bool floor_known = true;  // y is 0 at the floor; false: at the eyes of a seated user
+    bool floor_known = true;    // y is 0 at the floor; false: at the eyes of a seated user
+    bool fixed_in_room = true;  // the origin stays when the user recentres; false: registrations do not hold
     // Group i is drawn as the renderer's group immersive_group + i; a group without eyes is not drawn.
     std::vector<EyeGroup> groups;
     xr::Hands hands;

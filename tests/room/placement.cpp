@@ -175,3 +175,38 @@ TEST_CASE("Placement: a lesson that begins before its user wears the headset wai
     CHECK_FALSE(room.driver.lesson().clock.paused);
     CHECK(room.driver.lesson().session->time() > 0.2);
 }
+
+TEST_CASE("Placement: the workpiece stands where the real one is registered, and is not turned") {
+    const Pose registered{{0.4, 0.82, -0.7}, rotation({0.0, 0.6, 0.0})};
+    const auto options = [&](bool inverted) {
+        AppOptions made = room_options(false);
+        content::Registration one;
+        one.from = content::CoordinateFrame::workpiece;
+        one.pose = registered;
+        if (inverted) std::swap(one.from, one.to);
+        if (inverted) one.pose = inverse(registered);
+        made.choice.equipment.station.registrations.push_back(one);
+        return made;
+    };
+    for (const bool inverted : {false, true})
+        for (const bool fixed : {true, false}) {
+            CAPTURE(fixed);
+            HeadlessTrainer driver(options(inverted), {placement_eyes, 0.3F, frame_step});
+            driver.draws = false;
+            driver.immersive = test::standing_user(placement_eyes);
+            driver.immersive->fixed_in_room = fixed;
+            for (int i = 0; i < 10; ++i) driver.frame();
+            driver.frame({platform::KeyEvent{platform::Key::j, true}});  // turns the workpiece
+            const Pose scene = driver.immersive->head * inverse(*driver.lesson().view.head);
+            const double off = glm::distance(scene.position, registered.position) +
+                               glm::length(turn_between(scene.orientation, registered.orientation));
+            CHECK((off < 1e-9) == fixed);
+            const auto logged = [&](std::string_view words) {
+                return std::count_if(driver.log().begin(), driver.log().end(), [&](const std::string& line) {
+                    return line.find(words) != std::string::npos;
+                });
+            };
+            CHECK(logged("the workpiece stands where the real one is registered") == (fixed ? 1 : 0));
+            CHECK(logged("the registered workpiece is not used") == (fixed ? 0 : 1));
+        }
+}
