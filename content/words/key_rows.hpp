@@ -398,6 +398,7 @@ inline constexpr KeyRow key_rows[] = {
     {"action.turn_right", ""},
     {"action.raise", ""},
     {"action.lower", ""},
+    {"action.mirror", ""},
     // Captions of sounds (game/trainer/hud.cpp).
     {"caption.slip", ""},
     {"caption.mistake", ""},

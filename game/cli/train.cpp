@@ -188,6 +188,9 @@ Status run_window(WindowRequest request, const Surroundings& surroundings, platf
     app_options.out = out;
     app_options.folder_per_lesson = options.folder_per_lesson;
     app_options.first_start = options.first_start;
+    const auto* const mirror =
+        std::find(view::mirror_names.begin(), view::mirror_names.end(), options.mirror);
+    app_options.mirror = static_cast<view::Mirror>(mirror - view::mirror_names.begin());
     app_options.settings_file = options.settings;
     // Without a home folder no settings are kept.
     if (const auto data = user_data_folder()) {

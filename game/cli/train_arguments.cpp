@@ -10,6 +10,7 @@
 #include "content/station/station_file.hpp"
 #include "game/station/station_setup.hpp"
 #include "game/view/camera.hpp"
+#include "game/view/immersive_frame.hpp"
 #include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::cli {
@@ -90,6 +91,13 @@ void add_device_options(CLI::App& train, TrainArguments& options) {
                     "one, and until then the window")
         ->expected(0, 1)
         ->type_name("[optional]");
+    train
+        .add_option(
+            "--mirror", options.mirror,
+            "The window of a headset shows the picture of the left or the right eye, of both, or with panel "
+            "also the panel with the measured values; key F9 changes it")
+        ->check(CLI::IsMember(std::vector<std::string>(view::mirror_names.begin(), view::mirror_names.end())))
+        ->capture_default_str();
     train.add_option(
         "--displays", options.displays,
         "Display file: shows the lesson on projection walls. `boltwright displays new` makes one");

@@ -28,7 +28,8 @@ struct AppOptions {
     std::filesystem::path settings_folder, settings_file;  // Preferences::folder and ::file
     // PersonFolders::people and ::gloves. Without a folder for names each typed name gets a new code.
     std::filesystem::path people_folder, gloves_folder;
-    bool first_start = false;                                          // the menu offers the tour first
+    view::Mirror mirror = view::Mirror::left_eye;  // of a headset in its window, at the start
+    bool first_start = false;                      // the menu offers the tour first
     ComputerCheck::GatherFacts gather_facts = computer::gather_facts;  // tests replace it
     StationFactory start_station = trainer::start_station;
 
@@ -86,6 +87,10 @@ class App : public view::WindowContent {
     [[nodiscard]] render::ImageLayer window_picture(const render::Renderer& renderer) const override {
         if (in_room()) return gpu_->panel->layer();
         return gpu_->shows_enlarged ? gpu_->enlarged->layer() : renderer.picture(0);
+    }
+    [[nodiscard]] view::Mirror mirror() const override { return options_.mirror; }
+    [[nodiscard]] std::optional<render::ImageLayer> panel_picture() const override {
+        return in_room() && room_->panel ? std::optional(gpu_->panel->layer()) : std::nullopt;
     }
     [[nodiscard]] bool take_full_screen_request() override {
         return std::exchange(full_screen_requested_, false);

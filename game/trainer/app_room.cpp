@@ -16,8 +16,8 @@ namespace {
 
 static_assert(panel_points.x == content::panel_width_points &&
               panel_points.y == content::panel_height_points);
-constexpr std::array room_actions{Action::place_again, Action::turn_left, Action::turn_right, Action::raise,
-                                  Action::lower};
+constexpr std::array room_actions{Action::place_again, Action::turn_left, Action::turn_right,
+                                  Action::raise,       Action::lower,     Action::mirror};
 constexpr double default_seated_eyes = 1.2;  // m above the floor, about the mean of DIN 33402-2
 
 }  // namespace
@@ -249,6 +249,9 @@ void App::perform_in_room(Action action) {
     if (action == Action::turn_right) ++room.turns;
     if (action == Action::raise) raise(room, raise_step);
     if (action == Action::lower) raise(room, -raise_step);
+    if (action == Action::mirror)
+        options_.mirror =
+            static_cast<view::Mirror>((static_cast<std::size_t>(options_.mirror) + 1) % view::mirror_count);
 }
 
 // Removes the places that are to be chosen again in this frame.

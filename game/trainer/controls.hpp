@@ -37,14 +37,16 @@ enum class Action : std::uint8_t {
     turn_right,
     raise,
     lower,
+    mirror,  // with a headset: the window shows the next choice of its pictures
 };
-inline constexpr std::size_t action_count = static_cast<std::size_t>(Action::lower) + 1;  // the last one
+inline constexpr std::size_t action_count = static_cast<std::size_t>(Action::mirror) + 1;  // the last one
 
 // As in settings files, whose names for clamp_map and mute are older.
 constexpr std::string_view name(Action action) {
     constexpr std::array names = std::to_array<std::string_view>(
         {"tool", "find_view", "whole_view", "hint", "flange_map", "pause", "full_screen", "quiet", "undo",
-         "restart_step", "recentre", "close_up", "place_again", "turn_left", "turn_right", "raise", "lower"});
+         "restart_step", "recentre", "close_up", "place_again", "turn_left", "turn_right", "raise", "lower",
+         "mirror"});
     static_assert(names.size() == action_count);
     return names.at(static_cast<std::size_t>(action));
 }
@@ -53,7 +55,7 @@ inline constexpr std::array default_keys = std::to_array<platform::Key>(
     {platform::Key::t, platform::Key::v, platform::Key::f, platform::Key::h, platform::Key::c,
      platform::Key::escape, platform::Key::f11, platform::Key::m, platform::Key::backspace, platform::Key::r,
      platform::Key::home, platform::Key::i, platform::Key::b, platform::Key::j, platform::Key::l,
-     platform::Key::plus, platform::Key::minus});
+     platform::Key::plus, platform::Key::minus, platform::Key::f9});
 static_assert(default_keys.size() == action_count);
 
 struct KeyMap {

@@ -18,7 +18,7 @@ words::TextKey text_key(Action action) {
                                        "action.full_screen",  "action.quiet",      "action.undo",
                                        "action.restart_step", "action.recentre",   "action.close_up",
                                        "action.place_again",  "action.turn_left",  "action.turn_right",
-                                       "action.raise",        "action.lower"};
+                                       "action.raise",        "action.lower",      "action.mirror"};
     static_assert(std::size(keys) == action_count);
     return keys[static_cast<std::size_t>(action)];
 }

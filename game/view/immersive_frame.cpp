@@ -46,6 +46,27 @@ VkRect2D filling_part(VkExtent2D picture, VkExtent2D window) { return inscribed(
 
 VkRect2D fitted(VkExtent2D picture, VkExtent2D window) { return inscribed(picture, window); }
 
+std::vector<gpu::ShownPicture> mirror_pictures(Mirror mirror, const MirrorSources& sources,
+                                               VkExtent2D window) {
+    const auto eye = [&](std::size_t number, const VkRect2D& place) {
+        const render::ImageLayer& picture = sources.eyes[number];
+        return gpu::ShownPicture{picture.image, picture.layer, filling_part(sources.eye_size, place.extent),
+                                 place};
+    };
+    const bool two_eyes = sources.eyes.size() > 1;
+    const bool halves = window.width > 1 && ((mirror == Mirror::both_eyes && two_eyes) ||
+                                             (mirror == Mirror::panel && sources.panel));
+    if (!halves) return {eye(mirror == Mirror::right_eye && two_eyes ? 1 : 0, {{0, 0}, window})};
+    const std::uint32_t half = window.width / 2;
+    const VkRect2D left{{0, 0}, {half, window.height}};
+    const VkExtent2D right{window.width - half, window.height};
+    if (mirror == Mirror::both_eyes)
+        return {eye(0, left), eye(1, {{static_cast<std::int32_t>(half), 0}, right})};
+    VkRect2D panel = fitted(sources.panel_size, right);
+    panel.offset.x += static_cast<std::int32_t>(half);
+    return {eye(0, left), {sources.panel->image, sources.panel->layer, {}, panel}};
+}
+
 ImmersiveFrame immersive_frame(xr::Headset& headset, const xr::HeadsetFrame& frame) {
     ImmersiveFrame immersive;
     immersive.head = frame.view.head;

@@ -2,12 +2,16 @@
 // room's coordinates: x to the right, y up, z towards the user's first position, m.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/math.hpp"
+#include "engine/gpu/swapchain.hpp"
 #include "engine/render/camera.hpp"
+#include "engine/render/renderer.hpp"
 #include "engine/xr/headset.hpp"
 
 namespace bolt::view {
@@ -66,5 +70,27 @@ VkRect2D filling_part(VkExtent2D picture, VkExtent2D window);
 
 // The largest rectangle with the picture's shape in the middle of a window of this size.
 VkRect2D fitted(VkExtent2D picture, VkExtent2D window);
+
+// The pictures of a headset that its window shows to whoever instructs: copies, so that the window costs no
+// drawing.
+enum class Mirror : std::uint8_t {
+    left_eye,
+    right_eye,
+    both_eyes,  // side by side
+    panel,      // the left eye, and beside it the panel of the interface
+};
+constexpr std::size_t mirror_count = 4;
+// The names in the order of the enumerators, as for `--mirror`.
+inline constexpr std::array<std::string_view, mirror_count> mirror_names{"left", "right", "both", "panel"};
+
+struct MirrorSources {
+    std::vector<render::ImageLayer> eyes;     // left, right; at least one
+    VkExtent2D eye_size{};                    // px, of each eye's picture
+    std::optional<render::ImageLayer> panel;  // none: there is no panel now
+    VkExtent2D panel_size{};                  // px
+};
+// With one eye, or without a panel, what there is.
+std::vector<gpu::ShownPicture> mirror_pictures(Mirror mirror, const MirrorSources& sources,
+                                               VkExtent2D window);
 
 }  // namespace bolt::view

@@ -39,6 +39,7 @@ struct Canvas {
     double late_since = 0.0;  // s, time since which the headset's runtime is late; 0: it is not
     bool hangs = false;       // it is late for so long that the window goes on without it
     std::optional<ImmersiveFrame> last_immersive;  // of the headset
+    std::size_t mirrored_eyes = 0;                 // number of them in the window
     std::optional<VkExtent2D> mirrored;            // size of the headset's picture in the window
     std::vector<platform::InputEvent> events;      // for the next frame
 
@@ -128,7 +129,7 @@ class FrameLoop {
     Status draw_late(WindowFrame window);
     // Moves the eyes of the recorded pictures to the latest prediction of the headset's pose.
     void latch_eyes(xr::HeadsetFrame& frame, const WindowFrame& window, ImmersiveFrame& immersive);
-    // Submits the frame and shows the first eye's picture, of this size, in the window.
+    // Submits the frame and shows the pictures of the eyes, of this size, in the window.
     Status present_mirror(gpu::FrameContext& recorded, VkExtent2D size);
     Status draw_walls(WindowFrame window);
     // Adapts the resolution to the time that the GPU took for the last frame. `period`: s, that a frame may
@@ -193,7 +194,7 @@ void FrameLoop::latch_eyes(xr::HeadsetFrame& frame, const WindowFrame& window, I
     immersive.groups = recorded_groups;
 }
 
-// A frame of the headset; the window mirrors the first eye, and never delays the headset.
+// A frame of the headset; the window mirrors it (WindowContent::mirror), and never delays it.
 Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
     xr::Headset& headset = *options_.headset;
     GpuContext& gpu = canvas_.gpu_context;
@@ -219,6 +220,7 @@ Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
     } else {
         headset.record(recorded->commands(), eye_pictures(*gpu.renderer, immersive.groups.front()));
         canvas_.mirrored = size;
+        canvas_.mirrored_eyes = immersive.groups.front().eyes.size();
         BOLT_TRY(present_mirror(*recorded, size));
     }
     headset.end_frame(frame, drawn, immersive_range);
@@ -227,10 +229,17 @@ Status FrameLoop::draw_headset(xr::HeadsetFrame& frame, WindowFrame window) {
 }
 
 Status FrameLoop::present_mirror(gpu::FrameContext& recorded, VkExtent2D size) {
-    const render::ImageLayer picture = canvas_.gpu_context.renderer->picture(0, immersive_group);
-    BOLT_TRY(canvas_.swapchain->present(
-        *canvas_.gpu_context.frames, recorded,
-        {picture.image, picture.layer, filling_part(size, canvas_.swapchain->plan().extent), {}}, false));
+    const render::Renderer& renderer = *canvas_.gpu_context.renderer;
+    MirrorSources sources;
+    sources.eyes = {renderer.picture(0, immersive_group)};
+    if (canvas_.mirrored_eyes > 1) sources.eyes.push_back(renderer.picture(1, immersive_group));
+    sources.eye_size = size;
+    sources.panel = content_.panel_picture();
+    if (sources.panel) sources.panel_size = sources.panel->image->info().extent;
+    const VkExtent2D window = canvas_.swapchain->plan().extent;
+    const gpu::WindowPictures pictures{canvas_.swapchain.get(),
+                                       mirror_pictures(content_.mirror(), sources, window), false};
+    BOLT_TRY(gpu::present(*canvas_.gpu_context.frames, recorded, std::span(&pictures, 1)));
     return {};
 }
 

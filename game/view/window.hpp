@@ -53,6 +53,9 @@ class WindowContent {
     [[nodiscard]] virtual render::ImageLayer window_picture(const render::Renderer& renderer) const {
         return renderer.picture(0);
     }
+    // For the window of a headset: which pictures it shows, and the panel, if there is one.
+    [[nodiscard]] virtual Mirror mirror() const { return Mirror::left_eye; }
+    [[nodiscard]] virtual std::optional<render::ImageLayer> panel_picture() const { return std::nullopt; }
     // On walls of several processes, the first one calls share() after update(), to write what the others
     // need to draw the frame. The others call follow() before update(), to read it. Contents that only one
     // process shows need neither.

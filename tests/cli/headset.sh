@@ -6,6 +6,7 @@ train=("$bin/boltwright" train --start --silent --validate --full-resolution --s
 
 expect 4 'no OpenXR runtime: .*expected an active runtime .*XR_RUNTIME_JSON' env XR_RUNTIME_JSON=/nonexistent.json "${train[@]}" --hmd --out never
 expect 2 'a simulated trainee wears no headset' "$bin/boltwright" train --headless --hmd --out never
+expect 2 'mirror: all not in .*left,right,both,panel' "${train[@]}" --hmd --mirror all --out never
 expect 2 '"maybe"; expected optional, or no value' "$bin/boltwright" train cover-m8 --hmd maybe --out never
 
 export XR_RUNTIME_JSON=$manifest
@@ -27,7 +28,7 @@ cat >script <<END
 66 exit
 END
 export MOCK_OPENXR_SCRIPT=$work/script
-expect 0 'headset: Mock headset with Mock runtime' timeout 200 "${train[@]}" --hmd first-nut --out lesson
+expect 0 'headset: Mock headset with Mock runtime' timeout 200 "${train[@]}" --hmd first-nut --mirror both --out lesson
 check 'the lesson was recorded' test -s lesson/session.boltwright
 check 'the runtime was used correctly' test "$(violations report)" = 0
 check 'frames were shown until the user ended the program' grep -qE 'drawn [1-9][0-9]' report
@@ -63,7 +64,7 @@ cat >script <<END
 52 exit
 END
 rm -f report
-expect 0 'headset: Mock headset' timeout 200 "$bin/boltwright" train --silent --validate --full-resolution --size 160x120 --hmd first-nut --out placed
+expect 0 'headset: Mock headset' timeout 200 "$bin/boltwright" train --silent --validate --full-resolution --size 160x120 --hmd first-nut --mirror panel --out placed
 check 'the runtime was used correctly' test "$(violations report)" = 0
 check 'the menu is in front of the user, before and after' python3 - worn.ppm turned.ppm recentred.ppm <<'END'
 import sys
@@ -129,6 +130,7 @@ cat >script <<END
 0 config width 64
 0 config height 60
 END
+: >log
 "${train[@]}" --hmd optional first-nut --out optional >log 2>&1 &
 player=$!
 check 'its absence is told' eventually grep -qs 'no OpenXR runtime' log
@@ -145,6 +147,7 @@ refused='the headset cannot be used, and the window is used without it'
 expect_refusal() {  # expect_refusal REASON OUT LINE: the script has this line
     printf '0 config width 64\n0 config height 60\n%s\n' "$3" >script
     rm -f later.json
+    : >log  # the earlier program's lines must not answer for this one
     "${train[@]}" --hmd optional first-nut --out "$2" >log 2>&1 &
     player=$!
     check "the lesson begins in the window ($3)" eventually grep -qs 'lesson begun' log
@@ -178,7 +181,7 @@ done
 echo >script
 expect 4 "the headset's GPU, .*, does not match \"nonesuch\"" timeout 100 "${train[@]}" --gpu nonesuch --hmd first-nut --out never
 echo '30 exit' >script
-expect 0 'headset: 2 eye' timeout 200 "${train[@]}" --gpu llvmpipe --hmd first-nut --out chosen
+expect 0 'headset: 2 eye' timeout 200 "${train[@]}" --gpu llvmpipe --hmd first-nut --mirror right --out chosen
 
 printf '0 config width 64\n0 config height 60\n' >script
 
@@ -199,6 +202,7 @@ cat >station.json <<'END'
   "check_point": {"from_m": [0.02, 0.01, 0.03], "to_m": [0.02, 1.01, -0.47]}}]}
 END
 place 0 0 0 0
+: >log
 "${train[@]}" --hmd first-nut --station station.json --out touched >log 2>&1 &
 player=$!
 check 'the arm is registered to the room' eventually grep -q 'picture and arm are aligned' log

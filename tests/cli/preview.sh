@@ -6,6 +6,7 @@ export ASAN_OPTIONS=detect_leaks=0
 
 # Opens the only window. Without a window manager it has the requested position.
 start() {  # start what option...
+    : >log
     "$bin/bolt-author" preview "$@" --validate >log 2>&1 &
     player=$!
     eventually has_window || { echo "no window:"; cat log; exit 1; }

@@ -48,6 +48,7 @@ first_process() {
 }
 # run_walls COMMAND...: in the background, with its output in `log`.
 run_walls() {
+    : >log
     "$@" >log 2>&1 &
     player=$!
 }

@@ -71,3 +71,48 @@ TEST_CASE(
                            glm::vec4(2.0F * tangent(fov.left), 2.0F * tangent(fov.up), -2.0F, 1.0F);
     CHECK(glm::distance(glm::vec2(clip) / clip.w, expected[0]) < 1e-5F);
 }
+
+TEST_CASE("Mirror: the window of a headset shows the chosen pictures, undistorted and not one over another") {
+    using view::Mirror;
+    constexpr VkExtent2D window{1280, 720};
+    view::MirrorSources both;
+    both.eyes = {{nullptr, 0}, {nullptr, 1}};
+    both.eye_size = {1000, 1100};
+    both.panel = render::ImageLayer{nullptr, 7};
+    both.panel_size = {1740, 1140};
+    const auto layers = [](const std::vector<gpu::ShownPicture>& pictures) {
+        std::vector<std::uint32_t> shown;
+        for (const gpu::ShownPicture& picture : pictures) shown.push_back(picture.layer);
+        return shown;
+    };
+    const auto shown = [&](Mirror mirror) { return view::mirror_pictures(mirror, both, window); };
+    using Layers = std::vector<std::uint32_t>;
+    CHECK(layers(shown(Mirror::left_eye)) == Layers{0});
+    CHECK(layers(shown(Mirror::right_eye)) == Layers{1});
+    CHECK(layers(shown(Mirror::both_eyes)) == Layers{0, 1});
+    CHECK(layers(shown(Mirror::panel)) == Layers{0, 7});
+    for (std::size_t i = 0; i < view::mirror_count; ++i) {
+        const auto pictures = shown(static_cast<Mirror>(i));
+        std::int64_t right_end = 0;
+        for (const gpu::ShownPicture& picture : pictures) {
+            REQUIRE(picture.place);
+            const VkRect2D part = picture.part.value_or(VkRect2D{{0, 0}, both.panel_size});
+            const auto aspect = [](const VkRect2D& r) {
+                return static_cast<double>(r.extent.width) / static_cast<double>(r.extent.height);
+            };
+            CHECK(aspect(part) == doctest::Approx(aspect(*picture.place)).epsilon(0.01));
+            CHECK(picture.place->offset.x >= right_end);
+            right_end = picture.place->offset.x + static_cast<std::int64_t>(picture.place->extent.width);
+            CHECK(right_end <= window.width);
+            CHECK(static_cast<std::uint32_t>(picture.place->offset.y) + picture.place->extent.height <=
+                  window.height);
+        }
+    }
+    // With one eye, and without a panel, the window shows the eye.
+    view::MirrorSources one = both;
+    one.eyes.pop_back();
+    one.panel.reset();
+    for (std::size_t i = 0; i < view::mirror_count; ++i)
+        CHECK(layers(view::mirror_pictures(static_cast<Mirror>(i), one, window)) == Layers{0});
+    CHECK(layers(view::mirror_pictures(Mirror::both_eyes, both, {1, 1})) == Layers{0});
+}
