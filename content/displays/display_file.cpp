@@ -47,6 +47,16 @@ ordered_json json_of(const Wall& wall) {
     return object;
 }
 
+ordered_json json_of(const Flystick& flystick) {
+    ordered_json object;
+    object["id"] = flystick.id;
+    if (!same(flystick.aim_in_body, Pose{})) object["aim_in_body"] = json_of(flystick.aim_in_body);
+    object["select"] = flystick.select;
+    object["menu"] = flystick.menu;
+    object["tool"] = flystick.tool;
+    return object;
+}
+
 // Writes the members that only a tracker uses if the head has that tracker or their values are not the
 // defaults.
 ordered_json json_of(const HeadTracking& head) {
@@ -56,6 +66,7 @@ ordered_json json_of(const HeadTracking& head) {
     object["fixed"] = json_of(head.fixed_head);
     if (head.tracker == HeadTracker::dtrack || head.port != unless_given.port) object["port"] = head.port;
     if (head.tracker == HeadTracker::dtrack || head.body != unless_given.body) object["body"] = head.body;
+    if (head.flystick) object["flystick"] = json_of(*head.flystick);
     if (head.tracker == HeadTracker::openxr || head.pose != unless_given.pose)
         object["pose"] = name(head.pose);
     if (!head.recording.empty()) object["recording"] = head.recording;
@@ -63,6 +74,7 @@ ordered_json json_of(const HeadTracking& head) {
     without_settings.fixed_head = head.fixed_head;
     without_settings.port = head.port;
     without_settings.body = head.body;
+    without_settings.flystick = head.flystick;
     without_settings.pose = head.pose;
     without_settings.recording = head.recording;
     if (head == without_settings) return object;
@@ -119,10 +131,15 @@ std::string with_flat_arrays(std::string_view text) {
 
 }  // namespace
 
+bool Flystick::operator==(const Flystick& other) const {
+    return id == other.id && same(aim_in_body, other.aim_in_body) && select == other.select &&
+           menu == other.menu && tool == other.tool;
+}
+
 bool HeadTracking::operator==(const HeadTracking& other) const {
-    return tracker == other.tracker && same(fixed_head, other.fixed_head) && port == other.port &&
-           body == other.body && pose == other.pose && recording == other.recording && axes == other.axes &&
-           scale == other.scale && same(tracker_in_room, other.tracker_in_room) &&
+    return tracker == other.tracker && flystick == other.flystick && same(fixed_head, other.fixed_head) &&
+           port == other.port && body == other.body && pose == other.pose && recording == other.recording &&
+           axes == other.axes && scale == other.scale && same(tracker_in_room, other.tracker_in_room) &&
            same(head_in_body, other.head_in_body) && hold == other.hold && fade == other.fade &&
            max_speed == other.max_speed && jump_time == other.jump_time;
 }

@@ -81,6 +81,15 @@ struct TrackerAxis {
     bool operator==(const TrackerAxis&) const = default;
 };
 
+// A flystick of DTrack, with which the viewer points at the panel. Buttons are counted from 1; 0: none.
+struct Flystick {
+    int id = 0;
+    Pose aim_in_body;  // in the flystick's frame after HeadTracking::axes; it points along −z
+    int select = 1, menu = 2, tool = 3;  // presses what it points at; pauses; lays the wrench down
+    bool operator==(const Flystick& other) const;
+};
+inline constexpr int max_flystick_button = 32;
+
 // The pose of the head is that of the point between the eyes, which looks along −z with y up. Only the
 // registration in this file is used for the head, not one in a station file
 // (content/station/registration.hpp).
@@ -89,6 +98,7 @@ struct HeadTracking {
     Pose fixed_head{{0.0, 1.6, 0.0}, {1.0, 0.0, 0.0, 0.0}};  // without a tracker, and after it lost the head
     int port = 5000;                                         // UDP, dtrack
     int body = 0;                                            // dtrack
+    std::optional<Flystick> flystick;                        // dtrack; none: the viewer has none
     TrackedPose pose = TrackedPose::headset;                 // openxr
     std::string recording;  // file of recorded poses, relative to the folder of the display file
     std::array<TrackerAxis, 3> axes{{{0}, {1}, {2}}};  // tracker axes along the room's x, y and z

@@ -90,12 +90,33 @@ void read_axes(JsonReader& reader, const JsonNode& node, std::array<TrackerAxis,
                       "three different axes that make a right-handed frame, such as +x, +z, -y");
 }
 
+std::optional<Flystick> read_flystick(JsonReader& reader, const JsonNode& node) {
+    if (!node) return std::nullopt;
+    Flystick flystick;
+    flystick.id = read_integer(reader, reader.member(node, "id")).value_or(flystick.id);
+    read_pose(reader, node, "aim_in_body", flystick.aim_in_body);
+    flystick.select = read_integer(reader, reader.member(node, "select")).value_or(flystick.select);
+    flystick.menu = read_integer(reader, reader.member(node, "menu")).value_or(flystick.menu);
+    flystick.tool = read_integer(reader, reader.member(node, "tool")).value_or(flystick.tool);
+    const auto twice = [](int a, int b) { return a != 0 && a == b; };
+    if (twice(flystick.select, flystick.menu) || twice(flystick.select, flystick.tool) ||
+        twice(flystick.menu, flystick.tool))
+        reader.report(node.pointer, "a button has two functions", "a button for each function, or 0");
+    return flystick;
+}
+
 HeadTracking read_head(JsonReader& reader, const JsonNode& node) {
     HeadTracking head;
-    head.tracker = read_name(reader, reader.member(node, "tracker"), tracker_names, head.tracker);
+    const JsonNode tracker = reader.member(node, "tracker");
+    head.tracker = read_name(reader, tracker, tracker_names, head.tracker);
     read_pose(reader, node, "fixed", head.fixed_head);
     head.port = read_integer(reader, reader.member(node, "port")).value_or(head.port);
     head.body = read_integer(reader, reader.member(node, "body")).value_or(head.body);
+    head.flystick = read_flystick(reader, reader.member(node, "flystick"));
+    if (head.flystick && head.tracker != HeadTracker::dtrack && reader.is_valid(tracker.pointer))
+        reader.report(reader.member(node, "flystick").pointer,
+                      fmt::format("the tracker \"{}\" has no flystick", name(head.tracker)),
+                      "the tracker \"dtrack\"", JsonPart::key);
     head.pose = read_name(reader, reader.member(node, "pose"), pose_names, head.pose);
     const JsonNode recording = reader.member(node, "recording");
     head.recording = reader.text(recording).value_or("");

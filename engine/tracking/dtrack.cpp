@@ -63,6 +63,15 @@ bool is_rotation(const glm::dmat3& m) {
     return glm::determinant(m) > 0.0;
 }
 
+// The pose of a position, mm, and the columns of a matrix; none if they are no pose.
+std::optional<Pose> pose_of(const double* position, const std::array<double, 9>& b) {
+    const glm::dmat3 matrix(b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8]);
+    const Vec3 at = Vec3(position[0], position[1], position[2]) * mm;
+    const bool is_near = glm::length(at) <= max_tracked_distance;  // false for NaN
+    if (!is_near || !is_rotation(matrix)) return std::nullopt;
+    return Pose{at, glm::normalize(glm::quat_cast(matrix))};
+}
+
 // Returns false if the text of the body is damaged.
 bool read_body(LineReader& line, DtrackFrame& frame) {
     DtrackBody body;
@@ -72,14 +81,12 @@ bool read_body(LineReader& line, DtrackFrame& frame) {
         !line.numbers(position) || !line.numbers(b))
         return false;
     if (body.quality < 0.0) return true;  // not seen
-    const glm::dmat3 matrix(b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8]);
-    body.pose.position = Vec3(position[0], position[1], position[2]) * mm;
-    const bool is_near = glm::length(body.pose.position) <= max_tracked_distance;  // false for NaN
-    if (!is_near || !std::isfinite(body.quality) || !is_rotation(matrix)) {
+    const auto pose = pose_of(position.data(), b);
+    if (!pose || !std::isfinite(body.quality)) {
         ++frame.invalid_bodies;
         return true;
     }
-    body.pose.orientation = glm::normalize(glm::quat_cast(matrix));
+    body.pose = *pose;
     frame.bodies.push_back(body);
     return true;
 }
@@ -89,6 +96,65 @@ bool read_bodies(LineReader& line, DtrackFrame& frame) {
     if (!line.number(count) || count > max_dtrack_bodies) return false;
     for (std::size_t i = 0; i < count; ++i)
         if (!read_body(line, frame)) return false;
+    return line.at_end();
+}
+
+// Adds a flystick, with the pose if the cameras see it and the pose is valid.
+void add_flystick(DtrackFrame& frame, DtrackFlystick& flystick, double quality, const double* position,
+                  const std::array<double, 9>& matrix) {
+    if (quality >= 0.0) flystick.pose = pose_of(position, matrix);
+    if (quality >= 0.0 && !flystick.pose) ++frame.invalid_bodies;
+    frame.flysticks.push_back(flystick);
+}
+
+// Returns false if the text of the flystick is damaged.
+bool read_flystick(LineReader& line, DtrackFrame& frame) {
+    constexpr int max_controls = 256;
+    DtrackFlystick flystick;
+    double quality = 0.0;
+    int buttons = 0, controllers = 0;
+    std::array<double, 3> position{};
+    std::array<double, 9> matrix{};
+    if (!line.sign('[') || !line.number(flystick.id) || !line.number(quality) || !line.number(buttons) ||
+        !line.number(controllers) || !line.sign(']') || !line.numbers(position) || !line.numbers(matrix) ||
+        !line.sign('['))
+        return false;
+    if (buttons < 0 || buttons > max_controls || controllers < 0 || controllers > max_controls) return false;
+    for (int first = 0; first < buttons; first += 32) {
+        std::int64_t bits = 0;  // programs print them with or without a sign
+        if (!line.number(bits)) return false;
+        if (first == 0) flystick.buttons = static_cast<std::uint32_t>(bits);
+    }
+    for (int i = 0; i < controllers; ++i) {
+        double value = 0.0;
+        if (!line.number(value) || !std::isfinite(value)) return false;
+        if (i == 0) flystick.stick_x = std::clamp(value, -1.0, 1.0);
+        if (i == 1) flystick.stick_y = std::clamp(value, -1.0, 1.0);
+    }
+    if (!line.sign(']')) return false;
+    add_flystick(frame, flystick, quality, position.data(), matrix);
+    return true;
+}
+
+// Returns false if the text of the flystick, of a line 6df, is damaged.
+bool read_old_flystick(LineReader& line, DtrackFrame& frame) {
+    DtrackFlystick flystick;
+    double quality = 0.0;
+    std::array<double, 6> position{};
+    std::array<double, 9> matrix{};
+    if (!line.sign('[') || !line.number(flystick.id) || !line.number(quality) ||
+        !line.number(flystick.buttons) || !line.sign(']') || !line.numbers(position) || !line.numbers(matrix))
+        return false;
+    add_flystick(frame, flystick, quality, position.data(), matrix);
+    return true;
+}
+
+template <class ReadOne>
+bool read_flysticks(LineReader& line, DtrackFrame& frame, const ReadOne& read_one) {
+    std::size_t count = 0;
+    if (!line.number(count) || count > max_dtrack_bodies) return false;
+    for (std::size_t i = 0; i < count; ++i)
+        if (!read_one(line, frame)) return false;
     return line.at_end();
 }
 
@@ -112,6 +178,11 @@ bool read_line(std::string_view text, DtrackFrame& frame, bool& has_number) {
         frame.calibrated_bodies = count;
         return true;
     }
+    if (line.word("6df2")) {
+        std::size_t calibrated = 0;
+        return line.number(calibrated) && read_flysticks(line, frame, read_flystick);
+    }
+    if (line.word("6df")) return read_flysticks(line, frame, read_old_flystick);
     return !line.word("6d") || read_bodies(line, frame);
 }
 
@@ -127,7 +198,8 @@ std::optional<DtrackFrame> parse_dtrack(std::string_view packet) {
         if (!read_line(line, frame, has_number)) return std::nullopt;
         packet.remove_prefix(std::min(end + 1, packet.size()));
     }
-    if (!has_number || frame.bodies.size() > max_dtrack_bodies) return std::nullopt;
+    if (!has_number || frame.bodies.size() > max_dtrack_bodies || frame.flysticks.size() > max_dtrack_bodies)
+        return std::nullopt;
     return frame;
 }
 
@@ -135,6 +207,12 @@ const DtrackBody* find_body(const DtrackFrame& frame, int id) {
     const auto it = std::find_if(frame.bodies.begin(), frame.bodies.end(),
                                  [id](const DtrackBody& body) { return body.id == id; });
     return it == frame.bodies.end() ? nullptr : &*it;
+}
+
+const DtrackFlystick* find_flystick(const DtrackFrame& frame, int id) {
+    const auto it = std::find_if(frame.flysticks.begin(), frame.flysticks.end(),
+                                 [id](const DtrackFlystick& flystick) { return flystick.id == id; });
+    return it == frame.flysticks.end() ? nullptr : &*it;
 }
 
 }  // namespace bolt::tracking

@@ -8,6 +8,15 @@
 //
 // A body in a 6d line has an id and a quality, its position in mm and three angles (which are not used), and
 // the columns of its rotation matrix. A body that the cameras do not see is missing or has the quality -1.
+//
+// A flystick is a body with buttons that the user holds. The line
+//
+//   6df2 1 1 [0 1.000 6 2][-228.5 1834.2 261.4][0.97 0.12 -0.19 -0.11 0.99 0.07 0.20 -0.05 0.98][5 0.00 1.00]
+//
+// has the numbers of flysticks that are calibrated and that follow; of each its id, quality, numbers of
+// buttons and of analogue controllers, position, matrix, the buttons as bits of integers (32 in each, the
+// first button is the lowest bit), and the controllers. The older line 6df has the number of flysticks, and
+// of each [id quality buttons][position and three angles][matrix].
 #pragma once
 
 #include <cstdint>
@@ -25,22 +34,32 @@ struct DtrackBody {
     Pose pose;             // in the tracker's frame, m
 };
 
+struct DtrackFlystick {
+    int id = 0;
+    std::optional<Pose> pose;             // in the tracker's frame, m; none: the cameras do not see it
+    std::uint32_t buttons = 0;            // the first 32; the first is bit 0
+    double stick_x = 0.0, stick_y = 0.0;  // −1 … 1, of the first two controllers; 0 without them
+};
+
 struct DtrackFrame {
     std::uint32_t number = 0;              // of the measurement
     std::optional<double> time;            // s, on the tracker's clock
     std::optional<int> calibrated_bodies;  // number of bodies that the tracker is calibrated for
     std::vector<DtrackBody> bodies;
+    std::vector<DtrackFlystick> flysticks;
     int invalid_bodies = 0;  // bodies whose values are no pose: not finite, too far away, or no rotation
 };
 
 inline constexpr std::size_t max_dtrack_bodies = 256;
 inline constexpr double rotation_tolerance = 0.01;  // of dot products of columns; packets may have few digits
 
-// None if the packet is damaged: no frame number, or a malformed fr, ts, 6dcal or 6d line. Other lines,
-// such as those of flysticks (6df) and markers (3d), are skipped.
+// None if the packet is damaged: no frame number, or a malformed fr, ts, 6dcal, 6d, 6df or 6df2 line. Other
+// lines, such as those of markers (3d), are skipped.
 std::optional<DtrackFrame> parse_dtrack(std::string_view packet);
 
 // The body with this id; null: it is not tracked.
 const DtrackBody* find_body(const DtrackFrame& frame, int id);
+// The flystick with this id; null: the packet has none.
+const DtrackFlystick* find_flystick(const DtrackFrame& frame, int id);
 
 }  // namespace bolt::tracking

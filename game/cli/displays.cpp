@@ -144,16 +144,41 @@ std::string describe_walls_behind(const content::DisplayFile& displays, const Ve
     return names.empty() ? "" : fmt::format("   behind {}", fmt::join(names, ", "));
 }
 
+// The direction of −z of a pose. Whole degrees, without a negative zero.
+struct Direction {
+    double right = 0.0, up = 0.0;
+};
+Direction direction_of(const Pose& pose) {
+    const Vec3 ahead = pose.orientation * Vec3(0.0, 0.0, -1.0);
+    const auto degrees = [](double angle) { return std::round(to_degrees(angle)) + 0.0; };
+    return {degrees(std::atan2(ahead.x, -ahead.z)), degrees(std::asin(std::clamp(ahead.y, -1.0, 1.0)))};
+}
+
+std::string describe_wand(const std::optional<head_tracking::Wand>& wand) {
+    if (!wand) return "flystick sends nothing\n";
+    std::vector<std::string_view> pressed;
+    if (wand->select) pressed.emplace_back("select");
+    if (wand->menu) pressed.emplace_back("menu");
+    if (wand->tool) pressed.emplace_back("tool");
+    std::string text = "flystick is not seen";
+    if (wand->aim) {
+        const Vec3& at = wand->aim->position;
+        const Direction points = direction_of(*wand->aim);
+        text = fmt::format(
+            "flystick x {:6.3f}  y {:6.3f}  z {:6.3f} m   points {:4.0f} degrees to the right, {:3.0f} up",
+            at.x, at.y, at.z, points.right, points.up);
+    }
+    return fmt::format("{}   pressed: {}\n", text,
+                       pressed.empty() ? "none" : fmt::format("{}", fmt::join(pressed, ", ")));
+}
+
 std::string describe_shown_head(const content::DisplayFile& displays, const tracking::FilteredHead& head) {
     constexpr const char* states[] = {"tracked", "held", "lost"};
     const Vec3& at = head.pose.position;
-    const Vec3 ahead = head.pose.orientation * Vec3(0.0, 0.0, -1.0);
-    // Whole degrees, without a negative zero.
-    const auto degrees = [](double angle) { return std::round(to_degrees(angle)) + 0.0; };
+    const Direction looks = direction_of(head.pose);
     return fmt::format(
         "{:<8} x {:6.3f}  y {:6.3f}  z {:6.3f} m   looks {:4.0f} degrees to the right, {:3.0f} up{}\n",
-        states[static_cast<std::size_t>(head.status)], at.x, at.y, at.z,
-        degrees(std::atan2(ahead.x, -ahead.z)), degrees(std::asin(std::clamp(ahead.y, -1.0, 1.0))),
+        states[static_cast<std::size_t>(head.status)], at.x, at.y, at.z, looks.right, looks.up,
         describe_walls_behind(displays, at));
 }
 
@@ -196,8 +221,9 @@ int track_head(const DisplaysArguments& options) {
         const tracking::FilteredHead shown = source->at(now);
         if (now >= next_line) {
             next_line += 0.5;
-            if (const Status printed = print(describe_shown_head(loaded.displays, shown)); !printed)
-                return print_error(printed.error());
+            std::string lines = describe_shown_head(loaded.displays, shown);
+            if (head.flystick) lines += describe_wand(source->wand());
+            if (const Status printed = print(lines); !printed) return print_error(printed.error());
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }

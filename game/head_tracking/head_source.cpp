@@ -37,6 +37,7 @@ Result<HeadSource> HeadSource::open(const content::HeadTracking& head, const std
     source.settings_.max_speed = head.max_speed;
     source.settings_.jump_time = head.jump_time;
     source.body_ = head.body;
+    source.flystick_ = head.flystick;
     if (head.tracker == HeadTracker::dtrack) {
         BOLT_TRY_ASSIGN(auto receiver, tracking::DtrackReceiver::open(head.port));
         source.receiver_ = std::move(receiver);
@@ -55,11 +56,32 @@ void HeadSource::add_sample(const tracking::BodySample& body) {
     waiting_.push_back({body.time, tracking::head_in_room(registration_, body.pose)});
 }
 
+void HeadSource::read_wand(const tracking::DtrackFrame& frame, double now) {
+    if (!flystick_) return;
+    const tracking::DtrackFlystick* seen = tracking::find_flystick(frame, flystick_->id);
+    if (seen == nullptr) return;
+    tracking::TrackerRegistration aim = registration_;
+    aim.head_in_body = flystick_->aim_in_body;
+    const auto pressed = [&](int button) {
+        return button > 0 && ((seen->buttons >> (button - 1)) & 1U) != 0;
+    };
+    Wand& wand = wand_.emplace();
+    if (seen->pose) wand.aim = tracking::head_in_room(aim, *seen->pose);
+    wand.select = pressed(flystick_->select);
+    wand.menu = pressed(flystick_->menu);
+    wand.tool = pressed(flystick_->tool);
+    wand.stick_x = seen->stick_x;
+    wand.stick_y = seen->stick_y;
+    wand_time_ = now;
+}
+
 // DTrack has a clock of its own, so a frame gets the time of its arrival.
 void HeadSource::receive(double now) {
     const auto frame = receiver_->poll();
     counts_.dtrack = receiver_->counts();
+    if (wand_ && now - wand_time_ > tracking::max_sample_age) wand_.reset();
     if (!frame) return;
+    read_wand(*frame, now);
     for (const tracking::DtrackBody& body : frame->bodies) {
         const auto at = std::lower_bound(counts_.bodies.begin(), counts_.bodies.end(), body.id);
         if (at == counts_.bodies.end() || *at != body.id) counts_.bodies.insert(at, body.id);

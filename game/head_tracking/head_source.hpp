@@ -20,6 +20,13 @@ struct TrackerCounts {
     std::vector<int> bodies;        // DTrack's numbers of all bodies that were seen, ascending
 };
 
+// A flystick in the viewer's hand.
+struct Wand {
+    std::optional<Pose> aim;  // in the room, points along −z; none: the tracker does not see it
+    bool select = false, menu = false, tool = false;
+    double stick_x = 0.0, stick_y = 0.0;  // −1 … 1; y away from the user
+};
+
 class HeadSource {
   public:
     // `folder`: that of the display file. Fails if the UDP port is in use, the recording is wrong, or there
@@ -34,12 +41,16 @@ class HeadSource {
     // Adds a sample of a tracker that the caller reads; the next at() uses it.
     void add_sample(const tracking::BodySample& body);
 
+    // The wand at the last at(); none: there is none, or it has sent nothing for max_sample_age.
+    [[nodiscard]] const std::optional<Wand>& wand() const { return wand_; }
+
     [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
     [[nodiscard]] int port() const { return receiver_ ? receiver_->port() : 0; }
 
   private:
     HeadSource() = default;
     void receive(double now);
+    void read_wand(const tracking::DtrackFrame& frame, double now);
     void play(double now);
     void track(double now);
 
@@ -48,6 +59,9 @@ class HeadSource {
     tracking::HeadFilterState state_;
     std::optional<tracking::DtrackReceiver> receiver_;
     int body_ = 0;
+    std::optional<content::Flystick> flystick_;
+    std::optional<Wand> wand_;
+    double wand_time_ = 0.0;                    // s, of the last packet with the flystick
     std::optional<xr::TrackedDevice> tracked_;  // with tracker openxr only
     std::unique_ptr<xr::PoseTracker> openxr_;   // null: the runtime has ended
     double next_search_ = 0.0;                  // s

@@ -205,7 +205,8 @@ class App : public view::WindowContent {
     std::optional<session::LessonOutcome> outcome_;
     std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson
 
-    std::optional<RoomState> room_;  // none until a display has surrounded the user
+    std::optional<PointingRay> wand_ray_;  // of this frame, on walls
+    std::optional<RoomState> room_;        // none until a display has surrounded the user
     // A headset tracks the hand of the lesson, but is lost, was taken off, or does not show pictures yet.
     struct MissingHeadset {
         bool noticed = false;      // since the last frame with it

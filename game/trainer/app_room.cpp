@@ -59,6 +59,7 @@ Status App::share(cluster::MessageWriter& message, cluster::MessageWriter& bulk)
     if (in_room()) {
         frame.panel = room_->panel;
         frame.panel_point = room_->panel_point;
+        frame.ray = wand_ray_;
     }
     sender_->write(message, bulk, frame);
     return {};
@@ -285,6 +286,7 @@ void App::follow_placement(const view::ImmersiveFrame& immersive,
 void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
     const view::ImmersiveFrame* immersive = window.immersive;
     if (room_) room_->surrounds_user = room_->present = false;
+    wand_ray_.reset();
     if (immersive == nullptr) {
         pause_unseen(false, false);
         follow_headset(nullptr);
@@ -307,6 +309,9 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     } else {
         move_to_panel(events, view::fitted(panel_extent, window.size));
     }
+    const xr::HandInput& wand = immersive->hands[Side::right];
+    if (!immersive->tracks_hands && wand.active && wand.aim)
+        wand_ray_ = pointing_ray(room, wand.aim->pose, room.pointer.pressed);
     trainer::update(room.vignette, scene_in_room(), window.seconds);
     const HandKeys keys{platform::Key::escape, preferences_.keys.of(Action::tool)};
     const std::vector<platform::InputEvent> hands =
@@ -314,13 +319,15 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     events.insert(events.end(), hands.begin(), hands.end());
 }
 
-// Adds hands and rays to the scene, where the lesson does not draw them.
+// Adds hands and rays to the scene, where the lesson does not draw them; of a wand the ray.
 Status App::draw_hands(render::Scene& scene, const view::ImmersiveFrame& immersive) {
-    if (!immersive.tracks_hands || !room_) return {};
+    if (!room_ || !(immersive.tracks_hands || wand_ray_)) return {};
     if (!gpu_->room_hands) {
         BOLT_TRY_ASSIGN(auto models, load_room_hands(*gpu_->context->device));
         gpu_->room_hands = std::move(models);
     }
+    if (wand_ray_) add_ray(scene, gpu_->room_hands->ray, *wand_ray_, inverse(scene_in_room()));
+    if (!immersive.tracks_hands) return {};
     const bool plays = active_ && screen_ == ShownScreen::lesson && !active_->clock.paused && !settings_;
     ShownHands shown{!plays, {}};
     if (plays && active_->station && active_->station->tracked)

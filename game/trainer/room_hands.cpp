@@ -103,8 +103,20 @@ void add_hand(render::Scene& scene, const RoomHand& model, const hand::Skeleton&
     }
 }
 
-void add_ray(render::Scene& scene, const render::GpuModel& model, const Vec3& from, const Vec3& to,
-             bool pressed) {
+}  // namespace
+
+PointingRay pointing_ray(const RoomState& room, const Pose& aim, bool pressed) {
+    PointingRay ray{aim.position, aim * Vec3(0.0, 0.0, -free_ray), pressed};
+    if (const auto at = room.panel ? panel_point(*room.panel, aim) : std::nullopt)
+        ray.to = point_on_panel(*room.panel, *at);
+    return ray;
+}
+
+Result<render::GpuModel> load_ray(gpu::Device& device) { return render::upload_model(device, tube()); }
+
+void add_ray(render::Scene& scene, const render::GpuModel& model, const PointingRay& pointing,
+             const Pose& room_in_scene) {
+    const Vec3 from = room_in_scene * pointing.from, to = room_in_scene * pointing.to;
     const double length = glm::distance(from, to);
     if (length < 1e-3) return;
     const Vec3 z = (to - from) / length;
@@ -114,18 +126,16 @@ void add_ray(render::Scene& scene, const render::GpuModel& model, const Vec3& fr
     ray.world =
         glm::mat4(glm::dmat4(glm::dvec4(ray_radius * x, 0.0), glm::dvec4(ray_radius * glm::cross(z, x), 0.0),
                              glm::dvec4(length * z, 0.0), glm::dvec4(from, 1.0)));
-    ray.tint = pressed ? pressing_color : ray_color;
+    ray.tint = pointing.pressed ? pressing_color : ray_color;
     ray.flat = ray.moves = true;
     scene.objects.push_back(ray);
 }
-
-}  // namespace
 
 Result<std::unique_ptr<RoomHandModels>> load_room_hands(gpu::Device& device) {
     auto models = std::make_unique<RoomHandModels>();
     for (const Side side : {Side::left, Side::right})
         BOLT_TRY(load_hand(device, side, models->hands[static_cast<std::size_t>(side)]));
-    BOLT_TRY_ASSIGN(auto ray, render::upload_model(device, tube()));
+    BOLT_TRY_ASSIGN(auto ray, load_ray(device));
     models->ray = std::move(ray);
     return models;
 }
@@ -142,11 +152,8 @@ void add_room_hands(render::Scene& scene, const RoomHandModels& models, const xr
             if (const auto joints = joints_of(model, hand, side))
                 add_hand(scene, model, *joints, room_in_scene);
         if (!hand.aim) continue;
-        const Vec3 from = hand.aim->pose.position;
-        Vec3 to = from + hand.aim->pose.orientation * Vec3(0.0, 0.0, -free_ray);
-        if (const auto at = room.panel ? panel_point(*room.panel, hand.aim->pose) : std::nullopt)
-            to = point_on_panel(*room.panel, *at);
-        add_ray(scene, models.ray, room_in_scene * from, room_in_scene * to, points && room.pointer.pressed);
+        add_ray(scene, models.ray, pointing_ray(room, hand.aim->pose, points && room.pointer.pressed),
+                room_in_scene);
     }
 }
 

@@ -29,6 +29,18 @@ struct RoomHandModels {
 };
 Result<std::unique_ptr<RoomHandModels>> load_room_hands(gpu::Device& device);
 
+// The line along which a hand or a wand points, m in the room. It ends on the panel if it meets it.
+struct PointingRay {
+    Vec3 from{0.0}, to{0.0};
+    bool pressed = false;
+};
+PointingRay pointing_ray(const RoomState& room, const Pose& aim, bool pressed);
+
+// The model of a ray, and a ray in the scene. The scene points to the model.
+Result<render::GpuModel> load_ray(gpu::Device& device);
+void add_ray(render::Scene& scene, const render::GpuModel& model, const PointingRay& ray,
+             const Pose& room_in_scene);
+
 // The sides that are drawn.
 struct ShownHands {
     bool all = false;                   // all active hands; else the one that points at the panel

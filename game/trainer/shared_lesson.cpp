@@ -51,6 +51,10 @@ void LessonSender::write(cluster::MessageWriter& message, cluster::MessageWriter
         message.put(frame.panel_point);
         message.put(panel.write(bulk));
     }
+    message.put(frame.ray.has_value());
+    if (frame.ray)
+        for (const Vec3& end : {frame.ray->from, frame.ray->to}) message.put_pose({end});
+    if (frame.ray) message.put(frame.ray->pressed);
     if (lesson == 0) return;
     cluster::MessageWriter scene;
     scene_.write(scene, *frame.scene, streamed(*frame.on_gpu));
@@ -69,6 +73,7 @@ void FollowedLesson::release() {
     if (gpu_ != nullptr && gpu_->device) (void)gpu_->device->idle();
     scene_ = empty_room();
     panel_.release();
+    ray_model_.reset();
     models_.reset();
     lesson_ = 0;
 }
@@ -111,6 +116,12 @@ Status FollowedLesson::follow(cluster::MessageReader& message, cluster::MessageR
         panel_point_ = message.get<double>();
         if (message.get<bool>()) BOLT_TRY(panel_.read(bulk));
     }
+    ray_.reset();
+    if (message.get<bool>()) {
+        ray_.emplace();
+        for (Vec3* end : {&ray_->from, &ray_->to}) *end = message.get_pose().position;
+        ray_->pressed = message.get<bool>();
+    }
     if (lesson == 0) return message.ok() ? Status{} : fail(unknown_scene());
     const cluster::Message sent = (message.get<bool>() ? bulk : message).get_all<std::byte>();
     cluster::MessageReader scene(sent);
@@ -123,7 +134,14 @@ Status FollowedLesson::draw(gpu::FrameContext& frame, const view::WindowFrame& w
     if (panel_pose_ && panel_.picture() != nullptr)
         scene_.panels.push_back(
             panel_in_scene(*panel_pose_, panel_point_, scene_in_room_, panel_.picture()->image()));
-    return draw_in_room(*gpu_->renderer, frame, scene_, scene_in_room_, *window.immersive);
+    if (!ray_) return draw_in_room(*gpu_->renderer, frame, scene_, scene_in_room_, *window.immersive);
+    if (!ray_model_) {
+        BOLT_TRY_ASSIGN(auto model, load_ray(*gpu_->device));
+        ray_model_.emplace(std::move(model));
+    }
+    render::Scene scene = scene_;
+    add_ray(scene, *ray_model_, *ray_, inverse(scene_in_room_));
+    return draw_in_room(*gpu_->renderer, frame, scene, scene_in_room_, *window.immersive);
 }
 
 }  // namespace bolt::trainer

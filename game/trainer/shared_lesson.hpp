@@ -7,6 +7,7 @@
 #include <string>
 
 #include "game/scene/workplace.hpp"
+#include "game/trainer/room_hands.hpp"
 #include "game/view/panel_stream.hpp"
 #include "game/view/scene_stream.hpp"
 #include "game/view/window.hpp"
@@ -26,8 +27,9 @@ struct SharedFrame {
     const scene::GpuLessonModels* on_gpu = nullptr;
     const render::Scene* scene = nullptr;
     Pose scene_in_room;
-    std::optional<Pose> panel;  // of its centre in the room; none: the room does not show it
-    double panel_point = 0.0;   // m per point of the panel
+    std::optional<Pose> panel;       // of its centre in the room; none: the room does not show it
+    double panel_point = 0.0;        // m per point of the panel
+    std::optional<PointingRay> ray;  // of a wand
 };
 
 inline constexpr std::size_t max_scene_change = 3584;  // bytes in the state of a frame
@@ -69,6 +71,8 @@ class FollowedLesson : public view::WindowContent {
     std::optional<Pose> panel_pose_;
     double panel_point_ = 0.0;
     view::PanelReceiver panel_;
+    std::optional<PointingRay> ray_;
+    std::optional<render::GpuModel> ray_model_;
 };
 
 // The scene of the menu in a room: its panel in the dark.

@@ -50,7 +50,8 @@ struct ImmersiveFrame {
     std::vector<EyeGroup> groups;
     xr::Hands hands;
     bool has_passthrough = false;  // shows the real room where the picture is transparent
-    // A headset, whose tracked hands can move the tool; false: projection walls, which track no hands.
+    // A headset, whose tracked hands can move the tool; false: projection walls, whose only hand may be a
+    // wand that points.
     bool tracks_hands = false;
     std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
 };

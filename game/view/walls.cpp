@@ -260,11 +260,26 @@ void Walls::log_status(tracking::HeadStatus status) {
     }
 }
 
+// The wand as a hand that points and has no place of its own.
+static xr::HandInput hand_of(const head_tracking::Wand& wand) {
+    xr::HandInput hand;
+    hand.active = true;
+    if (wand.aim) hand.aim = xr::LocatedPose{*wand.aim, true};
+    hand.select = wand.select ? 1.0F : 0.0F;
+    hand.menu = wand.menu;
+    hand.secondary = wand.tool;
+    hand.stick = glm::vec2(wand.stick_x, wand.stick_y);
+    return hand;
+}
+
 Result<ImmersiveFrame> Walls::begin_frame(double seconds) {
     const tracking::FilteredHead head = head_->at(seconds);
     const bool fixed = displays_.head.tracker == content::HeadTracker::fixed;
     if (!fixed) log_status(head.status);
-    return begin_frame(head.pose, fixed || head.status == tracking::HeadStatus::tracked);
+    BOLT_TRY_ASSIGN(ImmersiveFrame immersive,
+                    begin_frame(head.pose, fixed || head.status == tracking::HeadStatus::tracked));
+    if (head_->wand()) immersive.hands[Side::right] = hand_of(*head_->wand());
+    return immersive;
 }
 
 Result<ImmersiveFrame> Walls::begin_frame(const Pose& head, bool tracked) {

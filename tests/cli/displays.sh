@@ -82,15 +82,27 @@ n=0
 port=$((20000 + $$ % 20000))
 change "s/\"port\": 5000/\"port\": $port/; s/\"body\": 0/\"body\": 3/" dtrack.json
 expect 1 "No packet has arrived at UDP port $port" "${run[@]}" track dtrack.json --seconds 0.3
+flystick=  # the line of a flystick in each packet
 send() {  # send BODY: a packet every 50 ms, each in one write
     while sleep 0.05; do
-        printf "fr $((++n))\r\n6d 1 [$1 1.0][100 1700 200 0 0 0][1 0 0 0 1 0 0 0 1]\r\n" > packet
+        printf "fr $((++n))\r\n6d 1 [$1 1.0][100 1700 200 0 0 0][1 0 0 0 1 0 0 0 1]\r\n$flystick\r\n" > packet
         cat packet > "/dev/udp/127.0.0.1/$port"
     done 2> /dev/null
 }
 send 3 & player=$!
 expect 0 'tracked +x +0.100  y +1.700  z +0.200 m +looks +0 degrees to the right, +0 up$' "${run[@]}" track dtrack.json --seconds 4
 kill $player; wait $player 2> /dev/null
+change "s/\"port\": 5000/\"port\": $port/; s/\"body\": 0/\"body\": 3, \"flystick\": {\"id\": 0, \"select\": 2, \"menu\": 1}/" wand.json
+expect 1 'flystick sends nothing' "${run[@]}" track wand.json --seconds 0.2
+flystick='6df2 1 1 [0 1.0 4 2][300 1100 -200 ][0 0 -1 0 1 0 1 0 0][6 0.0 0.0]'
+send 3 & player=$!
+expect 0 'flystick x +0.300  y +1.100  z -0.200 m +points +-90 degrees to the right, +0 up +pressed: select, tool' "${run[@]}" track wand.json --seconds 4
+kill $player; wait $player 2> /dev/null
+flystick=
+change 's/"tracker": "dtrack"/"tracker": "openxr", "flystick": {"id": 0}/' nowand.json
+expect 3 'nowand.json:[0-9]+:[0-9]+: /head/flystick: the tracker "openxr" has no flystick; expected the tracker "dtrack"' "${run[@]}" track nowand.json
+change 's/"body": 0/"body": 0, "flystick": {"select": 2, "menu": 2}/' twice.json
+expect 3 'twice.json:[0-9]+:[0-9]+: /head/flystick: a button has two functions; expected' "${run[@]}" track twice.json
 change "s/\"port\": 5000/\"port\": $port/; s/\"axes\": .*/\"axes\": [\"+x\", \"+z\", \"-y\"],/" turned.json
 send 0 & player=$!
 expect 0 'tracked +x +0.100  y +0.200  z -1.700 m .* behind front' "${run[@]}" track turned.json --seconds 4

@@ -72,6 +72,12 @@ TEST_CASE("Displays: all members are read") {
     CHECK(head.fixed_head.orientation == Quat(0.6, 0.0, 0.8, 0.0));
     CHECK(head.port == 5001);
     CHECK(head.body == 3);
+    REQUIRE(head.flystick);
+    CHECK(head.flystick->id == 2);
+    CHECK(head.flystick->aim_in_body.position == Vec3(0.0, 0.01, -0.1));
+    CHECK(head.flystick->select == 4);
+    CHECK(head.flystick->menu == 1);
+    CHECK(head.flystick->tool == 0);
     CHECK(head.pose == TrackedPose::right_hand);
     CHECK(head.recording == "walk.csv");
     CHECK(head.axes == std::array<TrackerAxis, 3>{{{0, false}, {2, false}, {1, true}}});
@@ -194,7 +200,11 @@ TEST_CASE("Displays: every kind of mistake has its line, column, and what is exp
                   "\"left_output\": { \"monitor_index\": 0 },\n\"output\": { \"position_px\"",
                   "\"left_output\": { \"monitor_index\": 0 }",
                   "has no meaning with the stereo mode \"side_by_side\"");
-    check_mistake("\"tracker\": \"dtrack\",", "\"tracker\": \"file\", \"recordin\": 0,", "\"recordin\"",
+    check_mistake("\"menu\": 1", "\"menu\": 4", "{ \"id\": 2", "a button has two functions");
+    check_mistake("\"menu\": 1", "\"menu\": 33", "33", "<= 32");
+    check_mistake("\"tracker\": \"dtrack\"", "\"tracker\": \"openxr\"", "\"flystick\"",
+                  "the tracker \"openxr\" has no flystick");
+    check_mistake("\"tracker\": \"dtrack\",", "\"tracker\": \"dtrack\", \"recordin\": 0,", "\"recordin\"",
                   "did you mean \"recording\"?");
 }
 
@@ -202,7 +212,7 @@ TEST_CASE("Displays: a tracker \"file\" needs a recording") {
     const std::string text =
         replaced(replaced(everything(), "\"dtrack\"", "\"file\""), "    \"recording\": \"walk.csv\",\n", "");
     const std::vector<std::string> found = mistakes(text);
-    REQUIRE(found.size() == 1);
+    REQUIRE(found.size() == 2);  // and the flystick
     CHECK(has(found.front(), "d.json:6:11: /head: the tracker \"file\" has no \"recording\""));
 }
 

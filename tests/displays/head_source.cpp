@@ -123,4 +123,49 @@ TEST_CASE("Head source: a port that another program has is an error") {
     CHECK(second.error().code == ErrorCode::no_device);
 }
 
+TEST_CASE("Head source: a flystick points in the room, and is gone when DTrack sends it no more") {
+    HeadTracking head;
+    head.tracker = HeadTracker::dtrack;
+    head.port = 0;
+    head.axes = {{{0, false}, {2, false}, {1, true}}};  // its z is up
+    content::Flystick& flystick = head.flystick.emplace();
+    flystick.id = 1;
+    flystick.aim_in_body.position = {0.0, 0.0, -0.1};
+    flystick.select = 4;
+    flystick.menu = 0;
+    HeadSource source = opened(head);
+    const test::UdpSender sender(source.port());
+    CHECK_FALSE(source.at(1.0).status == HeadStatus::tracked);
+    CHECK_FALSE(source.wand());
+    const auto send = [&](int number, const char* quality, int buttons) {
+        sender.send("fr " + std::to_string(number) + "\r\n6df2 2 1 [1 " + quality +
+                    " 8 2][500 200 1200][1 0 0 0 1 0 0 0 1][" + std::to_string(buttons) + " 0.5 -0.25]\r\n");
+        const std::uint64_t before = source.counts().dtrack.good_packets;
+        CHECK(test::eventually([&] {
+            (void)source.at(1.0);
+            return source.counts().dtrack.good_packets > before;
+        }));
+    };
+    send(1, "1.0", 8);
+    REQUIRE(source.wand());
+    REQUIRE(source.wand()->aim);
+    // Up in the room is the tracker's z; the viewer's forward is its y.
+    CHECK(glm::length(source.wand()->aim->position - Vec3(0.5, 1.2, -0.3)) < 1e-12);
+    CHECK(glm::length(source.wand()->aim->orientation * Vec3(0, 0, -1) - Vec3(0, 0, -1)) < 1e-12);
+    CHECK(source.wand()->select);
+    CHECK_FALSE(source.wand()->menu);
+    CHECK_FALSE(source.wand()->tool);
+    CHECK(source.wand()->stick_x == 0.5);
+    CHECK(source.wand()->stick_y == -0.25);
+    send(2, "-1.0", 4);
+    REQUIRE(source.wand());
+    CHECK_FALSE(source.wand()->aim);
+    CHECK_FALSE(source.wand()->select);
+    CHECK(source.wand()->tool);
+    (void)source.at(1.05);
+    CHECK(source.wand());
+    (void)source.at(1.2);
+    CHECK_FALSE(source.wand());
+}
+
 }  // namespace head_source_test

@@ -15,7 +15,7 @@ std::string everything() {
     "tracker": "dtrack",
     "fixed": { "position_m": [0.1, 1.7, 0.2], "orientation_wxyz": [0.6, 0, 0.8, 0] },
     "port": 5001,
-    "body": 3, "pose": "right_hand",
+    "body": 3, "flystick": { "id": 2, "aim_in_body": { "position_m": [0, 0.01, -0.1] }, "select": 4, "menu": 1, "tool": 0 }, "pose": "right_hand",
     "recording": "walk.csv",
     "axes": ["+x", "+z", "-y"],
     "scale": 0.5,

@@ -119,3 +119,37 @@ TEST_CASE("Walls: keys and buttons of the pause turn and raise the workpiece, al
         CHECK(room().turns == turns);
     }
 }
+
+TEST_CASE("Walls: a wand points at the panel, presses its buttons, pauses, and its ray is drawn") {
+    AppOptions options = test::options("cover-m8", true);
+    options.choice.equipment.glove = "/dev/null";  // a lesson with devices is played before the walls
+    HeadlessTrainer driver(options, {panel_extent, 1.0F, 0.02});
+    driver.immersive = in_front_of_wall(-100.0);
+    driver.draws = true;
+    for (int i = 0; i < 3; ++i) driver.frame();
+    const RoomState& room = *driver.app().room();
+    REQUIRE(room.panel);
+    glm::dvec2 language(0.0);
+    for (const DrawnWidget& widget : driver.app().drawn_widgets())
+        if (widget.label == words::TextKey("menu.settings")) language = widget.middle;
+    REQUIRE(language.x > 0.0);
+    // From the hip, askew.
+    const Vec3 from(0.3, 1.1, 0.1), target = point_on_panel(*room.panel, language);
+    const Vec3 z = glm::normalize(from - target), x = glm::normalize(glm::cross(Vec3(0, 1, 0), z));
+    xr::HandInput& wand = driver.immersive->hands[Side::right];
+    wand.active = true;
+    wand.aim = xr::LocatedPose{{from, glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z))}, true};
+    driver.frame();
+    CHECK(room.pointer.on_panel);
+    CHECK(glm::length(room.pointer.at - language) < 0.5);
+    REQUIRE(driver.app().room_hands() != nullptr);  // with the model of the ray
+    for (const float select : {1.0F, 1.0F, 0.0F, 0.0F}) {
+        wand.select = select;
+        driver.frame();
+    }
+    CHECK(driver.app().shows_settings());
+    // Without a wand there is no pointer.
+    wand = {};
+    driver.frame();
+    CHECK_FALSE(room.pointer.on_panel);
+}

@@ -60,6 +60,47 @@ std::optional<DtrackFrame> received(DtrackReceiver& receiver, std::uint64_t pack
 
 }  // namespace
 
+TEST_CASE("DTrack: flysticks of both kinds of lines have a pose, buttons and a stick") {
+    const std::string matrix = "[0 -1 0 1 0 0 0 0 1]";  // columns: a turn by -90 degrees about z
+    const DtrackFrame frame = parsed("fr 7\r\n6df2 3 2 [0 1.000 6 2][100.0 200.0 -300.0]" + matrix +
+                                     "[5 0.25 -2.00] [1 -1.000 8 0][0 0 0][0 0 0 0 0 0 0 0 0][-128] \r\n");
+    REQUIRE(frame.flysticks.size() == 2);
+    const DtrackFlystick* first = find_flystick(frame, 0);
+    REQUIRE(first != nullptr);
+    REQUIRE(first->pose);
+    CHECK(glm::length(first->pose->position - Vec3(0.1, 0.2, -0.3)) < 1e-12);
+    CHECK(glm::length(first->pose->orientation * Vec3(1, 0, 0) - Vec3(0, -1, 0)) < 1e-12);
+    CHECK(first->buttons == 5U);
+    CHECK(first->stick_x == 0.25);
+    CHECK(first->stick_y == -1.0);
+    // The cameras do not see the second one, but its buttons arrive.
+    const DtrackFlystick* second = find_flystick(frame, 1);
+    REQUIRE(second != nullptr);
+    CHECK_FALSE(second->pose);
+    CHECK(second->buttons == 0xFFFFFF80U);
+    CHECK(find_flystick(frame, 2) == nullptr);
+    CHECK(frame.invalid_bodies == 0);
+    const DtrackFrame old = parsed("fr 7\n6df 1 [2 0.9 3][1 2 3 0 0 0]" + matrix + "\n");
+    REQUIRE(find_flystick(old, 2) != nullptr);
+    CHECK(find_flystick(old, 2)->buttons == 3U);
+    CHECK(find_flystick(old, 2)->pose->position == Vec3(1, 2, 3) * mm);
+    CHECK(parsed("fr 1\n6df2 4 0\n").flysticks.empty());
+    // More than 32 buttons are in several integers.
+    const DtrackFrame many = parsed("fr 1\n6df2 1 1 [0 1 40 1][0 0 0][1 0 0 0 1 0 0 0 1][2 1 0.5]\n");
+    CHECK(many.flysticks[0].buttons == 2U);
+    CHECK(many.flysticks[0].stick_x == 0.5);
+    CHECK(parsed("fr 1\n6df2 1 1 [0 1 2 0][0 0 0][2 0 0 0 1 0 0 0 1][0]\n").invalid_bodies == 1);
+    for (const char* damaged :
+         {"6df2 1 1 [0 1 2 2][0 0 0][1 0 0 0 1 0 0 0 1][0 0]",
+          "6df2 1 1 [0 1 2][0 0 0][1 0 0 0 1 0 0 0 1][0]", "6df2 1 1 [0 1 2 0][0 0][1 0 0 0 1 0 0 0 1][0]",
+          "6df2 1 2 [0 1 2 0][0 0 0][1 0 0 0 1 0 0 0 1][0]", "6df2 1",
+          "6df2 1 1 [0 1 -2 0][0 0 0][1 0 0 0 1 0 0 0 1][]",
+          "6df2 1 1 [0 1 2 1][0 0 0][1 0 0 0 1 0 0 0 1][0 nan]",
+          "6df 1 [0 1][0 0 0 0 0 0][1 0 0 0 1 0 0 0 1]",
+          "6df2 1 1 [0 1 99999 0][0 0 0][1 0 0 0 1 0 0 0 1][0]"})
+        CHECK_MESSAGE(!parse_dtrack(std::string("fr 1\n") + damaged + "\n"), damaged);
+}
+
 TEST_CASE("DTrack: a packet with two bodies is read in metres, its matrix by columns") {
     const DtrackFrame frame = parsed(packet);
     CHECK(frame.number == 21753);
