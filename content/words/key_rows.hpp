@@ -413,6 +413,7 @@ inline constexpr KeyRow key_rows[] = {
     {"hud.curve", "joint"},
     {"hud.step", "step of"},
     {"hud.pull", "force"},
+    {"label.pull", "force"},
     {"hud.due_torque", "joint what torque"},
     {"hud.due_angle", "joint what angle"},
     {"hud.due", "joint what"},

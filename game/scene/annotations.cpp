@@ -220,6 +220,20 @@ std::optional<render::Label> work_label(const words::Words& words, const lesson:
     return label;
 }
 
+std::optional<render::Label> pull_label(
+    const words::Words& words, const servo::Setup& setup,
+    const ecs::Access<const world::Joint, const world::ToolState, const world::WorkingHand,
+                      const world::ConstrainedTool>& world) {
+    constexpr double above = 0.07;  // m, over the back of the hand
+    const std::int16_t engaged = world.only<world::ToolState>().joint;
+    if (engaged < 0 || !world.only<world::WorkingHand>().wrench) return std::nullopt;
+    const double torque = world::joint_at(world, static_cast<std::size_t>(engaged)).torque;
+    const double force = std::abs(torque) / setup.wrench.handle_length;
+    const Vec3 hand = world.only<world::ConstrainedTool>().pose * Vec3(setup.wrench.handle_length, 0.0, 0.0);
+    return plate_label(words::format_text(words, "label.pull", {{"force", words::Number{force, 0}}}),
+                       hand + Vec3(0.0, above, 0.0), 18.0F);
+}
+
 render::Label clamp_label(const words::Words& words, const content::Assembly& assembly,
                           const servo::Setup& setup, const ecs::Access<const world::Joint>& joints,
                           std::size_t joint) {

@@ -70,6 +70,12 @@ std::optional<render::Label> work_label(const words::Words& words, const lesson:
                                         const servo::Setup& setup, const WorkAccess& world,
                                         const view::Palette& palette = {});
 
+// The force of the hand on the wrench's handle, N, above the wrist; none without an engaged wrench.
+std::optional<render::Label> pull_label(
+    const words::Words& words, const servo::Setup& setup,
+    const ecs::Access<const world::Joint, const world::ToolState, const world::WorkingHand,
+                      const world::ConstrainedTool>& world);
+
 // The name and the clamp force of a joint.
 render::Label clamp_label(const words::Words& words, const content::Assembly& assembly,
                           const servo::Setup& setup, const ecs::Access<const world::Joint>& joints,

@@ -317,6 +317,9 @@ void label_system(scene::SceneWorld& world, LessonFrame& frame) {
     if (!active.clock.finished)
         if (auto figure = scene::work_label(frame.words, session.lesson(), setup, world, active.palette))
             active.scene.labels.push_back(*figure);
+    // In a window it is part of the interface (draw_effort).
+    if (!active.clock.finished && active.view.head)
+        if (auto pull = scene::pull_label(frame.words, setup, world)) active.scene.labels.push_back(*pull);
     const auto add_name = [&](std::size_t joint, bool is_due) {
         const std::string& id = session.assembly().joints[joint].design.id;
         render::Label label = scene::plate_label(is_due ? fmt::format("{} {}", view::due_symbol, id) : id,

@@ -141,7 +141,19 @@ TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wren
     double tightening = 0.0;  // s, when the jaw first holds the nut
     test::ImmersiveDriver hands(driver);
     test::TraineeInRoom trainee(hands);
+    int pulls = 0;  // frames with the force at the wrist
     trainee.on_frame = [&] {
+        const ActiveLesson& lesson = driver.lesson();
+        for (const render::Label& label : lesson.scene.labels) {
+            if (!label.text.ends_with(" N")) continue;
+            ++pulls;
+            const servo::Setup& setup = lesson.session->setup();
+            const double torque = world::joint_at(lesson.workplace.world, 0).torque;
+            CHECK(std::abs(std::stod(label.text) - std::abs(torque) / setup.wrench.handle_length) <= 0.5);
+            const Vec3 end = lesson.workplace.world.only<world::ConstrainedTool>().pose *
+                             Vec3(setup.wrench.handle_length, 0.0, 0.0);
+            CHECK(glm::distance(Vec3(label.position), end) < 0.1);
+        }
         if (tightening == 0.0 && hand_of(driver.lesson()).wrench &&
             driver.lesson().session->state().engagement.joint >= 0)
             tightening = driver.lesson().session->time();
@@ -158,6 +170,7 @@ TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wren
         return most;
     };
     REQUIRE(tightening > 5.0);
+    CHECK(pulls > 20);
     CHECK(std::count_if(felt.begin(), felt.end(), [&](const auto& one) { return one.first < tightening; }) >
           20);
     CHECK(strongest(0.0, 5.0) > 0.0F);
