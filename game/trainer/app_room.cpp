@@ -333,7 +333,12 @@ Status App::draw_hands(render::Scene& scene, const view::ImmersiveFrame& immersi
     if (plays && active_->station && active_->station->tracked)
         shown.by_lesson = active_->station->tracked->side;
     if (!active_) add_menu_light(scene);
-    add_room_hands(scene, *gpu_->room_hands, immersive.hands, *room_, scene_in_room(), shown);
+    xr::Hands hands = immersive.hands;
+    if (active_ && active_->station)
+        if (const station_setup::WornFingers* glove = active_->station->link->worn_fingers())
+            hands[glove->side] =
+                with_glove(hands[glove->side], *glove, active_->station->wrist_at_controller);
+    add_room_hands(scene, *gpu_->room_hands, hands, *room_, scene_in_room(), shown);
     return {};
 }
 

@@ -330,7 +330,10 @@ void label_system(scene::SceneWorld& world, LessonFrame& frame) {
     };
     const bool guided = session.lesson().mode == lesson::Mode::guided;
     const std::size_t marked = due != nullptr && guided ? due->joint : SIZE_MAX;
+    const std::int16_t engaged = world.only<world::ToolState>().joint;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
+        // In a room the labels of one nut would cover each other: the values of the held nut matter more.
+        if (active.view.head && !active.clock.finished && engaged == static_cast<std::int16_t>(i)) continue;
         if (active.view.clamp_map || active.clock.finished)
             active.scene.labels.push_back(clamp_label(active, frame.words, i));
         else if (i == marked || active.pointer.nut == i)

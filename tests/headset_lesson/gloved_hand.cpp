@@ -85,7 +85,9 @@ TEST_CASE("Headset lesson: a gloved hand with a controller on its back plays fir
     };
     const auto send = [&](const Pose& head, const xr::Hands& hands) {
         mock->set_head({head});
-        mock->set_hand(mock::Side::left, {});
+        mock::Hand none;
+        none.active = false;
+        mock->set_hand(mock::Side::left, none);
         const xr::HandInput& right = hands[Side::right];
         mock::Hand shown;
         shown.active = right.active;

@@ -145,6 +145,9 @@ TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wren
     trainee.on_frame = [&] {
         const ActiveLesson& lesson = driver.lesson();
         for (const render::Label& label : lesson.scene.labels) {
+            // No label covers another one at the nut.
+            for (const render::Label& other : lesson.scene.labels)
+                CHECK((&label == &other || glm::distance(label.position, other.position) > 1e-3F));
             if (!label.text.ends_with(" N")) continue;
             ++pulls;
             const servo::Setup& setup = lesson.session->setup();
