@@ -438,6 +438,8 @@ inline constexpr KeyRow key_rows[] = {
     {"study.trained", "done of"},
     {"study.part", "part of"},
     {"study.lesson", ""},
+    {"study.continues", ""},
+    {"study.restoring", ""},
     {"study.break", ""},
     {"study.break_left", "time"},
     {"study.comment", ""},

@@ -146,8 +146,12 @@ Status print_verification(const session::SessionReader& session, const session::
                                 session.file(), replayed.mismatches, replayed.ticks,
                                 static_cast<double>(replayed.first_mismatch) * dt),
                     "the program and the content of the recording");
-    return print(fmt::format("{}: {} ticks ({:.1f} s), all as they were recorded\n", session.file(),
-                             replayed.ticks, static_cast<double>(replayed.ticks) * dt));
+    std::string continued;
+    for (const std::uint64_t ticks : session.header().continued_after)
+        continued +=
+            fmt::format("; interrupted and continued after {:.1f} s", static_cast<double>(ticks) * dt);
+    return print(fmt::format("{}: {} ticks ({:.1f} s), all as they were recorded{}\n", session.file(),
+                             replayed.ticks, static_cast<double>(replayed.ticks) * dt, continued));
 }
 
 // The outputs of a replay, which read its world.

@@ -56,6 +56,9 @@ void put_heading(std::string& out, const analysis::SessionData& s, std::size_t i
     out += plot::fact("variant", s.header.variant);
     if (!s.header.tool.empty()) out += plot::fact("tool", s.header.tool);
     out += plot::fact("duration", plot::duration_text(s.duration));
+    for (const std::uint64_t ticks : s.header.continued_after)
+        out += plot::fact("interrupted and continued",
+                          "after " + plot::duration_text(static_cast<double>(ticks) * s.header.dt));
     out += plot::fact("seed", fmt::format("{}", s.header.seed));
     if (index > 0)
         out += plot::path_fact("session", s.file);  // the report of a single session lies beside that file

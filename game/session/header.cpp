@@ -1,6 +1,7 @@
 #include "game/session/header.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cstddef>
@@ -79,6 +80,19 @@ std::optional<hand::Side> parse_side(std::string_view text) {
     return text == "right" ? std::optional(hand::Side::right) : std::nullopt;
 }
 
+// "12000 45000"; none unless the numbers ascend.
+std::optional<std::vector<std::uint64_t>> parse_ticks(std::string_view text) {
+    std::vector<std::uint64_t> ticks;
+    while (!text.empty()) {
+        const std::string_view word = text.substr(0, text.find(' '));
+        const auto tick = number<std::uint64_t>(word);
+        if (!tick || (!ticks.empty() && *tick < ticks.back())) return std::nullopt;
+        ticks.push_back(*tick);
+        text.remove_prefix(std::min(word.size() + 1, text.size()));
+    }
+    return ticks;
+}
+
 const char* switch_text(bool on) { return on ? "on" : "off"; }
 
 // Reads the texts of a header. The first one that is missing or wrong is kept as the error.
@@ -155,6 +169,8 @@ HeaderTexts texts_of(const Header& header) {
     if (header.view_help) texts[key::view_help] = switch_text(*header.view_help);
     if (header.hand) texts[key::hand] = *header.hand == hand::Side::left ? "left" : "right";
     if (header.trainee) texts[key::trainee] = *header.trainee;
+    if (!header.continued_after.empty())
+        texts[key::continued_after] = fmt::format("{}", fmt::join(header.continued_after, " "));
     return texts;
 }
 
@@ -187,6 +203,9 @@ Result<Header> header_of(const HeaderTexts& texts, const std::string& file) {
     parser.optional(key::tool, header.tool);
     parser.optional(key::hand, header.hand, "left or right", parse_side);
     if (const auto found = texts.find(key::trainee); found != texts.end()) header.trainee = found->second;
+    std::optional<std::vector<std::uint64_t>> continued;
+    parser.optional(key::continued_after, continued, "ascending numbers of ticks", parse_ticks);
+    header.continued_after = continued.value_or(std::vector<std::uint64_t>());
     BOLT_TRY(parser.status());
     return header;
 }

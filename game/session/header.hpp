@@ -59,6 +59,10 @@ struct Header {
     // A person's code (content/trainee/people.hpp), or the text of --trainee for a simulated trainee; may be
     // empty. Older programs stored a person's typed name here, and still older ones in `trainee_profile`.
     std::optional<std::string> trainee;
+
+    // The numbers of ticks after which the lesson was interrupted and later continued (resume.hpp),
+    // ascending.
+    std::vector<std::uint64_t> continued_after;
 };
 
 // "virtual time", or the rate as text.
@@ -94,10 +98,11 @@ inline constexpr const char* guide = "guide";  // this and the next three since 
 inline constexpr const char* obstacles = "obstacles";
 inline constexpr const char* device = "device";
 inline constexpr const char* servo = "servo";
-inline constexpr const char* view_help = "view_help";  // optional
-inline constexpr const char* tool = "tool";            // since format 4
-inline constexpr const char* hand = "hand";            // optional
-inline constexpr const char* trainee = "trainee";      // optional
+inline constexpr const char* view_help = "view_help";                    // optional
+inline constexpr const char* tool = "tool";                              // since format 4
+inline constexpr const char* hand = "hand";                              // optional
+inline constexpr const char* trainee = "trainee";                        // optional
+inline constexpr const char* continued_after = "continued_after_ticks";  // optional
 
 inline constexpr const char* state = "state";
 inline constexpr const char* duration = "duration_s";  // this and the next two only in complete sessions

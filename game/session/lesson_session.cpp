@@ -88,8 +88,6 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
     return {};
 }
 
-namespace {
-
 Header make_header(const SessionSetup& start, const LessonOptions& options) {
     const content::Assembly& assembly = start.assembly;
     Header header;
@@ -114,8 +112,14 @@ Header make_header(const SessionSetup& start, const LessonOptions& options) {
     header.seed = options.seed;
     header.dt = options.dt;
     header.program = "boltwright " BOLTWRIGHT_VERSION;
+    if (!options.continues) return header;
+    for (const std::uint64_t ticks : options.continues->header.continued_after)
+        if (ticks < options.continues->ticks) header.continued_after.push_back(ticks);
+    header.continued_after.push_back(options.continues->ticks);
     return header;
 }
+
+namespace {
 
 Result<std::optional<ContactModels>> obstacles_of(const content::Assembly& assembly,
                                                   const servo::Setup& setup, Obstacles obstacles) {

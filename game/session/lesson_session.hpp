@@ -35,6 +35,13 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
 // `if_any`: obstacles if the assembly has contact models.
 enum class Obstacles : std::uint8_t { none, if_any, required };
 
+// The recording of an interrupted lesson that is to be continued (resume.hpp).
+struct InterruptedLesson {
+    std::filesystem::path file;
+    Header header;
+    std::uint64_t ticks = 0;  // of the recording that the continued lesson begins with
+};
+
 struct LessonOptions {
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
@@ -49,9 +56,10 @@ struct LessonOptions {
     std::string trainee;             // as session::Header::trainee
     std::optional<hand::Side> hand;  // the working hand; none: unknown
 
-    std::optional<bool> view_help;      // only of a simulated trainee
-    double servo_rate = 0.0;            // Hz, of the servo's thread; 0: virtual time
-    force::OutputLimits device_limits;  // default: a 6-DoF arm of the Virtuose class
+    std::optional<bool> view_help;               // only of a simulated trainee
+    double servo_rate = 0.0;                     // Hz, of the servo's thread; 0: virtual time
+    force::OutputLimits device_limits;           // default: a 6-DoF arm of the Virtuose class
+    std::optional<InterruptedLesson> continues;  // none: a lesson from its beginning
 };
 
 // The initial state of a lesson and its servo.
@@ -64,6 +72,9 @@ struct SessionSetup {
 };
 // Fails if the contact models are required but missing or invalid, or if a joint cannot be pretightened.
 Result<SessionSetup> prepare_session(const content::Assembly& given, const LessonOptions& options);
+
+// The header of the session file.
+Header make_header(const SessionSetup& start, const LessonOptions& options);
 
 // Replaces the device limits by those of the options. All other options must equal those of
 // prepare_session().
@@ -110,6 +121,14 @@ class LessonSession {
     static Result<std::unique_ptr<LessonSession>> begin(SessionSetup start, const LessonOptions& options,
                                                         const std::filesystem::path& file);
 
+    // Continues LessonOptions::continues: repeats its ticks from the state at its beginning, `start`, on
+    // `world`, and records them into `file`, which thus has the whole lesson. The interrupted recording stays
+    // as it is. Fails, without a file, if an output differs from the recorded one or the recording is
+    // damaged.
+    static Result<std::unique_ptr<LessonSession>> resume(SessionSetup start, const LessonOptions& options,
+                                                         const std::filesystem::path& file,
+                                                         const world::WriteHaptics& world);
+
     LessonSession(const LessonSession&) = delete;
     LessonSession& operator=(const LessonSession&) = delete;
     ~LessonSession();  // without finish() the session file is kept and marked as cut short
@@ -130,6 +149,8 @@ class LessonSession {
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - session_setup_.state.checkpoint_count;
     }
+    // The number of checkpoints saved since the beginning; undo does not reduce it.
+    [[nodiscard]] std::uint32_t checkpoints_saved() const { return checkpoints_saved_; }
     // The tool of the due joint, for servo::TickInput::tool.
     [[nodiscard]] std::uint8_t due_tool() const;
     // The servo::TickInput::checkpoint_action that goes back `steps` steps before the due one; 0: not

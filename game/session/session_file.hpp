@@ -55,6 +55,8 @@ class SessionWriter {
     Status update(const lesson::JointResult& result);
     // Replaces the timing of the servo's thread.
     Status record_timing(const servo::Timing& timing);
+    // Commits, and waits until everything is on the disk.
+    Status synchronise();
     // Commits, writes all results and marks the session as complete.
     Status finish(const lesson::LessonResult& result);
 

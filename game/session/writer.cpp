@@ -301,6 +301,13 @@ Status SessionWriter::record_timing(const servo::Timing& timing) {
     return {};
 }
 
+Status SessionWriter::synchronise() {
+    if (state_->stop_error) return fail(*state_->stop_error);
+    BOLT_TRY(state_->commit(nullptr));
+    // A reader of the file can prevent a part of it, which then follows at a later checkpoint.
+    return state_->database->execute("PRAGMA wal_checkpoint(FULL)");
+}
+
 Status SessionWriter::finish(const lesson::LessonResult& result) {
     State& state = *state_;
     if (state.stop_error) return fail(*state.stop_error);

@@ -14,6 +14,7 @@
 #include "game/motion/path_planning.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/lesson_session.hpp"
+#include "game/session/resume.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/force/output_limits.hpp"
 #include "haptics/hand/glove_driver.hpp"
@@ -383,12 +384,13 @@ Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
     struct PreparedLesson {
         session::LessonOptions options;
         session::SessionSetup setup;
+        Status repeated;  // the ticks of an interrupted lesson
     };
     PlannedStation planned;
     BOLT_TRY(choose_devices(request, planned));
     BOLT_TRY(open_glove(assembly, request, planned));
     BOLT_TRY_ASSIGN(auto prepared, session::prepare_session(assembly, lesson));
-    const auto start = std::make_shared<PreparedLesson>(PreparedLesson{lesson, std::move(prepared)});
+    const auto start = std::make_shared<PreparedLesson>(PreparedLesson{lesson, std::move(prepared), {}});
     planned.obstacles = start->setup.state.tool_contact.has_value();
     planned.options.home = home;
     planned.options.handle_length = start->setup.setup.wrench.handle_length;
@@ -397,9 +399,14 @@ Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
                                                                       double) {
         start->options.device_limits = force::scaled(limits, scale);
         session::set_device_limits(start->options, start->setup);
+        // With other limits the lesson begins again (trainer::start_lesson).
+        const std::optional<session::InterruptedLesson>& interrupted = start->options.continues;
+        if (interrupted && session::check_same_lesson(*interrupted, start->setup, start->options))
+            start->repeated = session::repeat_ticks(*interrupted, start->setup);
         return start->setup.setup;
     };
     planned.options.make_state = [start](const servo::Setup&) -> Result<servo::State> {
+        BOLT_TRY(start->repeated);
         return std::move(start->setup.state);
     };
     return planned;

@@ -16,6 +16,10 @@ bool is_lesson(StepKind kind) {
     return kind == StepKind::lesson || kind == StepKind::training || kind == StepKind::retention;
 }
 
+bool begins_lesson(JournalKind kind) {
+    return kind == JournalKind::lesson_begun || kind == JournalKind::lesson_continued;
+}
+
 }  // namespace
 
 std::int64_t system_time() {
@@ -166,22 +170,36 @@ const content::StudyLesson& Participation::lesson() const {
     return study_->conditions[step.condition].lesson;
 }
 
-Result<fs::path> Participation::begin_lesson() {
+Result<fs::path> Participation::make_lesson_folder() {
     const Step& step = *due();
     if (remaining_wait() > 0.0) return fail(participant_error(folder_, "it is too early for this lesson"));
     // In the training each lesson has a folder of its own; otherwise the session of an interrupted lesson
     // stays beside the new one, under another name.
     std::size_t number = 1;
     for (const JournalEntry& entry : journal_.entries())
-        number += entry.kind == JournalKind::lesson_begun && entry.step == step.id;
+        number += begins_lesson(entry.kind) && entry.step == step.id;
     std::string name = step.id;
     std::replace(name.begin(), name.end(), '/', '-');
     if (number > 1) name += fmt::format("-{}", number);
     std::error_code problem;
     fs::create_directories(folder_ / name, problem);
     if (problem) return fail(participant_error(folder_ / name, "cannot be created: " + problem.message()));
-    BOLT_TRY(append({{JournalKind::lesson_begun, 0, step.id, {}, name, std::nullopt}}));
     return folder_ / name;
+}
+
+Status Participation::record_begun(const fs::path& lesson, const std::string& why) {
+    return append({{JournalKind::lesson_begun, 0, due()->id, why, lesson.filename().string(), std::nullopt}});
+}
+
+Status Participation::record_continued(const fs::path& lesson) {
+    return append(
+        {{JournalKind::lesson_continued, 0, due()->id, {}, lesson.filename().string(), std::nullopt}});
+}
+
+Result<fs::path> Participation::begin_lesson() {
+    BOLT_TRY_ASSIGN(const auto lesson, make_lesson_folder());
+    BOLT_TRY(record_begun(lesson));
+    return lesson;
 }
 
 std::optional<fs::path> Participation::begun_lesson() const {
@@ -190,7 +208,7 @@ std::optional<fs::path> Participation::begun_lesson() const {
     std::optional<fs::path> folder;
     for (const JournalEntry& entry : journal_.entries()) {
         if (entry.step != step->id) continue;
-        if (entry.kind == JournalKind::lesson_begun) folder = folder_ / entry.text;
+        if (begins_lesson(entry.kind)) folder = folder_ / entry.text;
         if (entry.kind == JournalKind::measured) folder.reset();
     }
     return folder;

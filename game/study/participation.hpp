@@ -60,9 +60,15 @@ class Participation {
 
     // The settings of the lesson. The due step must have one.
     [[nodiscard]] const content::StudyLesson& lesson() const;
-    // Returns the folder for the session of the due step's lesson.
+    // Creates the folder for the session of the due step's lesson, and returns it. Nothing is recorded yet.
+    Result<std::filesystem::path> make_lesson_folder();
+    // Record that the lesson in that folder has begun, or has continued the one of begun_lesson(). `why`: an
+    // interrupted lesson could not be continued for this reason, and begins again.
+    Status record_begun(const std::filesystem::path& lesson, const std::string& why = {});
+    Status record_continued(const std::filesystem::path& lesson);
+    // Makes the folder and records that its lesson has begun.
     Result<std::filesystem::path> begin_lesson();
-    // The folder of the due step's last lesson that was begun and not recorded as ended.
+    // The folder of the due step's last lesson that was begun or continued, and not recorded as ended.
     [[nodiscard]] std::optional<std::filesystem::path> begun_lesson() const;
     // Records the measures of the lesson, which has ended, and completes the step, or in the training
     // counts the lesson's time. A lesson that was ended before its last step counts too; a low `joints_ok`

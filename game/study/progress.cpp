@@ -70,7 +70,11 @@ Progress progress_of(std::span<const JournalEntry> entries, bool simulated) {
     Progress progress;
     progress.simulated = simulated;
     if (!entries.empty()) progress.begun = entries.front().time;
-    std::set<std::string> open_lessons;
+    std::set<std::string> open_lessons, interrupted;  // steps
+    const auto interrupt = [&](const std::string& step, std::vector<std::string>& outcome) {
+        if (interrupted.insert(step).second) ++progress.interrupted_lessons;
+        outcome.push_back(step);
+    };
     bool training_begun = false;  // a lesson of the training, whose measures follow
     for (const JournalEntry& entry : entries) {
         progress.latest = entry.time;
@@ -103,12 +107,17 @@ Progress progress_of(std::span<const JournalEntry> entries, bool simulated) {
                 progress.comment = entry.text;
                 break;
             case JournalKind::lesson_begun:
-                if (!open_lessons.insert(entry.step).second) progress.interrupted.push_back(entry.step);
+                if (!open_lessons.insert(entry.step).second) interrupt(entry.step, progress.begun_again);
                 progress.lesson_folders[entry.step] = entry.text;
                 training_begun = training_begun || entry.step == "training";
                 break;
+            case JournalKind::lesson_continued:
+                interrupt(entry.step, progress.continued);
+                progress.lesson_folders[entry.step] = entry.text;
+                break;
             case JournalKind::measured:
                 open_lessons.erase(entry.step);
+                interrupted.erase(entry.step);
                 if (entry.value) progress.measures[entry.step][entry.item] = *entry.value;
                 if (entry.step == "training" && entry.value) {
                     if (training_begun || progress.training_lessons.empty())

@@ -57,7 +57,10 @@ struct Progress {
     std::map<std::string, content::Answers> answers;                // by step
     std::map<std::string, std::map<std::string, double>> measures;  // of lessons, by step
     std::map<std::string, std::string> lesson_folders;              // by step; relative
-    std::vector<std::string> interrupted;                           // steps whose lesson was begun again
+    std::vector<std::string>
+        begun_again;                      // steps of interrupted lessons that began again, once for each time
+    std::vector<std::string> continued;   // and of those that were continued at the point reached
+    std::size_t interrupted_lessons = 0;  // each counted once
     std::string comment;
     double training = 0.0;                                        // s in finished lessons of the training
     std::vector<std::map<std::string, double>> training_lessons;  // the measures of each of them

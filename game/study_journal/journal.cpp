@@ -19,8 +19,8 @@ constexpr const char* create_tables =
 
 // In the order of JournalKind.
 constexpr std::string_view kind_names[journal_kinds] = {
-    "enrolled",     "assigned", "language",  "answered",     "agreed",        "commented",
-    "lesson_begun", "measured", "step_done", "plan_changed", "clock_set_back"};
+    "enrolled",     "assigned",         "language", "answered",  "agreed",       "commented",
+    "lesson_begun", "lesson_continued", "measured", "step_done", "plan_changed", "clock_set_back"};
 
 // The inverse of time_text(). None if the text has another form.
 std::optional<std::int64_t> parse_time(const std::string& text) {

@@ -21,14 +21,17 @@ enum class JournalKind : std::uint8_t {
     assigned,  // step: "part-1"; item: id of the condition
     language,  // text: ISO 639 code
 
-    answered,        // step, item; value: none if the participant does not want to answer
-    agreed,          // step, item: number of the statement of the consent; value: 0 takes the agreement back
-    commented,       // step, text
-    lesson_begun,    // step; text: folder of the session, relative to the participant's
-    measured,        // step; item: name of the measure; value: none if the lesson does not have it
-    step_done,       // step
-    plan_changed,    // item: checksum of the changed plan, with which the participant continues
-    clock_set_back,  // value: s by which this entry is earlier than the one before
+    answered,   // step, item; value: none if the participant does not want to answer
+    agreed,     // step, item: number of the statement of the consent; value: 0 takes the agreement back
+    commented,  // step, text
+    // step; text: folder of the session, relative to the participant's; item: why an interrupted lesson could
+    // not be continued, if this one begins it again
+    lesson_begun,
+    lesson_continued,  // step; text: folder of the session that has the interrupted lesson and the rest of it
+    measured,          // step; item: name of the measure; value: none if the lesson does not have it
+    step_done,         // step
+    plan_changed,      // item: checksum of the changed plan, with which the participant continues
+    clock_set_back,    // value: s by which this entry is earlier than the one before
 };
 inline constexpr std::size_t journal_kinds = static_cast<std::size_t>(JournalKind::clock_set_back) + 1;
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/csv.hpp"
-#include "game/study_results/results.hpp"
+#include "game/study_results/parts.hpp"
 
 namespace bolt::study {
 
@@ -105,6 +105,10 @@ std::string results_json(const content::Study& study, const StudyData& data, con
                        {{"resamples", results.bootstrap.resamples},
                         {"seed", results.bootstrap.seed},
                         {"method", "percentile"}}}};
+    const Interruptions interruptions = interruptions_of(data);
+    json["interrupted_lessons"] = {{"lessons", interruptions.lessons},
+                                   {"times_continued", interruptions.continued},
+                                   {"times_begun_again", interruptions.begun_again}};
     json["measures"] = ordered_json::array();
     for (const MeasureResult& measure : results.measures) {
         ordered_json entry{{"id", measure.info.id}, {"title", measure.info.title}};

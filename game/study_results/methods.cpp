@@ -17,6 +17,9 @@ std::string count_text(std::size_t n, std::string_view noun) {
     return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
 }
 
+// "Once", "3 times"
+std::string times_text(std::size_t n) { return n == 1 ? std::string("Once") : fmt::format("{} times", n); }
+
 // "10.0 to 12.5", or one number
 std::string span_text(std::vector<double> values, int decimals) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -58,6 +61,22 @@ void put_lessons(std::string& out, const content::Study& study, const StudyData&
         data.participants.size() * study.design.lessons *
             (study.design.subjects == content::StudySubjects::between ? 1 : study.conditions.size()),
         played == 1 && data.participants.size() == 1 ? "lesson" : "lessons", played == 1 ? "was" : "were");
+}
+
+void put_interruptions(std::string& out, const StudyData& data) {
+    const Interruptions all = interruptions_of(data);
+    if (all.lessons == 0) {
+        if (!data.simulated()) out += "No lesson was interrupted. ";
+        return;
+    }
+    put(out, "{} {} interrupted. ", count_text(all.lessons, "lesson"), all.lessons == 1 ? "was" : "were");
+    if (all.continued > 0)
+        put(out,
+            "{}, a lesson was continued at the point reached; its measures count all parts and not the time "
+            "between them. ",
+            times_text(all.continued));
+    if (all.begun_again > 0)
+        put(out, "{}, a lesson began again; only the last attempt counts. ", times_text(all.begun_again));
 }
 
 void put_retention(std::string& out, const content::Study& study, const StudyData& data) {
@@ -143,6 +162,17 @@ std::string design_text(const content::Study& study) {
         n, n, design.seed);
 }
 
+Interruptions interruptions_of(const StudyData& data) {
+    Interruptions all;
+    for (const ParticipantState& state : data.participants) {
+        const Progress& progress = state.progress;
+        all.lessons += progress.interrupted_lessons;
+        all.continued += progress.continued.size();
+        all.begun_again += progress.begun_again.size();
+    }
+    return all;
+}
+
 std::string changed_plans(const StudyData& data) {
     std::string text;
     for (const ParticipantState& state : data.participants)
@@ -156,6 +186,7 @@ std::string methods_text(const content::Study& study, const StudyData& data, con
     put(out, "The design had {}. ", design_text(study));
     put_training(out, study, data);
     put_lessons(out, study, data);
+    put_interruptions(out, data);
     if (study.design.blind) out += "The experimenter did not see the conditions. ";
     put_retention(out, study, data);
     for (std::size_t i = 0; i < study.questionnaires.size(); ++i)

@@ -17,6 +17,15 @@ bool belongs_to_condition(const content::Study& study, const content::StudyForm&
 // The lessons of each person in their order: training, conditions, retention test (curves.cpp).
 std::string learning_curves(const StudyData& data);
 
+// Lessons that a closed or killed program interrupted, and their outcomes. A lesson can be interrupted
+// several times.
+struct Interruptions {
+    std::size_t lessons = 0;
+    std::size_t continued = 0;    // at the point reached
+    std::size_t begun_again = 0;  // because the recording could not be used
+};
+Interruptions interruptions_of(const StudyData& data);
+
 // The paragraph to paste: what was done, not only what was planned (methods.cpp).
 std::string methods_text(const content::Study& study, const StudyData& data, const Results& results);
 std::string design_text(const content::Study& study);

@@ -37,12 +37,11 @@ std::string simulated_banner(const StudyData& data) {
 std::string facts(const content::Study& study, const StudyData& data) {
     std::int64_t first = 0, last = 0;
     double set_back = 0.0;
-    std::size_t interrupted = 0;
+    const Interruptions interruptions = interruptions_of(data);
     for (const ParticipantState& state : data.participants) {
         first = first == 0 ? state.progress.begun : std::min(first, state.progress.begun);
         last = std::max(last, state.progress.latest);
         set_back += state.progress.clock_set_back;
-        interrupted += state.progress.interrupted.size();
     }
     std::string out = "<dl class=\"facts\">\n";
     out += plot::fact("participants",
@@ -51,7 +50,11 @@ std::string facts(const content::Study& study, const StudyData& data) {
     out += plot::fact("withdrew", std::to_string(data.withdrawn));
     if (first != 0)
         out += plot::fact("dates", time_text(first).substr(0, 10) + " to " + time_text(last).substr(0, 10));
-    out += plot::fact("interrupted lessons", std::to_string(interrupted));
+    out += plot::fact("interrupted lessons",
+                      interruptions.lessons == 0
+                          ? std::string("0")
+                          : fmt::format("{} (continued: {}, begun again: {})", interruptions.lessons,
+                                        interruptions.continued, interruptions.begun_again));
     if (set_back > 0.0)
         out += plot::fact("clock set back", fmt::format("by {} in total", plot::duration_text(set_back)));
     out += plot::fact("plan", fmt::format("{:016x}", study.checksum));

@@ -75,7 +75,7 @@ class App : public view::WindowContent {
 
     // Ends the lesson, if one runs, as it stands. Its session and the files beside it are written.
     Status end_lesson();
-    // If the program ends during a lesson of a study, that lesson does not count: it begins again.
+    // If the program ends during a lesson of a study, that lesson is not counted: it is continued later.
     Status end() override {
         interrupted_ = true;
         return end_lesson();
@@ -139,6 +139,7 @@ class App : public view::WindowContent {
     Status close_lesson();
     [[nodiscard]] LessonChoice lesson_choice() const;
     Result<LessonRequest> study_request();
+    Status record_study_lesson(const StartedLesson& started);
     void count_study_lesson();
     Status upload_lesson();
     void begin_instruction();

@@ -96,8 +96,20 @@ Result<LessonRequest> App::study_request() {
     request.options.obstacles = settings.obstacles;
     request.options.seed =
         study::lesson_seed(participation.study(), participation.progress().place, participation.due()->id);
-    BOLT_TRY_ASSIGN(request.folder, participation.begin_lesson());
+    if (const auto begun = participation.begun_lesson())
+        request.interrupted = *begun / study::lesson_session_name;
+    BOLT_TRY_ASSIGN(request.folder, participation.make_lesson_folder());
     return request;
+}
+
+// Records that the lesson of the study has begun, or continues an interrupted one.
+Status App::record_study_lesson(const StartedLesson& started) {
+    if (!study_) return {};
+    if (started.continued) return study_->participation().record_continued(folder_);
+    if (!started.begun_again) return study_->participation().record_begun(folder_);
+    const std::string why = started.begun_again->message();
+    log("the interrupted lesson cannot be continued and begins again: " + why);
+    return study_->participation().record_begun(folder_, why);
 }
 
 Status App::begin_lesson(float aspect) {
@@ -116,10 +128,12 @@ Status App::begin_lesson(float aspect) {
         request = {chosen, preferences_.settings, options_.lesson, folder_, options_.start_station};
     }
     const LessonChoice& choice = request.choice;
-    if (!choice.equipment.has_hardware()) return enter_lesson(start_lesson(request), aspect);
+    const bool is_quick = !choice.equipment.has_hardware() && request.interrupted.empty();
+    if (is_quick) return enter_lesson(start_lesson(request), aspect);
     if (active_) BOLT_TRY(close_lesson());
-    start_thread_ = std::make_unique<LessonStartThread>(std::move(request), std::move(given_up_));
     arm_screen_ = {};
+    arm_screen_.continues = !request.interrupted.empty();
+    start_thread_ = std::make_unique<LessonStartThread>(std::move(request), std::move(given_up_));
     screen_ = ShownScreen::starting;
     return {};
 }
@@ -130,6 +144,7 @@ Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
         if (options_.folder_per_lesson) std::filesystem::remove(folder_, ignored);  // if it is still empty
         return fail(started.error());
     }
+    BOLT_TRY(record_study_lesson(*started));
     if (active_) {
         BOLT_TRY(gpu_->context->device->idle());
         active_.reset();
@@ -139,7 +154,7 @@ Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
     active_.emplace(std::move(started->active));
     ActiveLesson& active = *active_;
     for (const std::string& missing : context_->models.missing) log("not drawn: " + missing);
-    world::add_haptics(active.workplace.world, active.session->state());
+    if (!started->continued) world::add_haptics(active.workplace.world, active.session->state());
     BOLT_TRY(upload_lesson());
     place_trainee(active, *context_, aspect);
     active.view.help = !study_ || study_->participation().lesson().view_help;
@@ -154,10 +169,11 @@ Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
     screen_ = ShownScreen::lesson;
     menu_.first_start = false;
     // In a study the settings would reveal the condition to the experimenter.
-    log(study_ ? "lesson begun"
-               : fmt::format("lesson begun: {} {}, {}, law {}", context_->assembly.name,
-                             context_->assembly.variant, lesson::name(context_->options.mode),
-                             joint::name(context_->options.law)));
+    log(started->continued ? fmt::format("lesson continued after {:.1f} s", active.session->time())
+        : study_           ? "lesson begun"
+                           : fmt::format("lesson begun: {} {}, {}, law {}", context_->assembly.name,
+                                         context_->assembly.variant, lesson::name(context_->options.mode),
+                                         joint::name(context_->options.law)));
     return {};
 }
 

@@ -10,7 +10,8 @@ bool asks(const device::ArmNeeds& needs) {
     return needs.preparation.need == device::DeviceNeed::permission && !needs.moves;
 }
 
-std::string request_of(const words::Words& words, const device::ArmNeeds& needs) {
+std::string request_of(const words::Words& words, const ArmScreen& screen) {
+    const device::ArmNeeds& needs = screen.needs;
     if (needs.moves) return words["arm.moves"];
     switch (needs.preparation.need) {
         case device::DeviceNeed::permission:
@@ -24,7 +25,7 @@ std::string request_of(const words::Words& words, const device::ArmNeeds& needs)
         case device::DeviceNeed::none:
             break;
     }
-    return words["arm.starting"];
+    return words[screen.continues ? words::TextKey("study.restoring") : "arm.starting"];
 }
 
 std::string keys_of(const words::Words& words, const ArmScreen& screen) {
@@ -57,7 +58,7 @@ ScreenAction draw_arm(const ScreenContext& context, const ArmScreen& screen) {
     ScreenAction action = ScreenAction::none;
     begin_dialog(context, "##arm", 420.0F * context.scale, 0.94F);
     const bool warns = screen.needs.moves || asks(screen.needs);
-    draw_wrapped(request_of(context.words, screen.needs), warns ? warning_text : muted_text);
+    draw_wrapped(request_of(context.words, screen), warns ? warning_text : muted_text);
     ImGui::Separator();
     if (asks(screen.needs)) {
         draw_wrapped(keys_of(context.words, screen), muted_text);

@@ -1,4 +1,5 @@
-// The screen about an arm that must be prepared: before a lesson, and in a lesson in which it was lost.
+// The screen while a lesson starts, and about an arm that must be prepared: before a lesson, and in a lesson
+// in which it was lost.
 #pragma once
 
 #include <span>
@@ -18,6 +19,7 @@ inline constexpr double question_time = 0.5;
 struct ArmScreen {
     device::ArmNeeds needs;
     bool in_lesson = false;
+    bool continues = false;  // an interrupted lesson is restored, which may take longer than its devices
     double shown_for = 0.0;  // s
 };
 

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <utility>
 
+#include "game/session/resume.hpp"
 #include "game/station/frame_registration.hpp"
 #include "game/station/station_setup.hpp"
 #include "haptics/device/device.hpp"
@@ -15,8 +16,8 @@ namespace bolt::trainer {
 
 namespace {
 
-// Starts the station, if the choice needs one, and copies its limits and rate into the lesson.
-Status start_station_of(const LessonRequest& request, StartedLesson& lesson, session::SessionSetup& setup) {
+// Starts the station, if the choice needs one, and copies its limits and rate into the options.
+Status start_station_of(const LessonRequest& request, StartedLesson& lesson) {
     if (!request.choice.equipment.needs_station()) return {};
     session::LessonOptions& options = lesson.context.options;
     Equipment equipment = request.choice.equipment;
@@ -30,8 +31,52 @@ Status start_station_of(const LessonRequest& request, StartedLesson& lesson, ses
     if (equipment.hand == HandMode::tracked) lesson.active.station->tracked.emplace();
     options.device_limits = lesson.active.station->link->setup().limits;
     options.servo_rate = 1.0 / options.dt;
-    session::set_device_limits(options, setup);
     return {};
+}
+
+// Repeats and records the ticks of the interrupted lesson. A station is started afterwards, with the same
+// ticks, so its limits are those of the recording for the moment.
+Status resume_session(const LessonRequest& request, session::SessionSetup setup, StartedLesson& lesson) {
+    session::LessonOptions& options = lesson.context.options;
+    BOLT_TRY_ASSIGN(options.continues, session::read_interrupted(request.interrupted));
+    const session::Header& recorded = options.continues->header;
+    options.hand = recorded.hand;
+    if (request.choice.equipment.needs_station()) {
+        options.servo_rate = 1.0 / options.dt;
+        options.device_limits = recorded.device_limits.value_or(options.device_limits);
+        session::set_device_limits(options, setup);
+    }
+    scene::SceneWorld world;
+    world::add_haptics(world, setup.state);
+    BOLT_TRY_ASSIGN(lesson.active.session,
+                    session::LessonSession::resume(std::move(setup), options,
+                                                   request.folder / "session.boltwright", world));
+    lesson.active.workplace.world = std::move(world);
+    lesson.continued = true;
+    return {};
+}
+
+Result<StartedLesson> begin_again(LessonRequest request, const Error& why) {
+    request.interrupted.clear();
+    BOLT_TRY_ASSIGN(auto lesson, start_lesson(request));
+    lesson.begun_again = why;
+    return lesson;
+}
+
+// Continues the station of an interrupted lesson with the session.
+Status join_station(StartedLesson& lesson) {
+    if (!lesson.active.station) return {};
+    lesson.active.station->checkpoints_sent = lesson.active.session->checkpoints_saved();
+    const session::LessonOptions& options = lesson.context.options;
+    const session::InterruptedLesson& interrupted = *options.continues;
+    if (session::limits_text(options.device_limits) ==
+        session::limits_text(interrupted.header.device_limits.value_or(force::OutputLimits())))
+        return {};
+    Error error;
+    error.file = interrupted.file.string();
+    error.what = "was recorded with another device, or with another share of its force";
+    error.expected = "the device of the interrupted lesson";
+    return fail(std::move(error));
 }
 
 // The side of the glove, else that of the settings.
@@ -136,11 +181,23 @@ Result<StartedLesson> start_lesson(const LessonRequest& request) {
     context.assembly = lesson::apply_law(std::move(loaded.assembly), options.law);
 
     BOLT_TRY_ASSIGN(auto setup, session::prepare_session(context.assembly, options));
-    BOLT_TRY(start_station_of(request, lesson, setup));
+    if (!request.interrupted.empty())
+        if (const Status resumed = resume_session(request, std::move(setup), lesson); !resumed)
+            return begin_again(request, resumed.error());
+    BOLT_TRY(start_station_of(request, lesson));
+    if (lesson.continued) {
+        if (const Status joined = join_station(lesson); !joined) {
+            lesson.active = {};  // it holds the devices and the session file
+            return begin_again(request, joined.error());
+        }
+    } else if (lesson.active.station) {
+        session::set_device_limits(options, setup);
+    }
     context.worker = {working_side(lesson.active, request.settings), request.settings.seated_eye_height};
     options.hand = context.worker.side;
     BOLT_TRY_ASSIGN(auto models, scene::load_lesson_models(context.assembly, context.worker.side));
     context.models = std::move(models);
+    if (lesson.continued) return lesson;
     BOLT_TRY_ASSIGN(auto session, session::LessonSession::begin(std::move(setup), options,
                                                                 request.folder / "session.boltwright"));
     lesson.active.session = std::move(session);

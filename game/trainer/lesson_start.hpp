@@ -39,6 +39,8 @@ struct LessonRequest {
     std::filesystem::path folder;    // receives session.boltwright
     StationFactory start_station;
     device::ArmDialog arm_dialog{};
+    std::filesystem::path
+        interrupted{};  // session of the interrupted lesson to continue; empty: there is none
 };
 
 // The data that a lesson was started with. It outlives the lesson, because the result screen shows it.
@@ -53,7 +55,9 @@ struct LessonContext {
 // The result of start_lesson().
 struct StartedLesson {
     LessonContext context;
-    ActiveLesson active;  // with session and station; its workplace is made when the models are on the GPU
+    ActiveLesson active;     // with session and station; its workplace is made when the models are on the GPU
+    bool continued = false;  // at the point reached by LessonRequest::interrupted
+    std::optional<Error> begun_again;  // why that lesson begins again instead
 };
 
 // Creates the folder of the next session: `out` itself, or with `folder_per_lesson` a folder in it that is
@@ -61,6 +65,7 @@ struct StartedLesson {
 Result<std::filesystem::path> make_lesson_folder(const std::filesystem::path& out, bool folder_per_lesson,
                                                  const std::string& assembly);
 
+// If the interrupted lesson cannot be continued, begins it again (StartedLesson::begun_again).
 // Fails if the assembly cannot be loaded, a chosen device cannot be used, a model is damaged, or the session
 // file cannot be created. Close the station of an earlier lesson first, because it holds the devices.
 Result<StartedLesson> start_lesson(const LessonRequest& request);

@@ -290,7 +290,10 @@ ScreenAction StudyScreen::draw_lesson(const ScreenContext& context, const study:
                                                  {{"part", Number{static_cast<double>(step.part + 1), 0}},
                                                   {"of", Number{static_cast<double>(parts), 0}}}));
     }
-    if (ready) draw_wrapped(context.words["study.lesson"], {1.0F, 1.0F, 1.0F, 1.0F});
+    const bool interrupted = participation_.begun_lesson().has_value();
+    if (ready)
+        draw_wrapped(context.words[interrupted ? words::TextKey("study.continues") : "study.lesson"],
+                     {1.0F, 1.0F, 1.0F, 1.0F});
     return draw_buttons(context, {"study.start", ready}) == Pressed::forward ? ScreenAction::start_lesson
                                                                              : ScreenAction::none;
 }

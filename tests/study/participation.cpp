@@ -81,7 +81,7 @@ TEST_CASE("Study: a participant continues where the program ended, answer by ans
     CHECK(participation.due()->id == "part-1/lesson-1");
     CHECK(required(participation.begin_lesson()).filename() == "part-1-lesson-1-2");
     REQUIRE(participation.end_lesson({{"score", 50.0}, {"nut_visible", std::nan("")}}));
-    CHECK(participation.progress().interrupted == std::vector<std::string>{"part-1/lesson-1"});
+    CHECK(participation.progress().begun_again == std::vector<std::string>{"part-1/lesson-1"});
     CHECK(participation.progress().measures.at("part-1/lesson-1").at("score") == 50.0);
     CHECK_FALSE(participation.progress().measures.at("part-1/lesson-1").contains("nut_visible"));
 }

@@ -210,7 +210,7 @@ TEST_CASE(
     }
     CHECK(participation.due()->id == "part-1/paper");
     CHECK(participation.progress().measures.at("part-1/lesson-1").at("joints_ok") == 1.0);
-    CHECK(participation.progress().interrupted.size() == 1);
+    CHECK(participation.progress().begun_again.size() == 1);
 }
 
 TEST_CASE("Study results: the progress of a blind study names no condition") {
