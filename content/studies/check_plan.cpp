@@ -41,7 +41,7 @@ void check_factors(const Study& study, const std::filesystem::path& folder, std:
 
 void check_hand(const StudyLesson& lesson, const std::string& place, const nlohmann::json& plan,
                 const std::filesystem::path& folder, std::vector<Error>& found) {
-    if (lesson.hand != "free" || lesson.devices.empty()) return;
+    if (lesson.hand == "helped" || lesson.devices.empty()) return;
     for (const std::string& pointer : lesson_pointers(place, "hand")) {
         if (!plan.contains(nlohmann::json::json_pointer(pointer))) continue;
         Error error = plan_error(folder, {pointer}, "the devices move the hand, so \"hand\" has no effect",

@@ -36,7 +36,9 @@ StudyLesson read_lesson(JsonReader& json, const JsonNode& own, const StudyLesson
     for (const auto& [key, text] :
          {std::pair("assembly", &lesson.assembly), std::pair("variant", &lesson.variant),
           std::pair("tool", &lesson.tool), std::pair("mode", &lesson.mode), std::pair("task", &lesson.task),
-          std::pair("law", &lesson.law), std::pair("hand", &lesson.hand)})
+          std::pair("law", &lesson.law), std::pair("hand", &lesson.hand),
+          std::pair("display", &lesson.display), std::pair("displays", &lesson.displays),
+          std::pair("glove", &lesson.glove)})
         if (auto given = json.text(json.member(own, key))) *text = std::move(*given);
     if (const JsonNode devices = json.member(own, "devices")) {
         lesson.devices.clear();
@@ -50,6 +52,14 @@ StudyLesson read_lesson(JsonReader& json, const JsonNode& own, const StudyLesson
     if (guide && lesson.guide && lesson.mode != "guided")
         json.report(guide.pointer, fmt::format("there is no guiding force in mode {}", lesson.mode),
                     R"("mode": "guided" with it)");
+    return lesson;
+}
+
+// A lesson of the plan, and the base whose settings it replaces.
+StudyLesson read_whole_lesson(JsonReader& json, const JsonNode& object, const StudyLesson& base) {
+    const JsonNode own = json.member(object, "lesson");
+    StudyLesson lesson = read_lesson(json, own, base);
+    check_lesson(json, own, lesson);
     return lesson;
 }
 
@@ -104,7 +114,7 @@ void read_conditions(StudyReader& reader, const StudyLesson& base) {
         StudyCondition condition;
         condition.id = id_of(json, node);
         condition.titles = json.texts(json.member(node, "title"));
-        condition.lesson = read_lesson(json, json.member(node, "lesson"), base);
+        condition.lesson = read_whole_lesson(json, node, base);
         condition.levels = json.texts(json.member(node, "levels"));
         reader.condition_ids.push_back(condition.id);
         reader.study.conditions.push_back(std::move(condition));
@@ -152,10 +162,10 @@ void read_members(StudyReader& reader) {
     const StudyLesson base = read_lesson(json, json.member(root, "lesson"), {});
     if (const JsonNode training = json.member(root, "training"))
         study.training = {60.0 * json.number(json.member(training, "minutes")).value_or(0.0),
-                          read_lesson(json, json.member(training, "lesson"), base)};
+                          read_whole_lesson(json, training, base)};
     if (const JsonNode retention = json.member(root, "retention"))
         study.retention = {json.number(json.member(retention, "after_days")).value_or(0.0),
-                           read_lesson(json, json.member(retention, "lesson"), base)};
+                           read_whole_lesson(json, retention, base)};
     read_conditions(reader, base);
     read_forms(reader);
     read_comparisons(reader);

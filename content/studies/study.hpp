@@ -48,6 +48,9 @@ struct StudyLesson {
     std::string law;  // empty: the assembly's
     std::string hand = "helped";
     std::vector<std::string> devices;  // empty: those of the command line
+    std::string display;               // "window", "headset" or "walls"; empty: that of the command line
+    std::string displays;              // of walls: the display file
+    std::string glove;                 // "none", "auto" or a serial port; empty: that of the command line
     bool guide = true, view_help = true;
     std::optional<double> force_scale;  // none: that of the participant's settings
     bool operator==(const StudyLesson&) const = default;
@@ -124,6 +127,11 @@ struct PublishedValue {
     std::size_t n = 0;
     std::string source;
 };
+
+// Returns true if a lesson of the study names its display. The program then changes between displays, and
+// shows all pages and the other lessons in the window.
+struct Study;
+bool names_displays(const Study& study);
 
 struct Study {
     std::string id;

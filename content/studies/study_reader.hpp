@@ -29,6 +29,10 @@ inline bool boolean(JsonReader& json, const JsonNode& object, const char* key, b
     return json.boolean(json.member(object, key)).value_or(fallback);
 }
 
+// Reports settings of display, hand, glove and devices that contradict each other (check_lesson.cpp). `own`:
+// the lesson's members, which replace those of the study's "lesson"; may be missing.
+void check_lesson(JsonReader& json, const JsonNode& own, const StudyLesson& lesson);
+
 // Read the planned comparisons and the published values (read_comparisons.cpp), after conditions and forms.
 void read_comparisons(StudyReader& reader);
 void read_published(StudyReader& reader);

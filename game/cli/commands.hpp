@@ -11,6 +11,7 @@
 #include "content/studies/study.hpp"
 #include "content/trainee/people.hpp"
 #include "engine/base/result.hpp"
+#include "game/study/study_lesson.hpp"
 #include "haptics/device/connected_devices.hpp"
 #include "haptics/device/device_thread.hpp"
 #include "haptics/device/preparation.hpp"
@@ -57,8 +58,8 @@ void add_study_run(CLI::App& study, int& exit_code);
 // Loads the study of a folder. If its files have several mistakes, prints all but the last one and returns
 // that one.
 Result<content::Study> load_study_folder(const std::filesystem::path& folder);
-// Fails if these devices cannot be used together on this computer.
-Status usable_devices(const std::vector<std::string>& ids);
+// Checks that this computer has the devices and displays that lessons of a study need (study_equipment.cpp).
+study::EquipmentCheck equipment_check();
 
 // Adds the subcommand `test` to `displays`.
 void add_displays_test(CLI::App& displays, int& exit_code);

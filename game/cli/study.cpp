@@ -109,7 +109,7 @@ int run_check(const StudyArguments& options) {
     const content::LoadedStudy loaded = content::load_study(options.folder);
     if (!loaded.ok()) return print_error(loaded.errors);
     const content::Study& study = loaded.study;
-    const study::StudyCheck check = study::check_study(study, options.folder, usable_devices);
+    const study::StudyCheck check = study::check_study(study, options.folder, equipment_check());
     std::string out = fmt::format("{}: {} conditions, {} participants, {} forms, {} planned comparisons\n",
                                   study.id, study.conditions.size(), study.design.participants,
                                   study.forms.size(), study.comparisons.size());
@@ -288,12 +288,6 @@ int run_grim(const StudyArguments& options) {
 }
 
 }  // namespace
-
-Status usable_devices(const std::vector<std::string>& ids) {
-    static const std::vector<device::ListedDevice> connected = device::list_devices();
-    BOLT_TRY(station_setup::select_devices(connected, ids));
-    return {};
-}
 
 Result<content::Study> load_study_folder(const fs::path& folder) {
     content::LoadedStudy loaded = content::load_study(folder);

@@ -26,17 +26,12 @@ struct StudyRunArguments {
     TrainArguments window;
 };
 
-// Fails if a lesson that the participant has still to do needs devices that this computer does not have.
-Status check_remaining_devices(const study::Participation& participation) {
-    const content::Study& study = participation.study();
-    const std::vector<study::Step>& steps = participation.steps();
-    for (std::size_t i = participation.due_index(); i < steps.size(); ++i) {
-        if (steps[i].kind == study::StepKind::lesson)
-            BOLT_TRY(usable_devices(study.conditions[steps[i].condition].lesson.devices));
-        if (steps[i].kind == study::StepKind::retention)
-            BOLT_TRY(usable_devices(study.retention->lesson.devices));
-    }
-    return {};
+// Fails if a lesson that the participant has still to do needs a device or a display that this computer does
+// not have.
+Status check_remaining_equipment(const study::Participation& participation, const std::string& folder) {
+    const auto remaining = std::span(participation.steps()).subspan(participation.due_index());
+    const auto errors = study::check_equipment(participation.study(), folder, remaining, equipment_check());
+    return errors.empty() ? Status() : fail(errors.front());
 }
 
 // Continues. Entries from the future are a sign of a wrong clock, which would make the participant come again
@@ -56,7 +51,7 @@ Result<study::Participation> resume_participation(const content::Study& study, c
                 "has the wrong time");
         BOLT_TRY(participation.accept_clock());
     }
-    BOLT_TRY(check_remaining_devices(participation));
+    BOLT_TRY(check_remaining_equipment(participation, options.folder));
     return participation;
 }
 
@@ -78,8 +73,7 @@ Result<study::Participation> find_participation(const content::Study& study,
     for (const study::ParticipantState& state : states)
         if (!state.withdrawn && state.progress.person == person.code)
             return resume_participation(study, state.participant, options);
-    if (const auto errors = study::check_lesson_devices(study, options.folder, usable_devices);
-        !errors.empty())
+    if (const auto errors = study::check_equipment(study, options.folder, equipment_check()); !errors.empty())
         return fail(errors.front());
     return study::Participation::enrol(study, options.folder, person.code, false);
 }
@@ -100,6 +94,9 @@ Status run(const StudyRunArguments& options) {
     BOLT_TRY_ASSIGN(const auto study, load_study_folder(options.folder));
     const study::StudyCheck check = study::check_study(study, options.folder);
     if (!check.errors.empty()) return fail(check.errors.front());
+    if (content::names_displays(study) && (options.window.hmd || !options.window.displays.empty()))
+        return fail(ErrorCode::usage, "the plan names the displays of its lessons",
+                    "no --hmd and no --displays");
     const std::vector<std::string> own = words::languages(words::words_folder());
     const std::vector<std::string> readable = content::complete_languages(study);
     const bool any = std::any_of(readable.begin(), readable.end(), [&](const std::string& language) {

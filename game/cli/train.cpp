@@ -12,6 +12,7 @@
 #include "engine/base/result.hpp"
 #include "game/cli/commands.hpp"
 #include "game/cli/opened_walls.hpp"
+#include "game/cli/study_displays.hpp"
 #include "game/cli/train_arguments.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/report/report.hpp"
@@ -229,7 +230,8 @@ Status run_window(WindowRequest request, const Surroundings& surroundings, platf
                     view::make_instance(instance_options, headset, surroundings.needs_headset));
     trainer::App app(std::move(app_options), std::move(request.study));
     catch_interruption();
-    BOLT_TRY(view::run_in_window(app, *window, instance, run_options));
+    StudyDisplay display(desktop, options.quiet);
+    BOLT_TRY(run_on_displays(app, *window, instance, run_options, display));
     if (!instance.log().messages.empty()) return fail(ErrorCode::failed, instance.log().messages.front());
     return {};
 }

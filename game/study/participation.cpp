@@ -12,10 +12,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_lesson(StepKind kind) {
-    return kind == StepKind::lesson || kind == StepKind::training || kind == StepKind::retention;
-}
-
 bool begins_lesson(JournalKind kind) {
     return kind == JournalKind::lesson_begun || kind == JournalKind::lesson_continued;
 }

@@ -41,6 +41,10 @@ void add_condition(const content::Study& study, std::size_t part, std::size_t co
 
 }  // namespace
 
+bool is_lesson(StepKind kind) {
+    return kind == StepKind::lesson || kind == StepKind::training || kind == StepKind::retention;
+}
+
 std::vector<Step> steps_of(const content::Study& study, const std::vector<std::size_t>& conditions) {
     using content::FormTime;
     std::vector<Step> steps{{StepKind::language, "language"},

@@ -29,6 +29,9 @@ enum class StepKind : std::uint8_t {
     farewell,
 };
 
+// Returns true if a lesson is played in the step.
+bool is_lesson(StepKind kind);
+
 inline constexpr std::size_t no_index = std::numeric_limits<std::size_t>::max();
 
 struct Step {

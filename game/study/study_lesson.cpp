@@ -159,23 +159,60 @@ std::uint64_t lesson_seed(const content::Study& study, std::size_t place, std::s
     return hash.value() >> 32U;  // fits every place that stores a seed
 }
 
-std::vector<Error> check_lesson_devices(const content::Study& study, const fs::path& folder,
-                                        const DeviceCheck& devices) {
-    std::vector<Error> errors;
-    for (const NamedLesson& lesson : lessons_of(study)) {
-        if (!devices || lesson.lesson->devices.empty()) continue;
-        const Status usable = devices(lesson.lesson->devices);
-        if (usable) continue;
-        Error error = content::plan_error(folder, content::lesson_pointers(lesson.place, "devices"),
+namespace {
+
+// Adds the errors of one lesson, unless they are there already.
+void add_missing(const NamedLesson& named, const fs::path& folder, const EquipmentCheck& equipment,
+                 std::vector<Error>& errors) {
+    const content::StudyLesson& lesson = *named.lesson;
+    const auto add = [&](const char* member, const Status& usable) {
+        if (usable) return;
+        Error error = content::plan_error(folder, content::lesson_pointers(named.place, member),
                                           usable.error().what, usable.error().expected);
         error.code = usable.error().code;
         const auto same = [&](const Error& other) { return other.message() == error.message(); };
         if (std::none_of(errors.begin(), errors.end(), same)) errors.push_back(std::move(error));
+    };
+    if (equipment.devices && !lesson.devices.empty()) add("devices", equipment.devices(lesson.devices));
+    if (equipment.headset && lesson.display == "headset") add("display", equipment.headset());
+    if (equipment.walls && lesson.display == "walls")
+        add("displays", equipment.walls(display_file_of(lesson, folder)));
+    if (equipment.glove && !lesson.glove.empty() && lesson.glove != "none")
+        add("glove", equipment.glove(lesson.glove));
+}
+
+}  // namespace
+
+std::string display_file_of(const content::StudyLesson& lesson, const fs::path& study_folder) {
+    std::error_code ignored;
+    const fs::path own = study_folder / lesson.displays;
+    return fs::exists(own, ignored) ? own.string() : lesson.displays;
+}
+
+std::vector<Error> check_equipment(const content::Study& study, const fs::path& folder,
+                                   const EquipmentCheck& equipment) {
+    std::vector<Error> errors;
+    for (const NamedLesson& lesson : lessons_of(study)) add_missing(lesson, folder, equipment, errors);
+    return errors;
+}
+
+std::vector<Error> check_equipment(const content::Study& study, const fs::path& folder,
+                                   std::span<const Step> steps, const EquipmentCheck& equipment) {
+    std::vector<Error> errors;
+    for (const Step& step : steps) {
+        if (step.kind == StepKind::training)
+            add_missing({{}, "/training", &study.training->lesson}, folder, equipment, errors);
+        if (step.kind == StepKind::retention)
+            add_missing({{}, "/retention", &study.retention->lesson}, folder, equipment, errors);
+        if (step.kind == StepKind::lesson)
+            add_missing(
+                {{}, fmt::format("/conditions/{}", step.condition), &study.conditions[step.condition].lesson},
+                folder, equipment, errors);
     }
     return errors;
 }
 
-StudyCheck check_study(const content::Study& study, const fs::path& folder, const DeviceCheck& devices) {
+StudyCheck check_study(const content::Study& study, const fs::path& folder, const EquipmentCheck& equipment) {
     StudyCheck check;
     std::set<std::string> reported;
     for (const NamedLesson& lesson : lessons_of(study)) {
@@ -184,8 +221,7 @@ StudyCheck check_study(const content::Study& study, const fs::path& folder, cons
         error->what = fmt::format("{} (lesson of the {})", error->what, lesson.name);
         check.errors.push_back(std::move(*error));
     }
-    for (Error& error : check_lesson_devices(study, folder, devices))
-        check.errors.push_back(std::move(error));
+    for (Error& error : check_equipment(study, folder, equipment)) check.errors.push_back(std::move(error));
     check_texts(study, folder, check);
     for (const Error& weakness : content::plan_weaknesses(study, folder))
         check.weaknesses.push_back(weakness.message());

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "content/studies/study.hpp"
 #include "engine/base/result.hpp"
 #include "game/session/lesson_session.hpp"
+#include "game/study/progress.hpp"
 
 namespace bolt::study {
 
@@ -36,14 +38,24 @@ struct StudyCheck {
     std::vector<std::string> additions;   // texts that the laboratory has to add before the first person
     std::vector<std::string> weaknesses;  // the design can be run, but not as well as it could be
 };
-// Fails if these devices cannot be used together on this computer.
-using DeviceCheck = std::function<Status(const std::vector<std::string>& ids)>;
-// `devices`: none: devices are not checked.
+// Each function fails if this computer lacks what a lesson needs. An empty function: it is not checked.
+struct EquipmentCheck {
+    std::function<Status(const std::vector<std::string>& ids)> devices;  // that are used together
+    std::function<Status()> headset;
+    std::function<Status(const std::string& display_file)> walls;
+    std::function<Status(const std::string& port)> glove;  // "auto", or a serial port
+};
 StudyCheck check_study(const content::Study& study, const std::filesystem::path& folder,
-                       const DeviceCheck& devices = {});
+                       const EquipmentCheck& equipment = {});
 
-// The errors of the devices that lessons need, each with its place in the plan.
-std::vector<Error> check_lesson_devices(const content::Study& study, const std::filesystem::path& folder,
-                                        const DeviceCheck& devices);
+// The errors of the equipment that all lessons of the study need, each with its place in the plan.
+std::vector<Error> check_equipment(const content::Study& study, const std::filesystem::path& folder,
+                                   const EquipmentCheck& equipment);
+// The same for those lessons of a participant's steps that are due or come later.
+std::vector<Error> check_equipment(const content::Study& study, const std::filesystem::path& folder,
+                                   std::span<const Step> steps, const EquipmentCheck& equipment);
+
+// The display file of a lesson on walls: in the study's folder if it exists there.
+std::string display_file_of(const content::StudyLesson& lesson, const std::filesystem::path& study_folder);
 
 }  // namespace bolt::study

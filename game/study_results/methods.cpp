@@ -99,6 +99,26 @@ void put_retention(std::string& out, const content::Study& study, const StudyDat
             span_text(days, 1), planned, days.size(), data.participants.size());
 }
 
+// "in the window (a, b) and in a headset (c)"; empty if the plan names no displays.
+std::string displays_text(const content::Study& study) {
+    if (!content::names_displays(study)) return {};
+    std::vector<std::string> places;
+    for (const auto& [display, place] :
+         {std::pair("window", "in the window"), std::pair("headset", "in a headset"),
+          std::pair("walls", "on projection walls")}) {
+        std::vector<std::string> titles;
+        for (const content::StudyCondition& condition : study.conditions)
+            if (condition.lesson.display == display ||
+                (condition.lesson.display.empty() && std::string_view(display) == "window"))
+                titles.push_back(plot::escape(content::text_in(condition.titles)));
+        if (!titles.empty()) places.push_back(fmt::format("{} ({})", place, fmt::join(titles, ", ")));
+    }
+    std::string text = places.front();
+    for (std::size_t i = 1; i < places.size(); ++i)
+        text += (i + 1 == places.size() ? " and " : ", ") + places[i];
+    return text;
+}
+
 std::string planning_text(const content::Study& study, const StudyData& data) {
     const std::string changed = changed_plans(data);
     const std::size_t n = study.comparisons.size();
@@ -184,6 +204,8 @@ std::string methods_text(const content::Study& study, const StudyData& data, con
     std::string out = "<h2>Methods</h2>\n<p>";
     put_people(out, data);
     put(out, "The design had {}. ", design_text(study));
+    if (const std::string displays = displays_text(study); !displays.empty())
+        put(out, "The scene was shown {}. ", displays);
     put_training(out, study, data);
     put_lessons(out, study, data);
     put_interruptions(out, data);

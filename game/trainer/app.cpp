@@ -190,6 +190,8 @@ void App::perform(ScreenAction action) {
             return perform_in_room(Action::lower);
         case ScreenAction::select_trainee:
             return select_trainee();
+        case ScreenAction::change_display:
+            return request_display();
         case ScreenAction::quit:
             closed_ = true;
             return;
@@ -282,7 +284,7 @@ void App::draw_screen(const ScreenContext& context) {
         perform(draw_result(context, context_->assembly, outcome_->result,
                             {options_.menu, tour_.has_value(), study_.has_value()}));
     } else if (screen_ == ShownScreen::study) {
-        perform(study_->draw(context));
+        perform(study_->draw(context, display_));
     }
 }
 
@@ -360,6 +362,7 @@ Status App::enlarge_scene(gpu::FrameContext& frame, VkExtent2D size) {
 Status App::update(const view::WindowFrame& window) {
     std::vector<platform::InputEvent> events(window.events.begin(), window.events.end());
     follow_room(window, events);
+    follow_study_display();
     const Picture picture{events, in_room() ? panel_extent : window.size,
                           in_room() ? panel_scale : window.scale};
     const glm::dvec2 extent(picture.size.width, picture.size.height);

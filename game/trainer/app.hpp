@@ -81,6 +81,12 @@ class App : public view::WindowContent {
         return end_lesson();
     }
 
+    // If the plan of a study names displays: the caller opens the wanted one, or the window if that fails,
+    // and passes the outcome before it runs the app on that display.
+    [[nodiscard]] bool wants_other_display() const override { return wanted_display_.has_value(); }
+    [[nodiscard]] const LessonDisplay& wanted_display() const { return *wanted_display_; }
+    void enter_display(const Status& opened);
+
     [[nodiscard]] bool closed() const override { return closed_; }
     [[nodiscard]] bool scales_scene() const override { return active_.has_value() && !in_room(); }
     [[nodiscard]] bool wants_passthrough() const override { return preferences_.settings.passthrough; }
@@ -139,6 +145,9 @@ class App : public view::WindowContent {
     Status close_lesson();
     [[nodiscard]] LessonChoice lesson_choice() const;
     Result<LessonRequest> study_request();
+    void request_display();
+    void follow_study_display();
+    [[nodiscard]] bool needs_headset() const;
     Status record_study_lesson(const StartedLesson& started);
     void count_study_lesson();
     Status upload_lesson();
@@ -190,6 +199,8 @@ class App : public view::WindowContent {
     std::optional<SettingsScreen> settings_;  // while it is shown
     std::optional<StudyScreen> study_;        // with AppOptions::study
     bool interrupted_ = false;                // the program ends
+    LessonDisplay display_;                   // that shows the study; the window if its plan names none
+    std::optional<LessonDisplay> wanted_display_;
     std::vector<DrawnWidget> drawn_widgets_;  // in the last frame
     ui::UiInput input_;
     bool closed_ = false, full_screen_requested_ = false;

@@ -93,6 +93,7 @@ void App::follow_headset(const view::ImmersiveFrame* immersive) {
     const auto pause = [&] {
         if (!paused) missing.paused = paused = true;
     };
+    if (needs_headset() && immersive == nullptr) pause();
     if (client.tracked && immersive == nullptr) {
         if (!std::exchange(missing.noticed, true)) return pause();
         if (paused) return;
@@ -296,7 +297,8 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     RoomState& room = *room_;
     room.present = true;
     // On walls a lesson by mouse is played in the window, and the walls show it.
-    room.surrounds_user = immersive->tracks_hands || !active_ || options_.choice.equipment.has_hardware();
+    const Equipment& equipment = (active_ ? context_->choice : options_.choice).equipment;
+    room.surrounds_user = immersive->tracks_hands || !active_ || equipment.has_hardware();
     if (immersive->tracks_hands) offer_tracked_hand(menu_.devices);
     follow_placement(*immersive, events, window.seconds);
     place_in_room(*immersive);

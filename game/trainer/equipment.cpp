@@ -4,6 +4,7 @@
 
 #include "game/station/station_setup.hpp"
 #include "haptics/device/device.hpp"
+#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::trainer {
 
@@ -63,6 +64,14 @@ Equipment equipment_for(const std::vector<std::string>& devices, bool free, Equi
         base.devices = devices;
     if (free && base.devices.empty() && base.hand == HandMode::helped) base.hand = HandMode::free;
     return base;
+}
+
+void use_glove(const std::string& glove, Equipment& equipment) {
+    if (glove.empty()) return;
+    equipment.glove = glove == "none" ? std::string() : glove;
+    if (glove != "auto") return;
+    const auto ports = hand::serial_ports();
+    equipment.glove = ports.empty() ? std::filesystem::path(glove) : ports.front();
 }
 
 Equipment default_equipment() {

@@ -39,6 +39,9 @@ struct Equipment {
 // Accepts the values of --device except "auto". `free`: as --hand free.
 Equipment equipment_for(const std::vector<std::string>& devices, bool free, Equipment base);
 
+// Applies a study's "glove": "none", "auto" or a serial port. Empty: the glove stays as it is.
+void use_glove(const std::string& glove, Equipment& equipment);
+
 // An entry in the menu of devices.
 struct DeviceOption {
     std::string name;  // names of the devices; empty: mouse and keyboard, as Equipment::hand says

@@ -39,6 +39,7 @@ enum class ScreenAction : std::uint8_t {
     raise,
     lower,
     select_trainee,  // LessonChoice::trainee was edited
+    change_display,  // to the one that the due step of a study needs
     quit,
 };
 

@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "game/study/study_lesson.hpp"
+
 namespace bolt::trainer {
 
 namespace {
@@ -388,7 +390,31 @@ ScreenAction StudyScreen::draw_step(const ScreenContext& context, const study::S
     return draw_last_pages(context, step);
 }
 
-ScreenAction StudyScreen::draw(const ScreenContext& context) {
+LessonDisplay StudyScreen::due_display() const {
+    const study::Step* step = participation_.due();
+    if (step == nullptr || !study::is_lesson(step->kind)) return {};
+    const content::StudyLesson& lesson = participation_.lesson();
+    if (lesson.display == "headset") return {LessonDisplay::Kind::headset, {}};
+    if (lesson.display == "walls")
+        return {LessonDisplay::Kind::walls, study::display_file_of(lesson, folder_)};
+    return {};
+}
+
+// The user leaves the display of the last lesson for the window, from which the next display is entered.
+ScreenAction StudyScreen::draw_display(const ScreenContext& context, const LessonDisplay& shown) {
+    using Kind = LessonDisplay::Kind;
+    const bool leaves = shown.kind != Kind::window;
+    const bool headset = (leaves ? shown : due_display()).kind == Kind::headset;
+    draw_heading(context, participation_.text(participation_.study().titles));
+    const words::TextKey text = leaves    ? headset ? words::TextKey("study.headset_off") : "study.walls_off"
+                                : headset ? words::TextKey("study.headset_on")
+                                          : "study.walls_on";
+    draw_wrapped(context.words[text], {1.0F, 1.0F, 1.0F, 1.0F});
+    return draw_buttons(context, {"study.next"}) == Pressed::forward ? ScreenAction::change_display
+                                                                     : ScreenAction::none;
+}
+
+ScreenAction StudyScreen::draw(const ScreenContext& context, const LessonDisplay& shown) {
     begin_dialog(context, "##study", study_page_width * context.scale, 0.97F);
     ScreenAction action = ScreenAction::none;
     if (stop_ != StopDialog::closed) {
@@ -396,6 +422,8 @@ ScreenAction StudyScreen::draw(const ScreenContext& context) {
     } else if (participation_.due() == nullptr) {
         action = ScreenAction::quit;
         if (on_step_) on_step_();
+    } else if (due_display() != shown) {
+        action = draw_display(context, shown);
     } else {
         const study::Step step = *participation_.due();
         if (step.id != shown_step_) {

@@ -20,6 +20,13 @@ struct StudyRun {
     std::function<void()> on_step{};  // called when another step is due
 };
 
+// The display that shows a lesson of a study.
+struct LessonDisplay {
+    enum class Kind : std::uint8_t { window, headset, walls } kind = Kind::window;
+    std::string file;  // of walls: the display file
+    bool operator==(const LessonDisplay&) const = default;
+};
+
 class StudyScreen {
   public:
     explicit StudyScreen(StudyRun run)
@@ -27,8 +34,12 @@ class StudyScreen {
           folder_(std::move(run.folder)),
           on_step_(std::move(run.on_step)) {}
 
-    // Draws the page of the due step. Returns start_lesson, quit or none.
-    ScreenAction draw(const ScreenContext& context);
+    // Draws the page of the due step on the display that shows it now. If the due step needs another display,
+    // draws a page that leads there instead. Returns start_lesson, change_display, quit or none.
+    ScreenAction draw(const ScreenContext& context, const LessonDisplay& shown);
+    // The display of the due step: that of its lesson; of other pages, and if the plan names no displays, the
+    // window.
+    [[nodiscard]] LessonDisplay due_display() const;
 
     [[nodiscard]] study::Participation& participation() { return participation_; }
     [[nodiscard]] const study::Participation& participation() const { return participation_; }
@@ -56,6 +67,7 @@ class StudyScreen {
     void draw_form(const ScreenContext& context, const content::Questionnaire& form);
     void draw_item(const ScreenContext& context, const content::Questionnaire& form);
     ScreenAction draw_lesson(const ScreenContext& context, const study::Step& step);
+    ScreenAction draw_display(const ScreenContext& context, const LessonDisplay& shown);
     void draw_break(const ScreenContext& context);
     void draw_comment(const ScreenContext& context);
     ScreenAction draw_last_pages(const ScreenContext& context, const study::Step& step);

@@ -99,6 +99,7 @@ enum class Ending : std::uint8_t {
     closed,
     headset_found,    // the GPU objects are to be created by its runtime
     headset_refused,  // the GPU objects are to be created without it
+    other_display,    // WindowContent::wants_other_display()
 };
 
 // Shows the content frame by frame, until it is closed.
@@ -338,6 +339,7 @@ Result<Ending> FrameLoop::run() {
     platform::Pace pace{platform::Clock::now(), platform::period_of(refresh_rate()), 0};
     canvas_.last_frame = seconds();
     while (!content_.closed() && !(options_.stop && options_.stop())) {
+        if (content_.wants_other_display()) return Ending::other_display;
         xr::Headset* headset = options_.headset;
         if (headset != nullptr && headset->find_in_background(seconds())) return Ending::headset_found;
         if (headset != nullptr && headset->exit_requested()) return Ending::closed;
@@ -397,7 +399,7 @@ Result<Ending> run_on_canvas(WindowContent& content, platform::Window& window, c
     else
         ending = fail(started.error());
     // A runtime that was just found has no session yet.
-    if (options.headset != nullptr && (!ending || *ending == Ending::closed)) options.headset->end();
+    if (options.headset != nullptr && (!ending || *ending != Ending::headset_found)) options.headset->end();
     content.release();
     if (options.walls != nullptr) options.walls->release();
     // Without the saved pipelines the next start is only slower.
@@ -423,6 +425,7 @@ Status run_in_window(WindowContent& content, platform::Window& window, gpu::Inst
     gpu::DeviceLossPolicy loss_policy;
     for (;;) {
         const Result<Ending> ending = run_on_canvas(content, window, instance, options);
+        if (ending && *ending == Ending::other_display) return {};
         if (ending && *ending != Ending::closed) {
             BOLT_TRY(remake_instance(instance, options));
             continue;

@@ -68,6 +68,9 @@ class WindowContent {
     virtual Status end() { return {}; }
 
     [[nodiscard]] virtual bool closed() const = 0;
+    // True while the content is to be shown on another display: run_in_window() then returns without a call
+    // of end(), and the caller runs it again with that display.
+    [[nodiscard]] virtual bool wants_other_display() const { return false; }
     // The picture of the window uses WindowFrame::resolution at the moment.
     [[nodiscard]] virtual bool scales_scene() const { return false; }
     // The background of immersive pictures is transparent, to show the real room in a headset with
@@ -121,9 +124,10 @@ struct WindowRunOptions {
 Result<gpu::Instance> make_instance(gpu::InstanceOptions instance_options, xr::Headset* headset,
                                     bool needs_headset);
 
-// Returns when the window is closed. After the loss of the GPU it creates a new GPU context and restarts the
-// content, unless the GPU was lost shortly before (gpu::DeviceLossPolicy). A headset may be found, be lost
-// and return at any time; meanwhile the content is shown in the window.
+// Returns when the window is closed, or the content wants another display. After the loss of the GPU it
+// creates a new GPU context and restarts the content, unless the GPU was lost shortly before
+// (gpu::DeviceLossPolicy). A headset may be found, be lost and return at any time; meanwhile the content is
+// shown in the window.
 Status run_in_window(WindowContent& content, platform::Window& window, gpu::Instance& instance,
                      WindowRunOptions options = {});
 

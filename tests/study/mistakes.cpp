@@ -85,11 +85,12 @@ TEST_CASE("Study: every lesson of the training keeps its measures") {
 
 TEST_CASE("Study: a lesson that cannot be played is a mistake with its place in the plan") {
     StudyFolder folder;
-    const auto first_error = [&](const std::string& settings, const DeviceCheck& devices = {}) {
+    const auto first_error = [&](const std::string& settings,
+                                 const std::function<Status(const std::vector<std::string>&)>& devices = {}) {
         const StudyFolder changed;
         changed.edit(R"("lesson": { "mode": "guided" })",
                      R"("lesson": { "mode": "guided", )" + settings + " }");
-        const StudyCheck check = check_study(changed.load(), changed.path(), devices);
+        const StudyCheck check = check_study(changed.load(), changed.path(), {devices, {}, {}, {}});
         REQUIRE_MESSAGE(check.errors.size() == 1, settings);
         std::string message = check.errors.front().message();
         REQUIRE_MESSAGE(message.starts_with((changed.path() / "study.json").string() + ":12:"), message);
@@ -108,7 +109,8 @@ TEST_CASE("Study: a lesson that cannot be played is a mistake with its place in 
                           }),
               "there is no device novint-falcon; expected another one"));
     const content::Study study = folder.load();
-    CHECK(check_study(study, folder.path(), [](const auto&) -> Status { return {}; }).errors.empty());
+    CHECK(check_study(study, folder.path(), {[](const auto&) -> Status { return {}; }, {}, {}, {}})
+              .errors.empty());
 }
 
 }  // namespace study_mistakes_test
