@@ -1,5 +1,6 @@
 #include "game/motion/path_planning.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -159,6 +160,79 @@ std::optional<ReachPath> side_approach(const FreeSpace& space, const Pose& from,
     return std::nullopt;
 }
 
+// A straight way out of the assembly's box: first `lifted` off the nut, then to a point on a face of the box.
+struct WayOut {
+    Pose lifted, outside;
+    Vec3 face{0.0};  // unit, outward
+    double length = 0.0;
+};
+
+// The box around all obstacles and what a wrench at its faces needs to turn, m.
+collision::BoundingBox box_to_go_around(const FreeSpace& space) {
+    collision::BoundingBox box{Vec3(1e9), Vec3(-1e9)};
+    for (const collision::Body& body : space.contact.world.bodies) {
+        const collision::BoundingBox& own = space.contact.world.shapes[body.shape].solid.box;
+        for (int corner = 0; corner < 8; ++corner) {
+            const Vec3 point = body.pose * Vec3((corner & 1) != 0 ? own.high.x : own.low.x,
+                                                (corner & 2) != 0 ? own.high.y : own.low.y,
+                                                (corner & 4) != 0 ? own.high.z : own.low.z);
+            box = {glm::min(box.low, point), glm::max(box.high, point)};
+        }
+    }
+    return {box.low - Vec3(space.length + clearance), box.high + Vec3(space.length + clearance)};
+}
+
+// The ways out of the box to its four sides and its top, the shortest first.
+std::vector<WayOut> ways_out(const FreeSpace& space, const collision::BoundingBox& box, const Pose& pose) {
+    std::vector<WayOut> ways;
+    const Vec3 along = pose.orientation * Vec3(0, 0, 1);
+    for (const double lift : {0.0, 0.03, 0.08, 0.15})
+        for (const Vec3& face :
+             {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+            const Pose lifted{pose.position + lift * along, pose.orientation};
+            // The point of the box that is furthest out in this direction.
+            const Vec3 border(face.x > 0.0 ? box.high.x : box.low.x, face.y > 0.0 ? box.high.y : box.low.y,
+                              face.z > 0.0 ? box.high.z : box.low.z);
+            const double far = std::max(0.0, glm::dot(border - lifted.position, face));
+            ways.push_back({lifted, {lifted.position + far * face, pose.orientation}, face, lift + far});
+        }
+    std::stable_sort(ways.begin(), ways.end(),
+                     [](const WayOut& a, const WayOut& b) { return a.length < b.length; });
+    std::erase_if(ways, [&](const WayOut& way) {
+        return !space.path_is_free(pose, way.lifted, Vec3(0.0)) ||
+               !space.path_is_free(way.lifted, way.outside, Vec3(0.0));
+    });
+    return ways;
+}
+
+// Plans a path out of the assembly's box, along its faces and in again.
+std::optional<ReachPath> path_around(const FreeSpace& space, const Pose& from, const Pose& to) {
+    const collision::BoundingBox box = box_to_go_around(space);
+    const std::vector<WayOut> out = ways_out(space, box, from), in = ways_out(space, box, to);
+    if (out.empty() || in.empty()) return std::nullopt;
+    const WayOut &first = out.front(), &last = in.front();
+    const Quat turned = to.orientation;
+    ReachPath path{Vec3(0.0), {first.lifted, first.outside}};
+    const auto go_to = [&](const Vec3& position) { path.waypoints.push_back({position, turned}); };
+    // Moves the point p onto the plane of a face, in which it then moves without meeting anything.
+    const auto onto = [](const Vec3& p, const Vec3& face, const Vec3& on_face) {
+        return p + glm::dot(on_face - p, face) * face;
+    };
+    Vec3 at = first.outside.position;
+    if (glm::dot(first.face, last.face) < -0.5) {  // opposite sides: over the top
+        const Vec3 top(0.0, std::max(box.high.y, last.outside.position.y), 0.0);
+        at = onto(at, Vec3(0, 1, 0), top);
+        go_to(at);
+        at = onto(last.outside.position, Vec3(0, 1, 0), top);
+        go_to(at);
+    } else if (first.face != last.face) {
+        go_to(onto(at, last.face, last.outside.position));
+    }
+    go_to(last.outside.position);
+    path.waypoints.push_back(last.lifted);
+    return path;
+}
+
 }  // namespace
 
 ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contact, const Pose& from,
@@ -199,6 +273,7 @@ ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contac
                     return {Vec3(0.0), {unturned, turned}};
             }
     if (std::optional<ReachPath> path = side_approach(space, from, to, up, aside)) return *std::move(path);
+    if (std::optional<ReachPath> path = path_around(space, from, to)) return *std::move(path);
     return path_over(lifts.back());
 }
 

@@ -52,8 +52,8 @@ struct ReachPath {
 
 // Plans a reach in which the wrench touches no obstacle. Tries in this order: an arc with a bulge of at least
 // `min_bulge` m along `up`; an arc with a bulge to a side too; straight up, across and down; a detour through
-// open space where the wrench is turned; a straight approach from beside. If all fail, returns the highest
-// path over the top.
+// open space where the wrench is turned; a straight approach from beside; a path around the whole assembly,
+// such as from its front to its back. If all fail, returns the highest path over the top.
 ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contact, const Pose& from,
                      const Pose& to, const Vec3& up, double min_bulge);
 
