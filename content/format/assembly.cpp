@@ -76,6 +76,18 @@ std::string turned_node(const AssemblyJoint& joint) {
     return joint.design.id + (joint.design.turned == joint::TurnedPart::head ? "_bolt" : "_nut");
 }
 
+bool is_turned_node(const AssemblyJoint& joint, std::string_view mesh_node) {
+    if (mesh_node == turned_node(joint)) return true;
+    return joint.design.turned == joint::TurnedPart::head && !mesh_node.empty() && mesh_node == joint.node;
+}
+
+std::vector<std::string> model_parts(const Assembly& assembly, ModelFile file) {
+    if ((assembly.models.*file).empty()) return {};
+    std::vector<std::string> parts{assembly.models.*file};
+    if (!(assembly.added_models.*file).empty()) parts.push_back(assembly.added_models.*file);
+    return parts;
+}
+
 namespace fs = std::filesystem;
 
 namespace {

@@ -55,7 +55,8 @@ struct PublishedJoint {
 };
 
 struct AssemblyJoint {
-    std::string type;  // name of its joint type
+    std::size_t index_in_file = 0;  // in "joints"; a variant may leave joints out
+    std::string type;               // name of its joint type
     joint::JointDesign design;
     Specification spec;
     PublishedJoint published;
@@ -65,6 +66,10 @@ struct AssemblyJoint {
 
 // Name of the node that a lesson turns: ID_nut, or ID_bolt of a head that is turned.
 std::string turned_node(const AssemblyJoint& joint);
+
+// Returns whether the mesh of a node of this name is the part that a lesson turns: turned_node() or, of a
+// head that is turned, the joint's own node, which then is the screw itself.
+bool is_turned_node(const AssemblyJoint& joint, std::string_view mesh_node);
 
 // run_down: nuts to their seats, by hand. tighten: to a fraction of the target torque. turn: to a fraction of
 // the target angle, whatever the torque. recheck: at the full target torque. loosen: in a loosening lesson.
@@ -109,6 +114,9 @@ struct WrenchDesign {
     double click_accuracy = 0.0;  // relative error of the click torque
 };
 
+// The name of the tool "tool" of a file. Those of "more_tools" have names of their own.
+inline constexpr std::string_view default_tool_name = "wrench";
+
 // A tool that an assembly can be tightened with.
 struct Tool {
     std::string name;
@@ -124,6 +132,9 @@ struct ModelFiles {
     std::string far_level;  // the model with fewer triangles
     std::string contact;    // collision geometry
 };
+
+// A choice of one of them.
+using ModelFile = std::string ModelFiles::*;
 
 // The flange through which the joints interact: a plate on an elastic foundation. The model is our own (see
 // haptics/joint/group.hpp).
@@ -143,33 +154,38 @@ struct NamedView {
     double field_of_view = 0.0;  // rad, vertical
 };
 
-// A variant of the assembly with other materials or fasteners.
+// A variant of the assembly: other materials or fasteners, or a lesson about some of its joints.
 struct AssemblyVariant {
     std::string name;
     std::map<std::string, std::string> title;  // by language; may be empty
 };
 
 struct Assembly {
-    std::string name;                                 // folder name
-    std::string file;                                 // path of assembly.json
-    std::string text;                                 // the file's exact bytes: stored in every session
-    std::map<std::string, std::string> title;         // by language ("en", "de", "zh")
-    std::map<std::string, std::string> instructions;  // by language; the file's key is "lesson"
-    std::string sources;                              // source of the file's numbers; may be empty
+    std::string name;                          // folder name
+    std::string file;                          // path of assembly.json
+    std::string text;                          // the file's exact bytes: stored in every session
+    std::map<std::string, std::string> title;  // by language ("en", "de", "zh")
+    // By language, of the chosen variant or the file; the key is "lesson".
+    std::map<std::string, std::string> instructions;
+    std::string sources;  // source of the file's numbers; may be empty
     joint::Law law = joint::Law::mechanistic;
     std::string variant;                    // name of the chosen variant; empty: none
     std::vector<AssemblyVariant> variants;  // all variants of the file
-    std::vector<AssemblyJoint> joints;
+    std::vector<AssemblyJoint> joints;      // those that the chosen variant works on, in the file's order
     std::vector<Pass> passes;
     std::vector<Pass>
         loosening;            // passes of a loosening lesson; empty: one, in the reverse of the last order
-    std::vector<Tool> tools;  // available tools, the default one first
+    std::vector<Tool> tools;  // those that turn these joints, the default one first
     std::string tool;         // name of the chosen tool
     WrenchDesign wrench;      // of the chosen tool
     FlangeDesign flange;
     ModelFiles models;
+    ModelFiles added_models;  // parts that only the chosen variant shows
     std::vector<NamedView> views;
 };
+
+// The paths of a model and of what the chosen variant adds to it; empty if there is none.
+std::vector<std::string> model_parts(const Assembly& assembly, ModelFile file);
 
 // An assembly without errors, or all errors of the file in the order of the file. Each error has
 // ErrorCode::bad_content, file, line, column and JSON pointer.

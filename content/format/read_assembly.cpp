@@ -15,20 +15,57 @@ namespace {
 
 constexpr double default_field_of_view = to_radians(40.0);
 
-FlangeDesign read_flange(JsonReader& reader) {
-    const LayeredObject file(reader, {reader.member(reader.root(), "flange")});
+// Returns how many of the joints the flange couples: those of its types, or all if it names none.
+std::size_t coupled_joints(JsonReader& reader, const JsonNode& types,
+                           const std::vector<AssemblyJoint>& joints) {
+    if (!types) return joints.size();
+    const JsonNode all = reader.member(reader.root(), "joint_types");
+    std::vector<std::string> known, named;
+    for (const JsonNode& type : reader.items(all)) known.push_back(last_token(type.pointer));
+    for (const JsonNode& item : reader.items(types)) {
+        named.push_back(reader.text(item).value_or(""));
+        if (!known.empty() && std::find(known.begin(), known.end(), named.back()) == known.end() &&
+            reader.is_valid(item.pointer))
+            reader.report(item.pointer,
+                          fmt::format("{} is not a joint type of this file", in_quotes(named.back())),
+                          suggest(named.back(), known));
+    }
+    return static_cast<std::size_t>(
+        std::count_if(joints.begin(), joints.end(), [&](const AssemblyJoint& joint) {
+            return std::find(named.begin(), named.end(), joint.type) != named.end();
+        }));
+}
+
+FlangeDesign read_flange(JsonReader& reader, const std::string& variant,
+                         const std::vector<AssemblyJoint>& joints) {
+    const JsonNode node = reader.member(reader.root(), "flange");
+    const LayeredObject file(reader, {node});
     FlangeDesign flange;
-    flange.joints_interact = !file.objects().empty();
     flange.thickness = file.number("thickness_mm").value_or(0.0) * mm;
     flange.E = file.number("E_GPa").value_or(0.0) * 1e9;
     flange.poisson = file.number("poisson").value_or(flange.poisson);
     flange.interface_stiffness = file.number("interface_stiffness_GPa_per_m").value_or(0.0) * 1e9;
+    const JsonNode types = reader.member(node, "joint_types");
+    const std::size_t coupled = coupled_joints(reader, types, joints);
+    flange.joints_interact = node && (coupled > 0 || joints.empty());
+    const bool types_known = std::none_of(joints.begin(), joints.end(),
+                                          [](const AssemblyJoint& joint) { return joint.type.empty(); });
+    if (node && types_known && coupled > 0 && coupled < joints.size()) {
+        const JsonNode selection = selected_joints(reader, variant);
+        reader.report(selection ? selection.pointer : types.pointer,
+                      fmt::format("the flange couples {} of these {} joints", coupled, joints.size()),
+                      "joints of its types alone, or none of them");
+    }
     return flange;
 }
 
-std::vector<NamedView> read_views(JsonReader& reader) {
+// Reads the views of the file and those that a variant adds.
+std::vector<NamedView> read_views(JsonReader& reader, const JsonNode& variant) {
     std::vector<NamedView> views;
-    for (const JsonNode& node : reader.items(reader.member(reader.root(), "views"))) {
+    std::vector<JsonNode> nodes = reader.items(reader.member(reader.root(), "views"));
+    const std::vector<JsonNode> added = reader.items(reader.member(variant, "views"));
+    nodes.insert(nodes.end(), added.begin(), added.end());
+    for (const JsonNode& node : nodes) {
         NamedView view;
         const JsonNode name = reader.member(node, "name");
         view.name = reader.text(name).value_or("");
@@ -73,41 +110,69 @@ std::string choose_variant(JsonReader& reader, std::string_view requested,
         reader.report(all.pointer,
                       fmt::format("the requested variant {} is not in this file", in_quotes(requested)),
                       suggest_variant(requested, names));
-    return known(requested) ? std::string(requested) : std::string{};
+    return known(requested) ? std::string(requested) : known(fallback) ? fallback : std::string{};
+}
+
+JsonNode variant_of(JsonReader& reader, const std::string& variant) {
+    return variant.empty() ? JsonNode{} : reader.member(reader.member(reader.root(), "variants"), variant);
+}
+
+// The text of the variant or, if it has none, of the file.
+std::map<std::string, std::string> read_lesson(JsonReader& reader, const std::string& variant) {
+    const JsonNode own = reader.member(variant_of(reader, variant), "lesson");
+    return read_texts(reader, own ? own : reader.member(reader.root(), "lesson"));
 }
 
 }  // namespace
+
+JsonNode selected_joints(JsonReader& reader, const std::string& variant) {
+    return reader.member(variant_of(reader, variant), "joints");
+}
 
 Assembly read_assembly(JsonReader& reader, std::string_view variant, const ModelFolders& folders) {
     Assembly assembly;
     const JsonNode root = reader.root();
     reader.member(root, "$schema");  // for editors only
     assembly.title = read_texts(reader, reader.member(root, "title"));
-    assembly.instructions = read_texts(reader, reader.member(root, "lesson"));
     assembly.sources = reader.text(reader.member(root, "sources")).value_or("");
     if (const auto law = reader.text(reader.member(root, "law")))
         assembly.law = joint::law_named(*law).value_or(assembly.law);
-    assembly.flange = read_flange(reader);
-    assembly.views = read_views(reader);
-    assembly.models = read_model_files(reader, folders);
+    assembly.models = read_model_files(reader, root, folders);
 
     for (const JsonNode& node : reader.items(reader.member(root, "variants")))
         assembly.variants.push_back(
             {last_token(node.pointer), read_texts(reader, reader.member(node, "title"))});
+    // In the order of the file, as the author lists them; the document sorts members by name.
+    const auto line_of = [&](const AssemblyVariant& listed) {
+        return reader.line(reader.member(reader.member(root, "variants"), listed.name).pointer,
+                           JsonPart::key);
+    };
+    std::stable_sort(
+        assembly.variants.begin(), assembly.variants.end(),
+        [&](const AssemblyVariant& a, const AssemblyVariant& b) { return line_of(a) < line_of(b); });
     assembly.variant = choose_variant(reader, variant, assembly.variants);
     // The other variants are read only to report their errors. Without a default variant the plain file can
     // be chosen too.
     for (const AssemblyVariant& other : assembly.variants)
         if (other.name != assembly.variant) {
-            const std::vector<AssemblyJoint> joints = read_joints(reader, other.name);
-            read_tools(reader, joints, folders);
-            read_passes(reader, {joints, assembly.views, other.name, folders});
+            const VariantJoints joints = read_variant_joints(reader, other.name);
+            const std::vector<NamedView> views = read_views(reader, variant_of(reader, other.name));
+            read_flange(reader, other.name, joints.joints);
+            read_tools(reader, other.name, joints, folders);
+            read_passes(reader, {joints, views, other.name, folders});
+            read_lesson(reader, other.name);
+            read_added_models(reader, other.name, folders);
         }
-    assembly.joints = read_joints(reader, assembly.variant);
-    assembly.tools = read_tools(reader, assembly.joints, folders);
+    VariantJoints joints = read_variant_joints(reader, assembly.variant);
+    assembly.instructions = read_lesson(reader, assembly.variant);
+    assembly.views = read_views(reader, variant_of(reader, assembly.variant));
+    assembly.flange = read_flange(reader, assembly.variant, joints.joints);
+    assembly.added_models = read_added_models(reader, assembly.variant, folders);
+    assembly.tools = read_tools(reader, assembly.variant, joints, folders);
     assembly.tool = assembly.tools.front().name;
     assembly.wrench = assembly.tools.front().wrench;
-    AssemblyPasses passes = read_passes(reader, {assembly.joints, assembly.views, assembly.variant, folders});
+    AssemblyPasses passes = read_passes(reader, {joints, assembly.views, assembly.variant, folders});
+    assembly.joints = std::move(joints.joints);
     assembly.passes = std::move(passes.tightening);
     assembly.loosening = std::move(passes.loosening);
     return assembly;
@@ -204,12 +269,27 @@ std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode
     return reader.texts(node);
 }
 
-ModelFiles read_model_files(JsonReader& reader, const ModelFolders& folders) {
+ModelFiles read_model_files(JsonReader& reader, const JsonNode& object, const ModelFolders& folders) {
     const auto read = [&](std::string_view key) {
-        return read_file_name(reader, reader.member(reader.root(), key),
+        return read_file_name(reader, reader.member(object, key),
                               {folders.folder, folders.root, "the assembly's folder"}, model_kind);
     };
     return {read("model"), read("model_far"), read("contact_model")};
+}
+
+ModelFiles read_added_models(JsonReader& reader, const std::string& variant, const ModelFolders& folders) {
+    const JsonNode added = reader.member(variant_of(reader, variant), "added_models");
+    for (const char* key : {"model", "model_far", "contact_model"}) {
+        const JsonNode own = reader.member(added, key), file = reader.member(reader.root(), key);
+        if (own && !file && reader.is_valid(file.pointer))
+            reader.report(own.pointer, fmt::format("the file names no {} to add to", in_quotes(key)),
+                          fmt::format("no {} here", in_quotes(key)));
+        if (added && file && !own && reader.is_valid(own.pointer))
+            reader.report(added.pointer,
+                          fmt::format("the added models lack {}, which the file names", in_quotes(key)),
+                          fmt::format("{} of the added parts", in_quotes(key)));
+    }
+    return read_model_files(reader, added, folders);
 }
 
 std::string read_tool_model(JsonReader& reader, const JsonNode& tool, const ModelFolders& folders) {

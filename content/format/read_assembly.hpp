@@ -22,7 +22,21 @@ struct ModelFolders {
 // Checks all variants and returns the requested one (empty: the file's default).
 Assembly read_assembly(JsonReader& reader, std::string_view variant, const ModelFolders& folders = {});
 
+// All joints of the file with the changes of the variant. The changes to a joint type apply only if the
+// variant works on a joint of this type.
 std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& variant);
+
+// The joints that a variant works on.
+struct VariantJoints {
+    std::vector<AssemblyJoint> all;     // of the file
+    std::vector<AssemblyJoint> joints;  // of the variant, in the file's order
+    bool selected = false;              // the variant names them
+    std::vector<std::size_t> order;     // if selected: in the variant's order, indices in `joints`
+};
+VariantJoints read_variant_joints(JsonReader& reader, const std::string& variant);
+// The list "joints" of a variant; missing if it has none.
+JsonNode selected_joints(JsonReader& reader, const std::string& variant);
+
 // The smallest fraction of the target torque that a pass tightens to; 1 if unknown.
 double smallest_pass_fraction(JsonReader& reader, const std::string& variant);
 
@@ -31,7 +45,7 @@ struct AssemblyPasses {
 };
 // The parts of an assembly that its passes refer to.
 struct PassContext {
-    const std::vector<AssemblyJoint>& joints;
+    const VariantJoints& joints;
     const std::vector<NamedView>& views;
     const std::string& variant;
     const ModelFolders& folders;
@@ -39,11 +53,14 @@ struct PassContext {
 AssemblyPasses read_passes(JsonReader& reader, const PassContext& context);
 // The member "instruction" of a pass.
 Instruction read_instruction(JsonReader& reader, const JsonNode& pass, const PassContext& context);
-ModelFiles read_model_files(JsonReader& reader, const ModelFolders& folders);
+// The models that an object names: the file, or what a variant adds.
+ModelFiles read_model_files(JsonReader& reader, const JsonNode& object, const ModelFolders& folders);
+// The models that a variant adds; reports those that the file lacks or that the variant lacks.
+ModelFiles read_added_models(JsonReader& reader, const std::string& variant, const ModelFolders& folders);
 // Texts by language: the members of an object.
 std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode& object);
-// The default tool, then the alternatives.
-std::vector<Tool> read_tools(JsonReader& reader, const std::vector<AssemblyJoint>& joints,
+// The default tool, then the alternatives. A variant that names its joints has only the tools that turn them.
+std::vector<Tool> read_tools(JsonReader& reader, const std::string& variant, const VariantJoints& joints,
                              const ModelFolders& folders);
 std::string read_tool_model(JsonReader& reader, const JsonNode& tool, const ModelFolders& folders);
 

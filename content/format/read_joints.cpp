@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -278,13 +279,35 @@ struct JointTypes {
     JsonNode patches;      // of the variant, by type
     YoungsModuli moduli;
     double smallest_pass_fraction;  // smallest fraction of the target torque of all passes
+    // Types of the joints that the variant leaves out. Neither its patches nor its passes concern them.
+    std::set<std::string, std::less<>> unused;
     std::map<std::string, JointType> read;
 
     LayeredObject layers(const std::string& name) {
-        if (!patched) return {reader, {reader.member(all, name)}};
+        if (!patched || unused.contains(name)) return {reader, {reader.member(all, name)}};
         return {reader, {reader.member(patches, name), every_patch, reader.member(all, name)}};
     }
+    [[nodiscard]] double smallest_fraction(const std::string& name) const {
+        return unused.contains(name) ? 1.0 : smallest_pass_fraction;
+    }
 };
+
+// The types of which a variant with joints of its own works on none.
+std::set<std::string, std::less<>> unused_types(JsonReader& reader, const std::string& variant) {
+    const JsonNode selection = selected_joints(reader, variant);
+    std::set<std::string, std::less<>> ids, used, unused;
+    for (const JsonNode& id : reader.items(selection)) ids.insert(reader.text(id).value_or(""));
+    if (!selection) return unused;
+    const std::vector<JsonNode> joints = reader.items(reader.member(reader.root(), "joints"));
+    const auto type_of = [&](const JsonNode& joint) {
+        return reader.text(reader.member(joint, "type")).value_or("");
+    };
+    for (const JsonNode& joint : joints)
+        if (ids.contains(reader.text(reader.member(joint, "id")).value_or(""))) used.insert(type_of(joint));
+    for (const JsonNode& joint : joints)
+        if (!used.contains(type_of(joint))) unused.insert(type_of(joint));
+    return unused;
+}
 
 Vec3 read_axis(JsonReader& reader, const JsonNode& joint) {
     const JsonNode node = reader.member(joint, "axis");
@@ -312,7 +335,7 @@ AssemblyJoint read_joint(JointTypes& types, const JsonNode& node) {
             std::vector<JsonNode> objects = types.layers(joint.type).objects();
             objects.insert(objects.begin(), override);
             type = read_joint_type(LayeredObject(reader, std::move(objects)), types.moduli,
-                                   types.smallest_pass_fraction);
+                                   types.smallest_fraction(joint.type));
         }
         joint.design = std::move(type.design);
         joint.spec = type.spec;
@@ -390,12 +413,13 @@ std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& va
                      reader.member(patch, "joint_types"),
                      read_youngs_moduli(reader),
                      smallest_pass_fraction(reader, variant),
+                     unused_types(reader, variant),
                      {}};
     const std::vector<std::string> type_names = names_of(reader, types.all);
     const bool has_types = static_cast<bool>(types.all);
     for (const std::string& name : type_names)
         types.read.emplace(name,
-                           read_joint_type(types.layers(name), types.moduli, types.smallest_pass_fraction));
+                           read_joint_type(types.layers(name), types.moduli, types.smallest_fraction(name)));
     for (const JsonNode& node : reader.items(types.patches))
         if (has_types && !types.read.contains(last_token(node.pointer)))
             report_unknown(reader, node.pointer, JsonPart::key, "joint type of this file",
@@ -405,6 +429,7 @@ std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& va
     std::vector<AssemblyJoint> joints;
     for (const JsonNode& node : nodes) {
         joints.push_back(read_joint(types, node));
+        joints.back().index_in_file = joints.size() - 1;
         const JsonNode type = reader.member(node, "type");
         if (type && has_types && !types.read.contains(joints.back().type))
             report_unknown(reader, type.pointer, JsonPart::value, "joint type of this file",

@@ -32,8 +32,12 @@ struct JointIds {
     std::vector<int> uses;           // number of joints with this id
     std::size_t without_id = 0;      // joints whose id is invalid or missing
     std::string repeated;  // text that describes the first joint with a repeated id; empty if there is none
-    std::size_t repeats = 0;  // number of joints with a repeated id
+    std::size_t repeats = 0;          // number of joints with a repeated id
+    const char* owner = "this file";  // "B1 is not a joint of <owner>"
 };
+
+// What an order must contain.
+enum class OrderRule : std::uint8_t { every_joint, some_joints };
 
 JointIds read_ids(JsonReader& reader, const std::vector<AssemblyJoint>& joints) {
     JointIds ids;
@@ -52,8 +56,9 @@ JointIds read_ids(JsonReader& reader, const std::vector<AssemblyJoint>& joints) 
             ++ids.uses[known];
             ++ids.repeats;
             if (ids.repeated.empty())
-                ids.repeated = fmt::format("the joint in line {}, whose id is a repetition",
-                                           reader.line(reader.member(nodes[i], "id").pointer));
+                ids.repeated =
+                    fmt::format("the joint in line {}, whose id is a repetition",
+                                reader.line(reader.member(nodes[joints[i].index_in_file], "id").pointer));
         }
     }
     return ids;
@@ -69,9 +74,10 @@ std::string suggest_joint(std::string_view id, const std::vector<std::string>& m
                              nearest_name(id, missing).empty() ? "expected " : "", suggest(id, missing));
 }
 
-// Reads an order, which must contain every joint once. An unknown name probably stands for a missing joint
+// Reads an order, which contains no joint twice. An unknown name probably stands for a missing joint
 // (only the name is then reported), or for a joint without a valid id (the name is then not reported).
-std::vector<std::size_t> read_order(JsonReader& reader, const JsonNode& node, const JointIds& ids) {
+std::vector<std::size_t> read_order(JsonReader& reader, const JsonNode& node, const JointIds& ids,
+                                    OrderRule rule = OrderRule::every_joint) {
     std::vector<std::size_t> order;
     std::vector<JsonNode> unknown;
     std::vector<int> named(ids.names.size());
@@ -99,10 +105,11 @@ std::vector<std::size_t> read_order(JsonReader& reader, const JsonNode& node, co
     if (unknown.size() > ids.without_id || ids.repeats > 0)
         for (const JsonNode& item : unknown) {
             const std::string id = reader.text(item).value_or("");
-            reader.report(item.pointer, fmt::format("{} is not a joint of this file", in_quotes(id)),
+            reader.report(item.pointer, fmt::format("{} is not a joint of {}", in_quotes(id), ids.owner),
                           suggest_joint(id, missing, ids.repeated));
         }
-    if (!missing.empty() && missing.size() + ids.without_id + ids.repeats > unknown.size())
+    if (rule == OrderRule::every_joint && !missing.empty() &&
+        missing.size() + ids.without_id + ids.repeats > unknown.size())
         reader.report(node.pointer, missing_text(missing) + " in this order", "every joint once");
     return order;
 }
@@ -302,15 +309,53 @@ double smallest_pass_fraction(JsonReader& reader, const std::string& variant) {
     return least;
 }
 
+VariantJoints read_variant_joints(JsonReader& reader, const std::string& variant) {
+    VariantJoints result;
+    result.all = read_joints(reader, variant);
+    const JsonNode selection = selected_joints(reader, variant);
+    result.selected = static_cast<bool>(selection);
+    if (!result.selected) {
+        result.joints = result.all;
+        return result;
+    }
+    if (result.all.empty()) return result;
+    const std::vector<std::size_t> order =
+        read_order(reader, selection, read_ids(reader, result.all), OrderRule::some_joints);
+    std::vector<std::size_t> sorted = order;
+    std::sort(sorted.begin(), sorted.end());
+    for (const std::size_t joint : sorted) result.joints.push_back(result.all[joint]);
+    for (const std::size_t joint : order)
+        result.order.push_back(
+            static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), joint) - sorted.begin()));
+    return result;
+}
+
 AssemblyPasses read_passes(JsonReader& reader, const PassContext& context) {
-    const std::vector<AssemblyJoint>& joints = context.joints;
-    const JointIds ids = read_ids(reader, joints);
+    const std::vector<AssemblyJoint>& joints = context.joints.joints;
+    JointIds ids = read_ids(reader, joints);
     const JsonNode common_node = reader.member(reader.root(), "order");
     std::vector<std::size_t> common = listed_order(joints.size());
-    if (common_node && !joints.empty()) common = read_order(reader, common_node, ids);
+    if (common_node && !context.joints.all.empty()) {
+        // The file's order has all joints, also if this variant leaves some out.
+        const std::vector<std::size_t> whole =
+            read_order(reader, common_node, read_ids(reader, context.joints.all));
+        if (!context.joints.selected) common = whole;
+    }
+    if (context.joints.selected) {
+        common = context.joints.order;
+        ids.owner = "this variant";
+    }
     const auto order_of = [&](const JsonNode& pass, const std::vector<std::size_t>& usual) {
         const JsonNode order = reader.member(pass, "order");
-        return order && !joints.empty() ? read_order(reader, order, ids) : usual;
+        if (!order || joints.empty()) return usual;
+        // A pass of the file has all its joints; those that this variant leaves out are skipped.
+        const bool of_file = !pass.pointer.starts_with("/variants/");
+        if (!of_file || !context.joints.selected) return read_order(reader, order, ids);
+        std::vector<std::size_t> own;
+        for (const std::size_t joint : read_order(reader, order, read_ids(reader, context.joints.all)))
+            for (std::size_t i = 0; i < joints.size(); ++i)
+                if (joints[i].index_in_file == joint) own.push_back(i);
+        return own;
     };
 
     AssemblyPasses result;

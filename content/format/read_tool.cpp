@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <numeric>
+#include <set>
 #include <utility>
 
 #include "content/format/json_document.hpp"
@@ -17,7 +19,6 @@ namespace {
 
 constexpr double max_jaw_play = 0.6e-3;  // m, of a jaw on a nut
 constexpr double default_head_angle = to_radians(15.0);
-constexpr std::string_view default_tool_name = "wrench";
 constexpr double default_click_swing_deg = 4.0;
 constexpr double default_accuracy_percent = 4.0;  // ISO 6789-1: type II, class A, above 10 N·m
 constexpr double default_teeth = 72.0;
@@ -111,19 +112,45 @@ void read_drive(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wre
     wrench.extension = extension.value_or(0.0) * mm;
 }
 
-// Reports a tool whose size fits no part, or not the part that its joint has. `width`: m, of the tool.
+bool grips_inside(const WrenchDesign& wrench) {
+    return wrench.head == ToolHead::hex_key || wrench.head == ToolHead::hex_bit;
+}
+
+// m, by which the tool may be wider than the part.
+double most_play(const WrenchDesign& wrench) {
+    return wrench.head == ToolHead::open_end ? max_jaw_play : 0.0;
+}
+
+// `width`: m, of the tool. `s`: m, across flats of the part.
+bool has_width(const WrenchDesign& wrench, double width, double s) {
+    return width > s - 1e-9 && width < s + most_play(wrench) + 1e-9;
+}
+
+bool suits(const WrenchDesign& wrench, const AssemblyJoint& joint) {
+    const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
+    const double width = wrench.head == ToolHead::open_end ? wrench.jaw : wrench.size;
+    return (part.depth > 0.0) == grips_inside(wrench) && part.across_flats > 0.0 &&
+           has_width(wrench, width, part.across_flats);
+}
+
+bool suits_any(const WrenchDesign& wrench, const std::vector<AssemblyJoint>& joints) {
+    return std::any_of(joints.begin(), joints.end(),
+                       [&](const AssemblyJoint& joint) { return suits(wrench, joint); });
+}
+
+// Reports a tool whose size fits no part, or not the part that its joint has.
 void check_fit(JsonReader& reader, const Located<double>& given, const WrenchDesign& wrench,
                const std::vector<AssemblyJoint>& joints) {
-    const bool inside = wrench.head == ToolHead::hex_key || wrench.head == ToolHead::hex_bit;
+    const bool inside = grips_inside(wrench);
     const double width = *given * mm;
-    const double play = wrench.head == ToolHead::open_end ? max_jaw_play : 0.0;
+    const double play = most_play(wrench);
     const std::string name =
         wrench.head == ToolHead::open_end ? std::string("a jaw") : std::string(title_of(wrench.head));
     for (const AssemblyJoint& joint : joints) {
         const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
         const double s = part.across_flats;
         if ((part.depth > 0.0) != inside || s <= 0.0) continue;
-        if (width > s - 1e-9 && width < s + play + 1e-9) continue;
+        if (has_width(wrench, width, s)) continue;
         reader.report(given.pointer,
                       fmt::format("{} of {:g} mm does not fit {}, {:g} mm across flats", name, *given,
                                   joint.design.thread.size.name, s / mm),
@@ -160,35 +187,6 @@ void read_open_end(JsonReader& reader, const LayeredObject& tool, WrenchDesign& 
     refuse(reader, tool, {"size_mm"}, "an open end is given by its opening", "\"jaw_mm\"");
 }
 
-WrenchDesign read_tool(JsonReader& reader, const JsonNode& node, const std::vector<AssemblyJoint>& joints) {
-    const LayeredObject tool(reader, {node});
-    WrenchDesign wrench;
-    read_kind(reader, tool, wrench);
-    read_click(reader, tool, wrench);
-    read_drive(reader, tool, wrench);
-    wrench.handle_length = tool.number("handle_length_mm").value_or(0.0) * mm;
-    const bool open_end = wrench.head == ToolHead::open_end;
-    if (open_end) {
-        read_open_end(reader, tool, wrench);
-        check_jaw_room(reader, tool, joints);
-    } else {
-        refuse(reader, tool, {"jaw_mm", "head_thickness_mm", "jaw_depth_mm", "jaw_tip_mm", "head_angle_deg"},
-               fmt::format("{} has no jaw", title_of(wrench.head)), "\"size_mm\" alone");
-    }
-    const auto given = tool.number(open_end ? "jaw_mm" : "size_mm");
-    (open_end ? wrench.jaw : wrench.size) = given.value_or(0.0) * mm;
-    if (given)
-        check_fit(reader, given, wrench, joints);
-    else if (tool.all_valid({"kind", "head", "jaw_mm", "size_mm"}) && node.value != nullptr)
-        reader.report(node.pointer, fmt::format("the size of {} is missing", title_of(wrench.head)),
-                      open_end ? "\"jaw_mm\", its opening" : "\"size_mm\", its width across flats");
-    return wrench;
-}
-
-}  // namespace
-
-namespace {
-
 // The joints that a tool is to turn: those that name it; if none does, those that name no tool.
 std::vector<AssemblyJoint> joints_of(std::string_view tool, const std::vector<AssemblyJoint>& joints) {
     std::vector<AssemblyJoint> own, free;
@@ -199,10 +197,80 @@ std::vector<AssemblyJoint> joints_of(std::string_view tool, const std::vector<As
     return own.empty() ? free : own;
 }
 
+// A tool as read from the file.
+struct ParsedTool {
+    JsonNode node;
+    Located<double> size;  // mm, its opening or its width across flats
+    Tool tool;
+};
+
+ParsedTool parse_tool(JsonReader& reader, std::string name, const JsonNode& node,
+                      const ModelFolders& folders) {
+    ParsedTool parsed{node, {}, {std::move(name), read_texts(reader, reader.member(node, "title")), {}}};
+    const LayeredObject file(reader, {node});
+    WrenchDesign& wrench = parsed.tool.wrench;
+    read_kind(reader, file, wrench);
+    read_click(reader, file, wrench);
+    read_drive(reader, file, wrench);
+    wrench.handle_length = file.number("handle_length_mm").value_or(0.0) * mm;
+    const bool open_end = wrench.head == ToolHead::open_end;
+    if (open_end)
+        read_open_end(reader, file, wrench);
+    else
+        refuse(reader, file, {"jaw_mm", "head_thickness_mm", "jaw_depth_mm", "jaw_tip_mm", "head_angle_deg"},
+               fmt::format("{} has no jaw", title_of(wrench.head)), "\"size_mm\" alone");
+    parsed.size = file.number(open_end ? "jaw_mm" : "size_mm");
+    (open_end ? wrench.jaw : wrench.size) = parsed.size.value_or(0.0) * mm;
+    if (!parsed.size && file.all_valid({"kind", "head", "jaw_mm", "size_mm"}) && node.value != nullptr)
+        reader.report(node.pointer, fmt::format("the size of {} is missing", title_of(wrench.head)),
+                      open_end ? "\"jaw_mm\", its opening" : "\"size_mm\", its width across flats");
+    wrench.model = read_tool_model(reader, node, folders);
+    for (const JsonNode& other : reader.items(reader.member(node, "instead")))
+        parsed.tool.instead[last_token(other.pointer)] = reader.text(other).value_or("");
+    return parsed;
+}
+
+// Checks that a tool fits the joints that it is to turn.
+void check_sizes(JsonReader& reader, const ParsedTool& parsed, const std::vector<AssemblyJoint>& joints) {
+    const WrenchDesign& wrench = parsed.tool.wrench;
+    if (wrench.head == ToolHead::open_end)
+        check_jaw_room(reader, LayeredObject(reader, {parsed.node}), joints);
+    if (parsed.size) check_fit(reader, parsed.size, wrench, joints);
+}
+
+// Returns the indices of the tools that turn the joints of a variant that names its joints: those that a
+// joint names and those that fit a joint which names none, with the tools that they name instead; the `first`
+// one stays in any case. If no tool fits, the default one is returned, so that its error is reported.
+std::vector<std::size_t> tools_of_selection(const std::vector<ParsedTool>& tools, std::string_view first,
+                                            const std::vector<AssemblyJoint>& joints) {
+    std::vector<AssemblyJoint> free;
+    std::set<std::string_view> names;
+    for (const AssemblyJoint& joint : joints)
+        joint.tool.empty() ? free.push_back(joint) : (void)names.insert(joint.tool);
+    for (const ParsedTool& parsed : tools) {
+        const Tool& tool = parsed.tool;
+        if (tool.name != first && !suits_any(tool.wrench, free)) continue;
+        names.insert(tool.name);
+        for (const AssemblyJoint& joint : free)
+            if (const auto other = tool.instead.find(joint.design.id); other != tool.instead.end())
+                names.insert(other->second);
+    }
+    const bool lacks_tool =
+        !free.empty() && std::none_of(tools.begin(), tools.end(), [&](const auto& parsed) {
+            return parsed.tool.name == first || suits_any(parsed.tool.wrench, free);
+        });
+    if (lacks_tool || names.empty()) names.insert(default_tool_name);
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < tools.size(); ++i)
+        if (names.contains(tools[i].tool.name)) kept.push_back(i);
+    return kept;
+}
+
 // Reports each place that names a tool which the file lacks.
 void check_names(JsonReader& reader, const std::vector<Tool>& tools) {
     std::vector<std::string> names;
     for (const Tool& tool : tools) names.push_back(tool.name);
+    if (!reader.is_valid(reader.member(reader.root(), "more_tools").pointer)) return;
     const auto check_name = [&](const JsonNode& node) {
         const auto name = reader.text(node);
         if (!name || std::find(names.begin(), names.end(), *name) != names.end()) return;
@@ -220,6 +288,7 @@ void check_names(JsonReader& reader, const std::vector<Tool>& tools) {
     for (const JsonNode& joint : reader.items(reader.member(reader.root(), "joints")))
         check(reader.member(joint, "override"));
     for (const JsonNode& variant : reader.items(reader.member(reader.root(), "variants"))) {
+        check(variant);
         check(reader.member(variant, "every_joint_type"));
         for (const JsonNode& patch : reader.items(reader.member(variant, "joint_types"))) check(patch);
     }
@@ -246,28 +315,39 @@ void check_instead(JsonReader& reader, const std::vector<AssemblyJoint>& joints)
 
 }  // namespace
 
-std::vector<Tool> read_tools(JsonReader& reader, const std::vector<AssemblyJoint>& joints,
+std::vector<Tool> read_tools(JsonReader& reader, const std::string& variant, const VariantJoints& joints,
                              const ModelFolders& folders) {
-    std::vector<Tool> tools;
-    const auto read = [&](std::string name, const JsonNode& node) {
-        const std::vector<AssemblyJoint> turned = joints_of(name, joints);
-        Tool tool{std::move(name), read_texts(reader, reader.member(node, "title")),
-                  read_tool(reader, node, turned)};
-        tool.wrench.model = read_tool_model(reader, node, folders);
-        for (const JsonNode& other : reader.items(reader.member(node, "instead")))
-            tool.instead[last_token(other.pointer)] = reader.text(other).value_or("");
-        tools.push_back(std::move(tool));
-    };
-    read(std::string(default_tool_name), reader.member(reader.root(), "tool"));
+    std::vector<ParsedTool> parsed;
+    parsed.push_back(
+        parse_tool(reader, std::string(default_tool_name), reader.member(reader.root(), "tool"), folders));
     for (const JsonNode& node : reader.items(reader.member(reader.root(), "more_tools"))) {
         const std::string name = last_token(node.pointer);
         if (name == default_tool_name)
             reader.report(node.pointer, fmt::format("{} is the name of \"tool\"", in_quotes(name)),
                           "another name", JsonPart::key);
-        read(name, node);
+        parsed.push_back(parse_tool(reader, name, node, folders));
     }
-    check_names(reader, tools);
-    check_instead(reader, joints);
+    std::vector<Tool> all;
+    for (const ParsedTool& tool : parsed) all.push_back(tool.tool);
+    check_names(reader, all);
+    check_instead(reader, joints.all);
+
+    const JsonNode variants = reader.member(reader.root(), "variants");
+    const std::string first =
+        reader.text(reader.member(reader.member(variants, variant), "tool")).value_or("");
+    std::vector<std::size_t> kept(parsed.size());
+    std::iota(kept.begin(), kept.end(), std::size_t{0});
+    if (joints.selected) {
+        for (const ParsedTool& tool : parsed)  // a tool of another variant
+            if (!suits_any(tool.tool.wrench, joints.all)) check_sizes(reader, tool, joints.all);
+        kept = tools_of_selection(parsed, first, joints.joints);
+    }
+    std::vector<Tool> tools;
+    for (const std::size_t i : kept) {
+        check_sizes(reader, parsed[i], joints_of(parsed[i].tool.name, joints.joints));
+        tools.push_back(parsed[i].tool);
+    }
+    std::stable_partition(tools.begin(), tools.end(), [&](const Tool& tool) { return tool.name == first; });
     return tools;
 }
 

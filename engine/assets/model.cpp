@@ -1,9 +1,64 @@
 #include "engine/assets/model.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace bolt::assets {
+
+namespace {
+
+void shift(int& index, std::size_t by) {
+    if (index >= 0) index += static_cast<int>(by);
+}
+
+void shift_textures(Material& material, std::size_t by) {
+    for (TextureRef* texture :
+         {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+          &material.occlusion_texture, &material.emissive_texture, &material.clearcoat_texture,
+          &material.clearcoat_roughness_texture, &material.clearcoat_normal_texture,
+          &material.anisotropy_texture, &material.specular_texture, &material.specular_color_texture})
+        shift(texture->texture, by);
+}
+
+template <class T>
+void move_to_end(std::vector<T>& all, std::vector<T>& added) {
+    all.insert(all.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
+}
+
+}  // namespace
+
+void append(Model& model, Model added) {
+    for (Node& node : added.nodes) {
+        for (int& child : node.children) shift(child, model.nodes.size());
+        shift(node.mesh, model.meshes.size());
+        shift(node.skin, model.skins.size());
+        shift(node.camera, model.cameras.size());
+        shift(node.light, model.lights.size());
+    }
+    for (int& root : added.roots) shift(root, model.nodes.size());
+    for (Mesh& mesh : added.meshes)
+        for (Primitive& primitive : mesh.primitives) shift(primitive.material, model.materials.size());
+    for (Material& material : added.materials) shift_textures(material, model.textures.size());
+    for (Texture& texture : added.textures) shift(texture.image, model.images.size());
+    for (Skin& skin : added.skins) {
+        for (int& joint : skin.joints) shift(joint, model.nodes.size());
+        shift(skin.skeleton, model.nodes.size());
+    }
+    for (Animation& animation : added.animations)
+        for (Channel& channel : animation.channels) shift(channel.node, model.nodes.size());
+    move_to_end(model.nodes, added.nodes);
+    move_to_end(model.roots, added.roots);
+    move_to_end(model.meshes, added.meshes);
+    move_to_end(model.materials, added.materials);
+    move_to_end(model.textures, added.textures);
+    move_to_end(model.images, added.images);
+    move_to_end(model.skins, added.skins);
+    move_to_end(model.lights, added.lights);
+    move_to_end(model.cameras, added.cameras);
+    move_to_end(model.animations, added.animations);
+}
 
 std::vector<std::uint32_t> triangle_indices(const Primitive& primitive) {
     std::vector<std::uint32_t> corners = primitive.indices;

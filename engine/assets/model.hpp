@@ -176,6 +176,9 @@ struct Model {
     std::vector<Animation> animations = {};
 };
 
+// Adds another model, with its own meshes and materials. Its root nodes stand beside those of `model`.
+void append(Model& model, Model added);
+
 // Returns three vertex indices per triangle, wound as glTF defines for strips and fans; empty for points and
 // lines.
 std::vector<std::uint32_t> triangle_indices(const Primitive& primitive);

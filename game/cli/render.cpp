@@ -30,7 +30,7 @@ namespace bolt::cli {
 namespace {
 
 struct RenderOptions {
-    std::string what, png = "out/render.png", timings, light = "studio", gpu;
+    std::string what, variant, png = "out/render.png", timings, light = "studio", gpu;
     std::vector<std::string> views;
     std::string joint;
     view::Highlights highlights;
@@ -158,8 +158,9 @@ Result<std::vector<view::Viewpoint>> viewpoints(const RenderOptions& options, co
 }
 
 // The name of the view with the greatest visible area of the joint's nut.
-Result<std::string> view_of_joint(const std::string& what, const std::string& id) {
-    const content::LoadedAssembly loaded = content::load_assembly(what);
+Result<std::string> view_of_joint(const std::string& what, const std::string& variant,
+                                  const std::string& id) {
+    const content::LoadedAssembly loaded = content::load_assembly(what, variant);
     if (!loaded.ok()) return fail(loaded.errors.front());
     const content::Assembly& assembly = loaded.assembly;
     const auto joint =
@@ -188,7 +189,7 @@ Result<std::string> view_of_joint(const std::string& what, const std::string& id
 
 // Loads the model, and checks that it has what the options name; replaces a joint by the view that shows it.
 Result<view::LoadedModel> load_subject(RenderOptions& options) {
-    view::ModelLoadResult loaded = view::load_model(options.what);
+    view::ModelLoadResult loaded = view::load_model(options.what, view::DetailLevel::near, options.variant);
     if (!loaded.ok()) return fail(loaded.errors.front());
     if (options.labels && loaded.model.without_assembly)
         return fail(ErrorCode::usage, "a bare model has no joints to label", "an assembly");
@@ -196,7 +197,7 @@ Result<view::LoadedModel> load_subject(RenderOptions& options) {
     if (!options.joint.empty()) {
         if (loaded.model.without_assembly)
             return fail(ErrorCode::usage, "a bare model has no joint to show", "an assembly");
-        BOLT_TRY_ASSIGN(auto view, view_of_joint(options.what, options.joint));
+        BOLT_TRY_ASSIGN(auto view, view_of_joint(options.what, options.variant, options.joint));
         options.views = {std::move(view)};
     }
     std::vector<std::string> names = options.views;
@@ -301,6 +302,8 @@ void add_render(CLI::App& app, int& exit_code) {
         ->add_option("--joint", options->joint,
                      "Draw from the named view that shows most of this joint's nut")
         ->excludes(views);
+    command->add_option("--variant", options->variant,
+                        "Variant of the assembly; default: the assembly's own");
     command->add_option("--inset", options->inset, "Named view to draw small in the lower right corner");
     command->add_flag("--labels", options->labels, "Label the joints with their names");
     command->add_option("--eye", options->eye, "Position of the eye: X,Y,Z in metres");

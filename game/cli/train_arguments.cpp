@@ -49,8 +49,7 @@ const CLI::Validator whole_number(
 void add_lesson_options(CLI::App& train, TrainArguments& options) {
     train.add_option("assembly", options.assembly, "Assembly: folder, file, or name in content/assemblies")
         ->capture_default_str();
-    train.add_option("--variant", options.variant,
-                     "Material variant of the assembly; default: the assembly's own");
+    train.add_option("--variant", options.variant, "Variant of the assembly; default: the assembly's own");
     train.add_option("--tool", options.tool, "One of the assembly's tools; default: the first");
     train
         .add_option("--mode", options.mode,

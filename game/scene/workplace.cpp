@@ -69,7 +69,8 @@ Result<gpu::Image> upload_picture(gpu::Device& device, const assets::Bitmap& pic
 
 Result<LessonModels> load_lesson_models(const content::Assembly& assembly, hand::Side side) {
     LessonModels models;
-    view::ModelLoadResult workpiece = view::load_model(assembly.file);
+    view::ModelLoadResult workpiece =
+        view::load_model(assembly.file, view::DetailLevel::near, assembly.variant);
     if (!workpiece.ok()) return fail(workpiece.errors.front());
     models.workpiece = std::move(workpiece.model);
     const std::filesystem::path content = content::content_folder();
@@ -183,7 +184,7 @@ Status add_workpiece(Workplace& workplace, const LessonModels& models, const Gpu
         if (joints[node] < 0) continue;
         const auto joint = static_cast<std::size_t>(joints[node]);
         workplace.world.add<JointPart>(entity, joint);
-        if (model.nodes[node].name != content::turned_node(assembly.joints[joint])) continue;
+        if (!content::is_turned_node(assembly.joints[joint], model.nodes[node].name)) continue;
         workplace.world.add<NutPart>(
             entity, joint, nut_from_mesh(model.meshes[object.mesh], object.world, setup.nuts[joint]));
         workplace.world.get<Drawable>(entity).moves = true;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <iterator>
 
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
@@ -224,10 +225,15 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
                                                          const servo::Setup& setup) {
     if (missing_contact_model(assembly)) return std::nullopt;
     const std::filesystem::path file = assembly.models.contact;
-    BOLT_TRY_ASSIGN(const auto nodes, read_mesh_nodes(file));
-    BOLT_TRY_ASSIGN(const auto file_identity, identity_of(file));
     ContactModels models;
-    models.files = file_identity;
+    std::vector<MeshNode> nodes;
+    for (const std::filesystem::path part : content::model_parts(assembly, &content::ModelFiles::contact)) {
+        BOLT_TRY_ASSIGN(auto part_nodes, read_mesh_nodes(part));
+        BOLT_TRY_ASSIGN(const auto identity, identity_of(part));
+        models.files += (models.files.empty() ? "" : "; ") + identity;
+        nodes.insert(nodes.end(), std::make_move_iterator(part_nodes.begin()),
+                     std::make_move_iterator(part_nodes.end()));
+    }
     std::vector<std::vector<collision::ContactMesh>> tools;
     for (const content::WrenchDesign* design :
          content::designs_of(assembly, content::lesson_tools(assembly))) {
@@ -240,7 +246,7 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
     for (const MeshNode& mesh_node : nodes) {
         std::size_t joint = 0;
         while (joint < assembly.joints.size() &&
-               mesh_node.node != content::turned_node(assembly.joints[joint]))
+               !content::is_turned_node(assembly.joints[joint], mesh_node.node))
             ++joint;
         const bool is_nut = joint < setup.nuts.size() && joint < assembly.joints.size();
         BOLT_TRY_ASSIGN(auto mesh,

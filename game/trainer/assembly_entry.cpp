@@ -24,18 +24,25 @@ std::string sizes_of(const content::Assembly& assembly) {
     return text;
 }
 
-// The variant that is played unless another is chosen comes first.
-std::vector<content::AssemblyVariant> variants_of(const content::Assembly& assembly) {
-    std::vector<content::AssemblyVariant> variants = assembly.variants;
-    std::stable_partition(variants.begin(), variants.end(),
-                          [&](const auto& variant) { return variant.name == assembly.variant; });
-    return variants;
+VariantEntry variant_entry(const content::Assembly& assembly, content::AssemblyVariant variant) {
+    VariantEntry entry{
+        std::move(variant), assembly.instructions, {}, assembly.joints.size(), sizes_of(assembly)};
+    for (const content::Tool* tool : content::choosable_tools(assembly)) entry.tools.push_back(*tool);
+    return entry;
 }
 
-std::vector<content::Tool> tools_of(const content::Assembly& assembly) {
-    std::vector<content::Tool> tools;
-    for (const content::Tool* tool : content::choosable_tools(assembly)) tools.push_back(*tool);
-    return tools;
+// The variant that is played unless another is chosen comes first.
+std::vector<VariantEntry> variants_of(const content::Assembly& assembly) {
+    std::vector<VariantEntry> entries;
+    for (const content::AssemblyVariant& variant : assembly.variants)
+        entries.push_back(
+            variant.name == assembly.variant
+                ? variant_entry(assembly, variant)
+                : variant_entry(content::load_assembly(assembly.file, variant.name).assembly, variant));
+    std::stable_partition(entries.begin(), entries.end(),
+                          [&](const VariantEntry& entry) { return entry.variant.name == assembly.variant; });
+    if (entries.empty()) entries.push_back(variant_entry(assembly, {}));
+    return entries;
 }
 
 AssemblyEntry entry_of(const std::string& name) {
@@ -44,12 +51,8 @@ AssemblyEntry entry_of(const std::string& name) {
     AssemblyEntry entry{name,
                         assembly.variant,
                         assembly.title,
-                        assembly.instructions,
-                        variants_of(assembly),
-                        tools_of(assembly),
+                        loaded.ok() ? variants_of(assembly) : std::vector<VariantEntry>(1),
                         assembly.law,
-                        assembly.joints.size(),
-                        sizes_of(assembly),
                         loaded.ok() && !session::missing_contact_model(assembly),
                         {}};
     if (!loaded.ok()) {
@@ -79,21 +82,29 @@ std::string in_language(const std::map<std::string, std::string>& texts, const s
     return fallback;
 }
 
-std::string joints_text(const words::Words& words, const AssemblyEntry& entry) {
-    if (entry.joints == 1) return words::format_text(words, "menu.facts.one", {{"sizes", entry.sizes}});
+const VariantEntry& variant_of(const AssemblyEntry& entry, const std::string& variant) {
+    const auto found =
+        std::find_if(entry.variants.begin(), entry.variants.end(),
+                     [&](const VariantEntry& candidate) { return candidate.variant.name == variant; });
+    return found == entry.variants.end() ? entry.variants.front() : *found;
+}
+
+std::string joints_text(const words::Words& words, const VariantEntry& variant) {
+    if (variant.joints == 1) return words::format_text(words, "menu.facts.one", {{"sizes", variant.sizes}});
     return words::format_text(
         words, "menu.facts.many",
-        {{"count", words::Number{static_cast<double>(entry.joints), 0}}, {"sizes", entry.sizes}});
+        {{"count", words::Number{static_cast<double>(variant.joints), 0}}, {"sizes", variant.sizes}});
 }
 
 void add_characters(ui::Ui& ui, const AssemblyEntry& entry) {
     for (const auto& [code, title] : entry.title) ui.add_characters(title);
-    for (const auto& [code, text] : entry.instructions) ui.add_characters(text);
     if (entry.error) ui.add_characters(entry.error->message());
-    for (const content::AssemblyVariant& variant : entry.variants)
-        for (const auto& [code, title] : variant.title) ui.add_characters(title);
-    for (const content::Tool& tool : entry.tools)
-        for (const auto& [code, title] : tool.title) ui.add_characters(title);
+    for (const VariantEntry& variant : entry.variants) {
+        for (const auto& [code, title] : variant.variant.title) ui.add_characters(title);
+        for (const auto& [code, text] : variant.instructions) ui.add_characters(text);
+        for (const content::Tool& tool : variant.tools)
+            for (const auto& [code, title] : tool.title) ui.add_characters(title);
+    }
 }
 
 }  // namespace bolt::trainer

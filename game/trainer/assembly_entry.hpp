@@ -12,14 +12,20 @@
 
 namespace bolt::trainer {
 
+// What the menu shows of one variant, or of an assembly without variants.
+struct VariantEntry {
+    content::AssemblyVariant variant;
+    std::map<std::string, std::string> instructions;  // by language
+    std::vector<content::Tool> tools;                 // to choose from, the default one first
+    std::size_t joints = 0;
+    std::string sizes;  // of the bolts: "M16×180, M16×75"
+};
+
 struct AssemblyEntry {
     std::string name, default_variant;
-    std::map<std::string, std::string> title, instructions;  // by language
-    std::vector<content::AssemblyVariant> variants;          // the default one first
-    std::vector<content::Tool> tools;                        // to choose from, the default one first
+    std::map<std::string, std::string> title;  // by language
+    std::vector<VariantEntry> variants;        // at least one, the default one first
     joint::Law law = joint::Law::mechanistic;
-    std::size_t joints = 0;
-    std::string sizes;           // of the bolts: "M16×180, M16×75"
     bool contact_model = false;  // for the assembly and its first tool
     std::optional<Error> error;  // why no lesson can start
 };
@@ -31,8 +37,11 @@ std::vector<AssemblyEntry> list_assemblies();
 std::string in_language(const std::map<std::string, std::string>& texts, const std::string& language,
                         const std::string& fallback);
 
+// The variant of this name; empty or unknown: the default one.
+const VariantEntry& variant_of(const AssemblyEntry& entry, const std::string& variant);
+
 // The number of joints and the sizes of the bolts, in words.
-std::string joints_text(const words::Words& words, const AssemblyEntry& entry);
+std::string joints_text(const words::Words& words, const VariantEntry& variant);
 
 // Adds the characters of all its texts to the interface's font.
 void add_characters(ui::Ui& ui, const AssemblyEntry& entry);

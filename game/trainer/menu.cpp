@@ -166,10 +166,11 @@ void draw_title(const ScreenContext& context, const std::string& title) {
     ImGui::PopFont();
 }
 
-void draw_description(const ScreenContext& context, float width, const AssemblyEntry& entry) {
+void draw_description(const ScreenContext& context, float width, const AssemblyEntry& entry,
+                      const VariantEntry& variant) {
     draw_title(context, in_language(entry.title, context.words.language, entry.name));
-    if (entry.joints > 0) draw_wrapped(joints_text(context.words, entry), muted_text, width);
-    draw_wrapped(in_language(entry.instructions, context.words.language, ""), {0.93F, 0.94F, 0.95F, 1.0F},
+    if (variant.joints > 0) draw_wrapped(joints_text(context.words, variant), muted_text, width);
+    draw_wrapped(in_language(variant.instructions, context.words.language, ""), {0.93F, 0.94F, 0.95F, 1.0F},
                  width);
 }
 
@@ -231,7 +232,9 @@ WideMenu draw_wide(const ScreenContext& context, Menu& menu, const MenuPictures&
         thumbnail_height * scale + 2.0F * ImGui::GetTextLineHeight() + 3.0F * card_padding * scale;
     float height = card + 2.0F * edge + 2.0F * spacing;
     if (entry != nullptr)
-        height += wrapped_height(in_language(entry->instructions, context.words.language, ""), right_width) +
+        height += wrapped_height(in_language(variant_of(*entry, choice.variant).instructions,
+                                             context.words.language, ""),
+                                 right_width) +
                   ImGui::GetTextLineHeight() + context.heading->FontSize + 2.0F * spacing;
     const std::string problem = start_problem(menu, entry);
     if (!problem.empty()) height += wrapped_height(problem, right_width) + spacing;
@@ -241,7 +244,7 @@ WideMenu draw_wide(const ScreenContext& context, Menu& menu, const MenuPictures&
     ImGui::SetCursorPos({column + edge, size.y - height + edge});
     ImGui::BeginGroup();
     if (!problem.empty()) draw_wrapped(problem, warning_text, right_width);
-    if (entry != nullptr) draw_description(context, right_width, *entry);
+    if (entry != nullptr) draw_description(context, right_width, *entry, variant_of(*entry, choice.variant));
     ImGui::SetCursorPosY(size.y - edge - card);
     draw_cards(context, right_width, menu, pictures, choice);
     ImGui::EndGroup();
@@ -268,7 +271,7 @@ ScreenAction draw_narrow(const ScreenContext& context, const Menu& menu, const M
                       draw_choices(context, width, {entry, menu.devices, menu.trainee}, choice, preferences));
     if (entry != nullptr) {
         ImGui::Separator();
-        draw_description(context, width, *entry);
+        draw_description(context, width, *entry, variant_of(*entry, choice.variant));
     }
     ImGui::EndGroup();
     return action;
@@ -315,8 +318,8 @@ ScreenAction draw_menu(const ScreenContext& context, Menu& menu, const MenuPictu
     }
     if (menu.page == MenuPage::files) return draw_files_page(context, menu.folders);
     const glm::vec2 size(context.size);
-    const std::string layout =
-        fmt::format("{} {} {}x{} {}", choice.assembly, context.words.language, size.x, size.y, context.scale);
+    const std::string layout = fmt::format("{} {} {} {}x{} {}", choice.assembly, choice.variant,
+                                           context.words.language, size.x, size.y, context.scale);
     const bool wide = is_wide(size, context.scale) && menu.single_column_for != layout;
     ImGui::SetNextWindowPos({0.0F, 0.0F});
     ImGui::SetNextWindowSize({size.x, size.y});

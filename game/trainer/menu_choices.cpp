@@ -111,21 +111,33 @@ void draw_laws(const ScreenContext& context, float width, joint::Law assembly_la
     ImGui::Unindent(label_width(context));
 }
 
+// Keeps the chosen tool if it is one of these; otherwise the first one is chosen, or that of the station.
+void keep_tool(const std::vector<content::Tool>& tools, LessonChoice& choice) {
+    const bool known = std::any_of(tools.begin(), tools.end(),
+                                   [&](const content::Tool& tool) { return tool.name == choice.tool; });
+    if (!known) choice.tool = tool_of_station(choice.equipment.station, tools).value_or(std::string());
+}
+
 void draw_variants_and_tools(const ScreenContext& context, float width, const AssemblyEntry& entry,
                              LessonChoice& choice) {
     const std::string& language = context.words.language;
     if (entry.variants.size() > 1) {
         ChoiceRow row(context, context.words["menu.variant"], width);
-        for (const content::AssemblyVariant& variant : entry.variants) {
+        for (const VariantEntry& listed : entry.variants) {
+            const content::AssemblyVariant& variant = listed.variant;
             const std::string value = variant.name == entry.default_variant ? std::string() : variant.name;
-            if (row.button(in_language(variant.title, language, variant.name), choice.variant == value))
+            if (row.button(in_language(variant.title, language, variant.name), choice.variant == value) &&
+                choice.variant != value) {
                 choice.variant = value;
+                keep_tool(listed.tools, choice);
+            }
         }
     }
-    if (entry.tools.size() > 1) {
+    const std::vector<content::Tool>& tools = variant_of(entry, choice.variant).tools;
+    if (tools.size() > 1) {
         ChoiceRow row(context, context.words["menu.tool"], width);
-        for (const content::Tool& tool : entry.tools) {
-            const std::string value = tool.name == entry.tools.front().name ? std::string() : tool.name;
+        for (const content::Tool& tool : tools) {
+            const std::string value = tool.name == tools.front().name ? std::string() : tool.name;
             if (row.button(in_language(tool.title, language, tool.name), choice.tool == value))
                 choice.tool = value;
         }
@@ -201,7 +213,8 @@ void choose_assembly(const AssemblyEntry& entry, LessonChoice& choice) {
     if (entry.name == choice.assembly) return;
     choice.assembly = entry.name;
     choice.variant.clear();
-    choice.tool = tool_of_station(choice.equipment.station, entry.tools).value_or(std::string());
+    choice.tool =
+        tool_of_station(choice.equipment.station, entry.variants.front().tools).value_or(std::string());
 }
 
 ScreenAction draw_choices(const ScreenContext& context, float width, const ChoiceOptions& options,

@@ -41,18 +41,19 @@ void add_files_of(const fs::path& model, std::vector<fs::path>& files) {
 
 }  // namespace
 
-ModelLoadResult load_model(const std::string& source, DetailLevel level) {
+ModelLoadResult load_model(const std::string& source, DetailLevel level, const std::string& variant) {
     ModelLoadResult loaded;
     LoadedModel& model = loaded.model;
-    std::string file = source;
+    std::vector<std::string> parts{source};
     model.name = fs::path(source).filename().string();
     model.without_assembly = is_model_file(source);
     if (!model.without_assembly) {
-        content::LoadedAssembly assembly = content::load_assembly(source);
+        content::LoadedAssembly assembly = content::load_assembly(source, variant);
         if (!assembly.ok()) return {{}, std::move(assembly.errors)};
         const content::Assembly& a = assembly.assembly;
-        file = level == DetailLevel::far ? a.models.far_level : a.models.model;
-        if (file.empty()) return {{}, {no_model(a, level)}};
+        parts = content::model_parts(
+            a, level == DetailLevel::far ? &content::ModelFiles::far_level : &content::ModelFiles::model);
+        if (parts.empty()) return {{}, {no_model(a, level)}};
         model.name = a.name;
         for (const content::NamedView& view : a.views)
             model.views.push_back({view.name, glm::vec3(view.eye), glm::vec3(view.target),
@@ -61,10 +62,15 @@ ModelLoadResult load_model(const std::string& source, DetailLevel level) {
             model.joints.push_back({joint.design.id, glm::vec3(joint.design.seat)});
         model.files.emplace_back(a.file);
     }
-    Result<assets::Model> read = assets::read_gltf(file);
-    if (!read) return {{}, {read.error()}};
-    model.model = std::move(*read);
-    add_files_of(file, model.files);
+    for (const std::string& file : parts) {
+        Result<assets::Model> read = assets::read_gltf(file);
+        if (!read) return {{}, {read.error()}};
+        if (&file == &parts.front())
+            model.model = std::move(*read);
+        else
+            assets::append(model.model, std::move(*read));
+        add_files_of(file, model.files);
+    }
     return loaded;
 }
 

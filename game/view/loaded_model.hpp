@@ -41,8 +41,10 @@ struct ModelLoadResult {
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };
 
-// `source`: a .glb or .gltf file, or the folder, file or name of an assembly.
-ModelLoadResult load_model(const std::string& source, DetailLevel level = DetailLevel::near);
+// `source`: a .glb or .gltf file, or the folder, file or name of an assembly. `variant`: of the assembly;
+// empty: its default one.
+ModelLoadResult load_model(const std::string& source, DetailLevel level = DetailLevel::near,
+                           const std::string& variant = {});
 
 // Fails if there is no view of that name; the error suggests the nearest name.
 Result<Viewpoint> named_view(const LoadedModel& model, const std::string& name);

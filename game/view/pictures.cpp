@@ -91,7 +91,7 @@ glm::vec4 verdict_color(const lesson::JointResult& joint) { return color_of({}, 
 Status draw_result(const content::Assembly& assembly, const lesson::LessonResult& result,
                    const std::filesystem::path& folder, VkExtent2D size) {
     if (assembly.models.model.empty() || assembly.views.empty()) return {};
-    ModelLoadResult loaded = load_model(assembly.file);
+    ModelLoadResult loaded = load_model(assembly.file, DetailLevel::near, assembly.variant);
     if (!loaded.ok()) return fail(loaded.errors.front());
     BOLT_TRY_ASSIGN(const auto radiance, load_light("studio"));
     BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create({}));

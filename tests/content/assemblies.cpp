@@ -263,7 +263,7 @@ TEST_CASE("Assemblies: every value of a file is converted to SI") {
     CHECK(a.flange.thickness == doctest::Approx(0.02));
     CHECK(a.flange.E == doctest::Approx(70e9));
     CHECK(a.flange.poisson == 0.33);
-    CHECK(a.variants.size() == 2);
+    CHECK(a.variants.size() == 3);
     CHECK(a.variants[1].title.at("en") == "Weak");
     CHECK(a.views[0].eye.z == doctest::Approx(0.5));
     CHECK(a.views[0].field_of_view == doctest::Approx(to_radians(50.0)));

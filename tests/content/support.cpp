@@ -42,7 +42,7 @@ std::string_view everything() {
   },
   "tool": {"kind": "open_end_wrench", "jaw_mm": 18.1, "head_thickness_mm": 9, "jaw_depth_mm": 11, "jaw_tip_mm": 12.5, "head_angle_deg": 15, "handle_length_mm": 180, "model": "wrench_18.glb"}, "more_tools": {"clicker": {"title": {"en": "Torque wrench"}, "kind": "click_torque_wrench", "jaw_mm": 18.1, "handle_length_mm": 400, "click_swing_deg": 5, "accuracy_percent": 3},
     "socket set": {"kind": "ratchet", "head": "socket", "size_mm": 18, "teeth": 90, "extension_mm": 125, "handle_length_mm": 200, "instead": {"A": "clicker"}}},
-  "flange": {"thickness_mm": 20, "E_GPa": 70, "poisson": 0.33, "interface_stiffness_GPa_per_m": 500},
+  "flange": {"thickness_mm": 20, "E_GPa": 70, "poisson": 0.33, "interface_stiffness_GPa_per_m": 500, "joint_types": ["M12x1.25"]},
   "materials": {"grey iron": {"E_GPa": 105}},
   "joint_types": {
     "M12x1.25": {
@@ -144,6 +144,10 @@ std::string_view everything() {
       "joint_types": {"M12x1.25": {"class": "8.8", "spec": {"min_torque_Nm": 78, "max_torque_Nm": 100}}},
       "passes": [{"kind": "run_down", "order": ["A", "B"]}, {"kind": "tighten", "percent": 50}, {"kind": "tighten", "percent": 100}, {"kind": "recheck"}],
       "loosening": [{"kind": "loosen"}]
+    },
+    "one": {
+      "lesson": {"en": "Only B."}, "tool": "clicker", "joints": ["B"], "views": [{"name": "side", "eye_mm": [500, 0, 0], "target_mm": [0, 0, 0]}],
+      "added_models": {"model": "stand.glb", "model_far": "stand.far.glb", "contact_model": "stand.contact.glb"}
     }
   },
   "views": [{"name": "front", "eye_mm": [0, 0, 500], "target_mm": [0, 0, 0], "field_of_view_deg": 50}]

@@ -1,6 +1,7 @@
 // The subcommands for content: new (a small assembly), words (check of the on-screen texts), views
 // (visibility of the nuts) and validate (all checks of an assembly).
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -153,8 +154,8 @@ std::string format_json(const content::Assembly& assembly, const std::vector<Nut
     return json.dump(1) + "\n";
 }
 
-int run_views(const std::string& name, bool as_json) {
-    const content::LoadedAssembly loaded = content::load_assembly(name);
+int run_views(const std::string& name, const std::string& variant, bool as_json) {
+    const content::LoadedAssembly loaded = content::load_assembly(name, variant);
     if (!loaded.ok()) return print_error(loaded.errors.front());
     const content::Assembly& assembly = loaded.assembly;
     const servo::Setup setup = session::make_setup(assembly, assembly.law, {}, 1, 1e-3);
@@ -179,15 +180,17 @@ int run_views(const std::string& name, bool as_json) {
 
 void add_views(CLI::App& app, int& exit_code) {
     struct ViewsOptions {
-        std::string assembly = "zq350";
+        std::string assembly = "zq350", variant;
         bool json = false;
     };
     auto options = std::make_shared<ViewsOptions>();
     CLI::App* command =
         app.add_subcommand("views", "Print the visible share of each nut in every view of an assembly");
     command->add_option("assembly", options->assembly, "Folder, file or name of an assembly");
+    command->add_option("--variant", options->variant, "Variant of the assembly; the default if not given");
     command->add_flag("--json", options->json, "As JSON");
-    command->callback([options, &exit_code] { exit_code = run_views(options->assembly, options->json); });
+    command->callback(
+        [options, &exit_code] { exit_code = run_views(options->assembly, options->variant, options->json); });
 }
 
 namespace {
@@ -245,35 +248,52 @@ std::vector<std::string> models_of(const content::Assembly& assembly) {
         if (!file.empty() && std::find(files.begin(), files.end(), file) == files.end())
             files.push_back(file);
     };
-    add(assembly.models.model);
-    add(assembly.models.far_level);
-    add(assembly.models.contact);
+    using content::ModelFiles;
+    for (const content::ModelFile file : {&ModelFiles::model, &ModelFiles::far_level, &ModelFiles::contact})
+        for (const std::string& part : content::model_parts(assembly, file)) add(part);
     for (const content::Tool& tool : assembly.tools) add(tool.wrench.model);
     return files;
 }
 
 struct AssemblyReport {
     std::vector<Error> errors;
-    std::string remarks;  // notes that are not errors, one line each
-    std::optional<geometry::WrenchRooms> rooms;
+    std::vector<std::string> remarks;          // notes that are not errors, one line each
+    std::vector<geometry::WrenchRooms> rooms;  // of each checked variant that has a model
 };
 
-// Checks an assembly that has loaded without errors.
-AssemblyReport validate(const content::Assembly& assembly) {
+template <class T, class Key>
+void add_new(std::vector<T>& all, std::vector<T>&& found, const Key& key) {
+    for (T& one : found)
+        if (std::none_of(all.begin(), all.end(), [&](const T& known) { return key(known) == key(one); }))
+            all.push_back(std::move(one));
+}
+
+// Checks the variants of an assembly, which have loaded without errors.
+AssemblyReport validate(const std::vector<content::Assembly>& variants) {
     AssemblyReport result;
-    geometry::Findings findings = geometry::check_geometry(assembly, &result.rooms);
-    result.errors = std::move(findings.errors);
-    for (const Error& note : findings.notes) result.remarks += fmt::format("note: {}\n", note.message());
-    const std::vector<std::string> files = models_of(assembly);
-    if (assembly.models.model.empty())
-        result.remarks += fmt::format(
-            "note: {}: no model is named, so nodes and room for the wrench are not checked\n", assembly.file);
+    std::vector<Error> notes;
+    std::vector<std::string> files;
+    const auto message = [](const Error& error) { return error.message(); };
+    const auto itself = [](const std::string& file) { return file; };
+    for (const content::Assembly& assembly : variants) {
+        std::optional<geometry::WrenchRooms> rooms;
+        geometry::Findings findings = geometry::check_geometry(assembly, &rooms);
+        add_new(result.errors, std::move(findings.errors), message);
+        add_new(notes, std::move(findings.notes), message);
+        add_new(files, models_of(assembly), itself);
+        if (rooms) result.rooms.push_back(std::move(*rooms));
+    }
+    for (const Error& note : notes) result.remarks.push_back(fmt::format("note: {}\n", note.message()));
+    const content::Assembly& first = variants.front();
+    if (first.models.model.empty())
+        result.remarks.push_back(fmt::format(
+            "note: {}: no model is named, so nodes and room for the wrench are not checked\n", first.file));
     if (files.empty()) return result;
     const std::filesystem::path script = find_gltf_validator();
     if (script.empty()) {
-        result.remarks +=
+        result.remarks.emplace_back(
             "note: the Khronos glTF validator is not installed, so its checks are left out "
-            "(tools/install-node-tools.sh installs it)\n";
+            "(tools/install-node-tools.sh installs it)\n");
         return result;
     }
     auto found = run_gltf_validator(script, files);
@@ -282,6 +302,30 @@ AssemblyReport validate(const content::Assembly& assembly) {
     else
         result.errors.push_back(found.error());
     return result;
+}
+
+bool same_work(const content::Assembly& a, const content::Assembly& b) {
+    const auto same_joint = [](const content::AssemblyJoint& x, const content::AssemblyJoint& y) {
+        return x.design.id == y.design.id;
+    };
+    return std::equal(a.joints.begin(), a.joints.end(), b.joints.begin(), b.joints.end(), same_joint) &&
+           a.added_models.model == b.added_models.model;
+}
+
+// The assembly itself, then its variants that work on other joints or add models. `chosen`: whether the user
+// has chosen a variant, which is then checked alone.
+std::vector<content::Assembly> variants_to_check(content::Assembly assembly, bool chosen) {
+    std::vector<content::Assembly> variants;
+    variants.push_back(std::move(assembly));
+    const std::vector<content::AssemblyVariant> all = variants.front().variants;
+    for (const content::AssemblyVariant& variant : all) {
+        if (chosen) break;
+        content::LoadedAssembly other = content::load_assembly(variants.front().file, variant.name);
+        const auto same = [&](const content::Assembly& known) { return same_work(known, other.assembly); };
+        if (other.ok() && std::none_of(variants.begin(), variants.end(), same))
+            variants.push_back(std::move(other.assembly));
+    }
+    return variants;
 }
 
 struct ValidateOptions {
@@ -294,23 +338,26 @@ int run_validate(const ValidateOptions& options) {
         return print_error({ErrorCode::usage, "--pictures draws the joints of one assembly", "one assembly"});
     int worst = 0;
     for (const std::string& where : options.assemblies) {
-        const content::LoadedAssembly loaded = content::load_assembly(where, options.variant);
+        content::LoadedAssembly loaded = content::load_assembly(where, options.variant);
         if (!loaded.ok()) {
             worst = std::max(worst, print_error(loaded.errors));
             continue;
         }
-        const AssemblyReport result = validate(loaded.assembly);
-        std::string text = result.remarks;
-        if (result.errors.empty())
-            text += fmt::format("{}: {} joints, {} passes, variant {}: no mistakes\n", loaded.assembly.file,
-                                loaded.assembly.joints.size(), loaded.assembly.passes.size(),
-                                loaded.assembly.variant.empty() ? "-" : loaded.assembly.variant);
+        const std::vector<content::Assembly> variants =
+            variants_to_check(std::move(loaded.assembly), !options.variant.empty());
+        const AssemblyReport result = validate(variants);
+        std::string text = fmt::format("{}", fmt::join(result.remarks, ""));
+        for (const content::Assembly& assembly : variants)
+            if (result.errors.empty())
+                text += fmt::format("{}: {} joints, {} passes, variant {}: no mistakes\n", assembly.file,
+                                    assembly.joints.size(), assembly.passes.size(),
+                                    assembly.variant.empty() ? "-" : assembly.variant);
         worst = std::max(worst, print_error(result.errors));
         if (const Status printed = print(text); !printed) return print_error(printed.error());
-        if (options.pictures.empty() || !result.rooms) continue;
-        if (const Status drawn = draw_joint_pictures(loaded.assembly, *result.rooms, options.pictures);
-            !drawn)
-            return print_error(drawn.error());
+        for (std::size_t i = 0; i < result.rooms.size() && !options.pictures.empty(); ++i)
+            if (const Status drawn = draw_joint_pictures(variants[i], result.rooms[i], options.pictures);
+                !drawn)
+                return print_error(drawn.error());
     }
     return worst;
 }
@@ -322,7 +369,8 @@ void add_validate(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("validate", "Report all errors of assemblies");
     command->add_option("assembly", options->assemblies, "Folders, files, or names under content/assemblies")
         ->required();
-    command->add_option("--variant", options->variant, "Material variant; the default if not given");
+    command->add_option("--variant", options->variant,
+                        "Variant to check alone; otherwise all that work on different joints");
     command->add_option("--pictures", options->pictures,
                         "Draw each joint with the wrench and its free swing into this folder, JOINT.png");
     command->callback([options, &exit_code] { exit_code = run_validate(*options); });

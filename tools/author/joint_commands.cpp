@@ -157,7 +157,7 @@ void add_curve(CLI::App& app, int& exit_code) {
     curve->add_option("assembly", options->assembly, "Folder, file, or name under content/assemblies")
         ->required();
     curve->add_option("--joint", options->joint, "Id of the joint")->required();
-    curve->add_option("--variant", options->variant, "Material variant; the assembly's default if not given");
+    curve->add_option("--variant", options->variant, "Variant; the assembly's default if not given");
     curve->add_option("--law", options->law, "Torque law; the assembly's own if not given")
         ->check(CLI::IsMember({"published", "mechanistic"}));
     curve->add_option("--direction", options->direction, "Direction in which the nut is turned")

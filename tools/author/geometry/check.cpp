@@ -16,16 +16,21 @@ namespace bolt::geometry {
 
 namespace {
 
-std::optional<FlattenedModel> read_scene(const std::string& path, std::string_view pointer,
+// Reads a model that consists of these files.
+std::optional<FlattenedModel> read_scene(const std::vector<std::string>& parts, std::string_view pointer,
                                          const Messages& messages) {
-    if (path.empty()) return std::nullopt;
-    const auto model = assets::read_gltf(path);
-    if (!model) {
-        messages.error(pointer, fmt::format("the file cannot be read: {}", model.error().message()), {});
-        return std::nullopt;
+    if (parts.empty()) return std::nullopt;
+    assets::Model whole;
+    for (const std::string& path : parts) {
+        auto model = assets::read_gltf(path);
+        if (!model) {
+            messages.error(pointer, fmt::format("the file cannot be read: {}", model.error().message()), {});
+            return std::nullopt;
+        }
+        check_file_size(path, pointer, messages);
+        assets::append(whole, std::move(*model));
     }
-    check_file_size(path, pointer, messages);
-    FlattenedModel scene = flatten(*model);
+    FlattenedModel scene = flatten(whole);
     if (scene.triangle_count() == 0) {
         messages.error(pointer, "the file has no triangles", "triangles in its default scene");
         return std::nullopt;
@@ -38,7 +43,9 @@ std::optional<FlattenedModel> read_scene(const std::string& path, std::string_vi
 ToolShape load_tool(const content::WrenchDesign& design, const std::string& pointer,
                     const Messages& messages) {
     const std::string model = pointer + "/model";
-    if (const auto scene = read_scene(design.model, model, messages)) {
+    std::vector<std::string> files;
+    if (!design.model.empty()) files.push_back(design.model);
+    if (const auto scene = read_scene(files, model, messages)) {
         auto tool = tool_from_model(*scene, design);
         if (tool) return std::move(*tool);
         messages.error(model, tool.error().what, tool.error().expected);
@@ -59,7 +66,8 @@ std::vector<ToolShape> load_tools(const content::Assembly& assembly, const Messa
     std::vector<ToolShape> shapes;
     for (std::size_t i = 0; i < assembly.tools.size(); ++i) {
         const content::Tool& tool = assembly.tools[i];
-        const std::string at = i == 0 ? "/tool" : "/more_tools/" + content::pointer_token(tool.name);
+        const bool is_first = tool.name == content::default_tool_name;
+        const std::string at = is_first ? "/tool" : "/more_tools/" + content::pointer_token(tool.name);
         shapes.push_back(load_tool(tool.wrench, at, messages));
         shapes.back().name = name_of_tool(assembly, i);
     }
@@ -90,8 +98,10 @@ std::vector<Jaw> jaws_of(const content::Assembly& assembly, const std::vector<st
     for (const std::size_t i : tools) {
         const content::Tool& tool = assembly.tools[i];
         if (tool.wrench.head != content::ToolHead::open_end) continue;
-        jaws.push_back(
-            {i == 0 ? "" : fmt::format(" (the tool {})", content::in_quotes(tool.name)), tool.wrench.jaw});
+        jaws.push_back({tool.name == content::default_tool_name
+                            ? ""
+                            : fmt::format(" (the tool {})", content::in_quotes(tool.name)),
+                        tool.wrench.jaw});
     }
     return jaws;
 }
@@ -110,10 +120,10 @@ WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scen
         const JointParts parts = find_joint_parts(scene, nodes[i], joint.design);
         WrenchRoom room = describe_joint(i, parts);
         room.tool = tools.front();
-        if (check_fasteners_and_members(joint, i, parts, scene, rooms.everything, jaws_of(assembly, tools),
-                                        messages)) {
+        if (check_fasteners_and_members(joint, joint.index_in_file, parts, scene, rooms.everything,
+                                        jaws_of(assembly, tools), messages)) {
             const JointSurroundings surroundings(joint, parts, scene, trees);
-            check_tool_room(surroundings, i, tools, set, messages, room);
+            check_tool_room(surroundings, joint.index_in_file, tools, set, messages, room);
         }
         rooms.joints.push_back(std::move(room));
     }
@@ -130,9 +140,13 @@ Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchR
     if (!document) return findings;
     const Messages messages{*document, findings};
     check_tools(assembly, messages);
-    auto model = read_scene(assembly.models.model, "/model", messages);
-    const auto far = read_scene(assembly.models.far_level, "/model_far", messages);
-    const auto contact = read_scene(assembly.models.contact, "/contact_model", messages);
+    using content::ModelFiles;
+    const auto read = [&](content::ModelFile file, std::string_view pointer) {
+        return read_scene(content::model_parts(assembly, file), pointer, messages);
+    };
+    auto model = read(&ModelFiles::model, "/model");
+    const auto far = read(&ModelFiles::far_level, "/model_far");
+    const auto contact = read(&ModelFiles::contact, "/contact_model");
     if (far) check_triangles(*far, far_budget, "/model_far", messages);
     if (model && far) check_names(*model, *far, messages);
     if (model && contact) check_contact(*contact, *model, messages);

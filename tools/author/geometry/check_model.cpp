@@ -215,10 +215,9 @@ std::vector<int> check_nodes(const content::Assembly& assembly, const FlattenedM
     std::vector<JointPlacement> placements;
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
         const content::AssemblyJoint& joint = assembly.joints[i];
-        nodes.push_back(find_node(joint.node, i, scene, joint_nodes, messages));
+        nodes.push_back(find_node(joint.node, joint.index_in_file, scene, joint_nodes, messages));
         if (nodes.back() < 0) continue;
-        const glm::dmat4& world = scene.nodes[static_cast<std::size_t>(nodes.back())].world;
-        placements.push_back(placement_of(joint, world));
+        placements.push_back(placement_of(joint, joint_frame(scene, nodes.back(), joint.design)));
     }
     // A cause that explains all wrong positions is reported once, instead of one error for each joint.
     if (const auto cause = find_systematic_error(placements)) {
@@ -238,12 +237,12 @@ std::vector<int> check_nodes(const content::Assembly& assembly, const FlattenedM
         const JointPlacement& p = placements[k++];
         const std::string& name = assembly.joints[i].node;
         if (!is_rigid(scene.nodes[static_cast<std::size_t>(nodes[i])].world)) {
-            messages.error(joint_pointer(i, "node"),
+            messages.error(joint_pointer(assembly.joints[i].index_in_file, "node"),
                            fmt::format("the node {} is scaled, mirrored or skewed", content::in_quotes(name)),
                            "a node that is only translated and rotated");
             nodes[i] = -1;
         } else if (!agrees(p)) {
-            report_misplaced(p, name, i, messages);
+            report_misplaced(p, name, assembly.joints[i].index_in_file, messages);
             nodes[i] = -1;
         }
     }

@@ -75,7 +75,9 @@ std::string title_of(const content::WrenchDesign& design) {
 }
 
 std::string name_of_tool(const content::Assembly& assembly, std::size_t tool) {
-    return tool == 0 ? "the wrench" : "the tool " + content::in_quotes(assembly.tools[tool].name);
+    return assembly.tools[tool].name == content::default_tool_name
+               ? "the wrench"
+               : "the tool " + content::in_quotes(assembly.tools[tool].name);
 }
 
 std::vector<content::WrenchDesign> usual_tools(const joint::JointDesign& design) {
@@ -210,9 +212,9 @@ void check_tools(const content::Assembly& assembly, const Messages& messages) {
             const content::WrenchDesign& design = assembly.tools[tool].wrench;
             const std::string name = name_of_tool(assembly, tool);
             if (suits(design, joint.design))
-                check_torque(joint, design, name, joint_pointer(i), messages);
+                check_torque(joint, design, name, joint_pointer(joint.index_in_file), messages);
             else
-                messages.error(joint_pointer(i),
+                messages.error(joint_pointer(joint.index_in_file),
                                fmt::format("{} is {} and does not fit the {} of {}, {} of {:g} mm", name,
                                            title_of(design),
                                            joint.design.turned == joint::TurnedPart::head ? "head" : "nut",

@@ -173,14 +173,34 @@ Aabb transform_to(const glm::dmat4& m, const Aabb& box) {
     return {middle - reach, middle + reach};
 }
 
+namespace {
+
+bool is_screw(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design) {
+    return design.turned == joint::TurnedPart::head &&
+           std::any_of(scene.parts.begin(), scene.parts.end(),
+                       [&](const ModelPart& part) { return part.node == joint_node; });
+}
+
+}  // namespace
+
+glm::dmat4 joint_frame(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design) {
+    const glm::dmat4& world = scene.nodes[static_cast<std::size_t>(joint_node)].world;
+    if (!is_screw(scene, joint_node, design) || glm::dot(Vec3(world[1]), design.axis) >= 0.0) return world;
+    return world * glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, -1, 0, 0), glm::dvec4(0, 0, -1, 0),
+                              glm::dvec4(0, 0, 0, 1));
+}
+
 JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design) {
     JointParts parts;
-    parts.to_assembly = scene.nodes[static_cast<std::size_t>(joint_node)].world;
+    parts.to_assembly = joint_frame(scene, joint_node, design);
     parts.to_joint = glm::inverse(parts.to_assembly);
     const auto find = [&](const char* what) {
         return find_fastener(scene, joint_node, design.id + what, parts.to_joint);
     };
-    parts.bolt = find("_bolt");
+    parts.bolt = is_screw(scene, joint_node, design)
+                     ? find_fastener(scene, joint_node,
+                                     scene.nodes[static_cast<std::size_t>(joint_node)].name, parts.to_joint)
+                     : find("_bolt");
     parts.washer_head = find("_washer_head");
     parts.washer_nut = find("_washer_nut");
     parts.nut = find("_nut");

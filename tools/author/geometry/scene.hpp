@@ -66,9 +66,13 @@ struct JointParts {
     [[nodiscard]] bool owns(std::uint32_t part) const;
 };
 
+// The frame of a joint at its node, in the assembly's frame. A node that is the screw itself, a mesh, may
+// point along the screw or against it.
+glm::dmat4 joint_frame(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design);
+
 // Finds the nodes ID_bolt, ID_washer_head, ID_washer_nut and ID_nut under the joint's node; a missing node
-// gives a fastener without triangles. A head that is turned is the part of ID_bolt that is above the bearing
-// face or wider than the shank.
+// gives a fastener without triangles. If the joint's node is the screw itself, it is the bolt. A head that is
+// turned is the part of ID_bolt that is above the bearing face or wider than the shank.
 JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design);
 
 // The axis-aligned box around a transformed box.

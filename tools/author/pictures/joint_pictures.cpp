@@ -251,7 +251,7 @@ class JointPainter {
 Result<std::unique_ptr<JointPainter>> JointPainter::create(const content::Assembly& assembly,
                                                            const WrenchRooms& rooms) {
     std::unique_ptr<JointPainter> painter(new JointPainter(assembly, rooms));
-    view::ModelLoadResult loaded = view::load_model(assembly.file);
+    view::ModelLoadResult loaded = view::load_model(assembly.file, view::DetailLevel::near, assembly.variant);
     if (!loaded.ok()) return fail(loaded.errors.front());
     painter->model_ = std::move(loaded.model);
     for (const WrenchRoom& room : rooms.joints) {
@@ -278,11 +278,12 @@ Result<std::unique_ptr<JointPainter>> JointPainter::create(const content::Assemb
 // Outlines the part that is turned, turns its hexagon to fit the tool, and lets what hides it fade.
 Status JointPainter::show_turned_part(const WrenchRoom& room, render::Scene& scene) const {
     const content::AssemblyJoint& joint = assembly_.joints[room.joint];
-    std::set<int> turned, own;
-    if (!room.turned.empty()) {
-        BOLT_TRY_ASSIGN(turned, view::nodes_of(model_.model, content::turned_node(joint)));
-    }
-    BOLT_TRY_ASSIGN(own, view::nodes_of(model_.model, joint.node));
+    BOLT_TRY_ASSIGN(const auto own, view::nodes_of(model_.model, joint.node));
+    std::set<int> turned;
+    for (const int node : own)
+        if (!room.turned.empty() &&
+            content::is_turned_node(joint, model_.model.nodes[static_cast<std::size_t>(node)].name))
+            turned.insert(node);
     const glm::mat4 turn(glm::rotate(room.to_assembly, room.turn, Vec3(0.0, 1.0, 0.0)) *
                          glm::inverse(room.to_assembly));
     for (render::Object& object : scene.objects) {
