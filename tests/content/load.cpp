@@ -96,7 +96,8 @@ TEST_CASE("Load: a session file of any size is recognised as such") {
 
 TEST_CASE("Load: an unknown variant gives the nearest name or the list") {
     CHECK(only_error("zq350", "stainles").expected == "did you mean \"stainless\"?");
-    CHECK(only_error("zq350", "wood").expected == "one of carbon_steel, stainless");
+    CHECK(only_error("zq350", "wood").expected ==
+          "one of carbon_steel, stainless, bearing_covers, foot_bolts");
     CHECK(only_error("cover-m8", "wood").expected == "none: the file has no variants");
 }
 

@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
     int exit_code = 0;
     const std::vector<ShippedModel> models = {
         {"zq350", "assemblies/zq350/zq350.step", bolt::models::add_zq350},
+        {"zq350-base", "assemblies/zq350/zq350-base.step", bolt::models::add_zq350_base},
         {"dn200-pn16", "assemblies/dn200-pn16/dn200-pn16.step", bolt::models::add_dn200_pn16},
         {"cover-m8", "assemblies/cover-m8/cover-m8.step", bolt::models::add_cover_m8},
         {"pump-32-160", "assemblies/pump-32-160/pump-32-160.step", bolt::models::add_pump_32_160},

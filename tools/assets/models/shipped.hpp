@@ -10,6 +10,9 @@ namespace bolt::models {
 // The two-stage helical gear reducer ZQ350 with its twelve joints. Its dimensions are in reducer/layout.hpp.
 Status add_zq350(CadDocument& document);
 
+// The base frame of this reducer with the washers and the eight bolts M20 of its feet, in the same frame.
+Status add_zq350_base(CadDocument& document);
+
 // A pair of weld-neck flanges DN200 PN16 with a flat gasket and 12 bolts M20.
 //
 // EN 1092-1 type 11, form B1: D 340, K 295, 12 holes 22, C 24, H 62, hub 235 to 219.1 x 6.3, raised face 268
