@@ -19,15 +19,11 @@ bool is_mouse(const std::string& device) { return device == "mouse" || device ==
 
 void check_headset(JsonReader& json, const JsonNode& own, const StudyLesson& lesson) {
     constexpr const char* usable = "an arm or a SpaceMouse in \"devices\", or \"hand\": \"tracked\"";
-    const JsonNode hand = member_of(json, own, "hand"), devices = member_of(json, own, "devices"),
-                   glove = member_of(json, own, "glove");
+    const JsonNode hand = member_of(json, own, "hand"), devices = member_of(json, own, "devices");
     if (hand && lesson.hand != "tracked" && lesson.devices.empty())
         json.report(hand.pointer, "the mouse that moves this hand cannot be used in a headset", usable);
     if (devices && std::any_of(lesson.devices.begin(), lesson.devices.end(), is_mouse))
         json.report(devices.pointer, "the mouse cannot be used in a headset", usable);
-    if (glove && lesson.glove != "none" && lesson.devices.empty())
-        json.report(glove.pointer, "a headset tracks the hand, so the fingers of the glove would not be used",
-                    "an arm in \"devices\", which the gloved hand holds, or \"none\"");
 }
 
 }  // namespace

@@ -255,11 +255,6 @@ Status check_hands(const TrainArguments& options, const trainer::Equipment& equi
     return {};
 }
 
-// True if neither a device nor a chosen way of the mouse moves the hand. A glove measures only the fingers.
-bool is_moved_by_hand(const trainer::Equipment& equipment) {
-    return equipment.devices.empty() && equipment.hand == trainer::HandMode::helped;
-}
-
 // Shows the lesson, or, in a process that another one leads, that one's lesson.
 Status show(WindowRequest request, Surroundings surroundings, platform::Desktop& desktop) {
     const TrainArguments& options = request.options;
@@ -310,7 +305,7 @@ int run_train(TrainArguments options) {
     }
     // The headset's hands move the tool unless a device does.
     const bool found = *headset && (*headset)->creator() != nullptr;
-    if (found && is_moved_by_hand(*equipment)) equipment->hand = trainer::HandMode::tracked;
+    if (found && equipment->leaves_hand_free()) equipment->hand = trainer::HandMode::tracked;
     // The absolute path distinguishes a folder here from an assembly of the same name in the menu.
     TrainArguments named = options;
     named.tool = *tool;
@@ -345,7 +340,7 @@ Status run_study(const TrainArguments& options, trainer::StudyRun study) {
     BOLT_TRY_ASSIGN(auto equipment, equipment_of(used));
     BOLT_TRY_ASSIGN(const auto headset, open_headset(headset_use, used.quiet));
     BOLT_TRY_ASSIGN(auto desktop, platform::Desktop::open());
-    if (headset && headset->creator() != nullptr && is_moved_by_hand(equipment))
+    if (headset && headset->creator() != nullptr && equipment.leaves_hand_free())
         equipment.hand = trainer::HandMode::tracked;
     const trainees::TrainOptions unused{};  // the plan has the settings of the lessons
     return show({used, unused, equipment, std::move(study)},

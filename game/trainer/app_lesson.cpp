@@ -95,7 +95,7 @@ Result<LessonRequest> App::study_request() {
     choice.equipment = equipment_for(lesson.devices, lesson.hand == "free", choice.equipment);
     use_glove(lesson.glove, choice.equipment);
     if (lesson.hand == "tracked" && lesson.devices.empty()) choice.equipment.devices.clear();
-    if (needs_headset() && (lesson.hand == "tracked" || !choice.equipment.needs_station()))
+    if (needs_headset() && (lesson.hand == "tracked" || choice.equipment.leaves_hand_free()))
         choice.equipment.hand = HandMode::tracked;
     request.settings.force_scale = lesson.force_scale.value_or(request.settings.force_scale);
     request.options.guide = settings.guide;

@@ -22,7 +22,6 @@ mistake nofile '"display": "headset", "displays": "w.json"' 'displays: only a le
 mistake tracked '"hand": "tracked"' 'hand: only a headset tracks the hand; expected "display": "headset" with it'
 mistake mouse '"display": "headset", "hand": "free"' 'hand: the mouse that moves this hand cannot be used in a headset; expected an arm'
 mistake desk '"display": "headset", "devices": ["mouse"]' 'devices: the mouse cannot be used in a headset'
-mistake gloved '"display": "headset", "glove": "auto"' 'glove: a headset tracks the hand, so the fingers of the glove would not be used; expected an arm'
 
 # What this computer lacks is told by check, and before anybody takes part.
 plan headless '"display": "headset"'
