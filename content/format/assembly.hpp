@@ -175,7 +175,7 @@ struct Assembly {
     std::vector<Pass> passes;
     std::vector<Pass>
         loosening;            // passes of a loosening lesson; empty: one, in the reverse of the last order
-    std::vector<Tool> tools;  // those that turn these joints, the default one first
+    std::vector<Tool> tools;  // the default one first; of a variant with `joints` those that turn them
     std::string tool;         // name of the chosen tool
     WrenchDesign wrench;      // of the chosen tool
     FlangeDesign flange;

@@ -53,8 +53,8 @@ FlangeDesign read_flange(JsonReader& reader, const std::string& variant,
     if (node && types_known && coupled > 0 && coupled < joints.size()) {
         const JsonNode selection = selected_joints(reader, variant);
         reader.report(selection ? selection.pointer : types.pointer,
-                      fmt::format("the flange couples {} of these {} joints", coupled, joints.size()),
-                      "joints of its types alone, or none of them");
+                      fmt::format("the flange couples {} of the {} joints", coupled, joints.size()),
+                      "all of them, or none");
     }
     return flange;
 }

@@ -48,7 +48,7 @@ struct StudyLesson {
     std::string law;  // empty: the assembly's
     std::string hand = "helped";
     std::vector<std::string> devices;  // empty: those of the command line
-    std::string display;               // "window", "headset" or "walls"; empty: that of the command line
+    std::string display;               // "window", "headset" or "walls"; empty: see names_displays()
     std::string displays;              // of walls: the display file
     std::string glove;                 // "none", "auto" or a serial port; empty: that of the command line
     bool guide = true, view_help = true;
@@ -128,9 +128,9 @@ struct PublishedValue {
     std::string source;
 };
 
-// Returns true if a lesson of the study names its display. The program then changes between displays, and
-// shows all pages and the other lessons in the window.
 struct Study;
+// Returns true if a lesson of the study names its display. The program then changes between displays, and
+// lessons without one are shown in the window. Otherwise all are shown on the display of the command line.
 bool names_displays(const Study& study);
 
 struct Study {

@@ -186,7 +186,7 @@ void add_measure_simulate(CLI::App& measure, int& exit_code) {
     command->add_option("assembly", options->assembly, "Folder, file, or name under content/assemblies")
         ->capture_default_str();
     command->add_option("--variant", options->variants,
-                        "Variants; default: all that work on the same joints as the first");
+                        "Variants; default: all that work on the same joints as the default one");
     command->add_option("--seed", options->seed, "Seed of bolts, operator and sensors")
         ->check(CLI::Range(0, 1'000'000))
         ->capture_default_str();

@@ -135,7 +135,7 @@ Result<station_setup::WornGlove> open_glove(const RegisterArguments& options,
                                             const content::StationFile& station) {
     if (station.glove_port.empty())
         return fail(ErrorCode::bad_content, fmt::format("{}: the station has no \"glove\"", options.file),
-                    "a glove, or --points FILE");
+                    "a glove, or --points FILE --from hand --to controller");
     BOLT_TRY_ASSIGN(const auto folder, station_setup::calibrations_folder());
     BOLT_TRY_ASSIGN(const auto person, person_argument(options.trainee, folder, NewPerson::unchanged));
     BOLT_TRY(hand::check_port_access(station.glove_port));
@@ -361,8 +361,8 @@ void add_station_register(CLI::App& station, int& exit_code) {
     command->add_flag(
         "--check", options->check,
         "Store nothing; touch the check point, with --controller a point of the user's choice, or "
-        "compare --points: exit code 0 if the stored registration is right to 5 mm, 1 if it is "
-        "not");
+        "compare --points: exit code 0 if the stored registration is right to 5 mm "
+        "(a hand: 15 mm), 1 if it is not");
     command->add_flag(
         "--force", options->force,
         "Store it even if its rms or its check point exceeds the limit (4 and 5 mm; of a hand 12 and 15 mm)");

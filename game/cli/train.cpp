@@ -305,7 +305,7 @@ int run_train(TrainArguments options) {
     }
     // The headset's hands move the tool unless a device does.
     const bool found = *headset && (*headset)->creator() != nullptr;
-    if (found && equipment->leaves_hand_free()) equipment->hand = trainer::HandMode::tracked;
+    if (found && equipment->hand_unassigned()) equipment->hand = trainer::HandMode::tracked;
     // The absolute path distinguishes a folder here from an assembly of the same name in the menu.
     TrainArguments named = options;
     named.tool = *tool;
@@ -340,7 +340,7 @@ Status run_study(const TrainArguments& options, trainer::StudyRun study) {
     BOLT_TRY_ASSIGN(auto equipment, equipment_of(used));
     BOLT_TRY_ASSIGN(const auto headset, open_headset(headset_use, used.quiet));
     BOLT_TRY_ASSIGN(auto desktop, platform::Desktop::open());
-    if (headset && headset->creator() != nullptr && equipment.leaves_hand_free())
+    if (headset && headset->creator() != nullptr && equipment.hand_unassigned())
         equipment.hand = trainer::HandMode::tracked;
     const trainees::TrainOptions unused{};  // the plan has the settings of the lessons
     return show({used, unused, equipment, std::move(study)},

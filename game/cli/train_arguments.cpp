@@ -91,10 +91,10 @@ void add_device_options(CLI::App& train, TrainArguments& options) {
         ->expected(0, 1)
         ->type_name("[optional]");
     train
-        .add_option(
-            "--mirror", options.mirror,
-            "The window of a headset shows the picture of the left or the right eye, of both, or with panel "
-            "also the panel with the measured values; key F9 changes it")
+        .add_option("--mirror", options.mirror,
+                    "Picture in the window of a headset: left or right eye, both (side by side), or panel "
+                    "(the left eye and the "
+                    "panel); key F9 changes it")
         ->check(CLI::IsMember(std::vector<std::string>(view::mirror_names.begin(), view::mirror_names.end())))
         ->capture_default_str();
     train.add_option(

@@ -35,11 +35,11 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
 // `if_any`: obstacles if the assembly has contact models.
 enum class Obstacles : std::uint8_t { none, if_any, required };
 
-// The recording of an interrupted lesson that is to be continued (resume.hpp).
+// The recording of an interrupted lesson, to continue it (resume.hpp).
 struct InterruptedLesson {
     std::filesystem::path file;
     Header header;
-    std::uint64_t ticks = 0;  // of the recording that the continued lesson begins with
+    std::uint64_t ticks = 0;  // number of recorded ticks to repeat
 };
 
 struct LessonOptions {
@@ -123,7 +123,7 @@ class LessonSession {
 
     // Continues LessonOptions::continues: repeats its ticks from the state at its beginning, `start`, on
     // `world`, and records them into `file`, which thus has the whole lesson. The interrupted recording stays
-    // as it is. Fails, without a file, if an output differs from the recorded one or the recording is
+    // as it is. Fails and deletes `file` if an output differs from the recorded one or the recording is
     // damaged.
     static Result<std::unique_ptr<LessonSession>> resume(SessionSetup start, const LessonOptions& options,
                                                          const std::filesystem::path& file,

@@ -25,7 +25,8 @@ template <class Step>
 Status for_each_tick(const InterruptedLesson& interrupted, Step step) {
     BOLT_TRY_ASSIGN(const auto reader, SessionReader::open(interrupted.file));
     if (reader.tick_count() < interrupted.ticks)
-        return fail(resume_error(interrupted.file, "has lost ticks"));
+        return fail(resume_error(interrupted.file, fmt::format("has {} ticks, and had {}",
+                                                               reader.tick_count(), interrupted.ticks)));
     std::uint64_t tick = 0;
     Status done;
     BOLT_TRY(reader.for_each_chunk([&](std::uint64_t, std::span<const TickRecord> chunk) {
@@ -78,8 +79,8 @@ Status check_same_lesson(const InterruptedLesson& interrupted, const SessionSetu
     for (HeaderTexts* texts : {&recorded, &wanted})
         for (const auto& [key, text] : *texts)
             if (recorded[key] != wanted[key])
-                return fail(
-                    resume_error(interrupted.file, fmt::format("the lesson has another \"{}\" now", key)));
+                return fail(resume_error(interrupted.file, fmt::format("\"{}\" was {}, and is {} now", key,
+                                                                       recorded[key], wanted[key])));
     return {};
 }
 

@@ -75,7 +75,8 @@ inline constexpr double max_fingertip_rms = 5.0e-3;
 
 // Measures the fingertips of a gloved hand to which the controller is fixed: the user turns the hand about
 // each fingertip. PointPair::from is in the frame of the wrist, as `fingers` returns them after each turn;
-// PointPair::to in that of the grip. The last pair is that of the ring finger. Fails if `fingers` fails.
+// PointPair::to in that of the grip. The last pair is that of the ring finger. Fails if `fingers` fails, the
+// tracker is lost, or the user interrupts.
 Result<std::vector<PointPair>> measure_fingertips(ControllerTip& controller,
                                                   const std::function<Result<hand::Skeleton>()>& fingers);
 

@@ -22,10 +22,15 @@ struct RegistrationLimits {
     std::size_t advised_points = 6;        // fewer give a warning; the check point does not count
     double advised_thickness_ratio = 0.1;  // of the points; below it a mirrored axis cannot be detected
 };
-// A glove and a model of the hand give fingertips with an error of some millimetres, and nobody has exactly
-// the proportions of the model. The hand is not touched in the picture, so this suffices. Its side is known,
-// so the fingertips may lie in a plane.
-inline constexpr RegistrationLimits limits_of_hand{12e-3, 15e-3, {0.12, 0.1}, 4, 0.0};
+// A glove and a model of the hand give fingertips with an error of some millimetres, and people's hands
+// differ from the model's proportions. The drawn hand touches nothing real, so these limits suffice. Mirrored
+// points are not possible, because the side of the glove is known, so points in a plane give no warning.
+inline constexpr RegistrationLimits limits_of_hand{.rms = 12e-3,
+                                                   .check_error = 15e-3,
+                                                   .alignment = {.max_scale_error = 0.12, .min_width = 0.1},
+                                                   .advised_points = 4,
+                                                   .advised_thickness_ratio = 0.0};
+// The limits of registrations between these frames.
 RegistrationLimits limits_between(content::CoordinateFrame from, content::CoordinateFrame to);
 
 struct MeasuredRegistration {

@@ -43,7 +43,7 @@ class LessonStation {
     virtual bool next_tick(station::StationTick& tick) = 0;
     virtual const station::StationTick& latest_tick() = 0;       // is updated in a pause too
     [[nodiscard]] virtual std::uint64_t lost_ticks() const = 0;  // dropped because they were not read in time
-    virtual const station::DisplayedHand* hand() = 0;            // null: no gloved hand
+    virtual const station::DisplayedHand* hand() = 0;            // null: no gloved hand at an arm
     // The fingers of a glove whose wrist a headset measures; null: there is no such glove.
     virtual const WornFingers* worn_fingers() { return nullptr; }
     virtual std::vector<std::string> fault_messages() = 0;  // present faults of devices and glove

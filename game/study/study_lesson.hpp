@@ -51,7 +51,7 @@ StudyCheck check_study(const content::Study& study, const std::filesystem::path&
 // The errors of the equipment that all lessons of the study need, each with its place in the plan.
 std::vector<Error> check_equipment(const content::Study& study, const std::filesystem::path& folder,
                                    const EquipmentCheck& equipment);
-// The same for those lessons of a participant's steps that are due or come later.
+// The same for the lessons of these steps of a participant.
 std::vector<Error> check_equipment(const content::Study& study, const std::filesystem::path& folder,
                                    std::span<const Step> steps, const EquipmentCheck& equipment);
 

@@ -147,7 +147,7 @@ class App : public view::WindowContent {
     Result<LessonRequest> study_request();
     void request_display();
     void follow_study_display();
-    [[nodiscard]] bool needs_headset() const;
+    [[nodiscard]] bool shown_in_headset() const;
     Status record_study_lesson(const StartedLesson& started);
     void count_study_lesson();
     Status upload_lesson();
@@ -161,6 +161,7 @@ class App : public view::WindowContent {
     void perform_in_room(Action action);
     void follow_placement(const view::ImmersiveFrame& immersive, std::span<const platform::InputEvent> events,
                           double seconds);
+    [[nodiscard]] xr::Hands gloved_hands(xr::Hands hands) const;
     std::optional<Pose> registered_workpiece(const view::ImmersiveFrame& immersive);
     void place_in_room(const view::ImmersiveFrame& immersive);
     void start_registered_arm(const view::ImmersiveFrame& immersive);

@@ -19,10 +19,10 @@ std::string_view name_of(LessonDisplay::Kind kind) {
 
 }  // namespace
 
-// A headset that the due lesson of a study needs. The lesson must not go on without it.
-bool App::needs_headset() const { return study_ && display_.kind == LessonDisplay::Kind::headset; }
+// True while a study is shown in the headset. Its lesson must not go on without it.
+bool App::shown_in_headset() const { return study_ && display_.kind == LessonDisplay::Kind::headset; }
 
-// From the window to the display of the due step, or back to the window.
+// Requests the display of the due step, or, from another display, the window.
 void App::request_display() {
     const bool in_window = display_.kind == LessonDisplay::Kind::window;
     wanted_display_ = in_window ? study_->due_display() : LessonDisplay{};
@@ -40,9 +40,10 @@ void App::enter_display(const Status& opened) {
     log(std::string("the study is shown ") + std::string(name_of(display_.kind)));
 }
 
-// A participant who takes the headset off after its last lesson reads the next page in the window.
+// A participant who takes the headset off after a lesson, and has none in it to do next, reads the next page
+// in the window.
 void App::follow_study_display() {
-    if (!needs_headset() || screen_ != ShownScreen::study || wanted_display_) return;
+    if (!shown_in_headset() || screen_ != ShownScreen::study || wanted_display_) return;
     const bool worn = room_ && room_->seen;
     if (!worn && study_->due_display() != display_) request_display();
 }

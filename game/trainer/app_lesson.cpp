@@ -90,12 +90,12 @@ Result<LessonRequest> App::study_request() {
     choice.mode = settings.mode;
     choice.task = settings.task;
     choice.law = settings.law;
-    if (needs_headset() && !(room_ && room_->present))
+    if (shown_in_headset() && !(room_ && room_->present))
         return fail(ErrorCode::no_device, "the headset shows nothing", "the headset on and worn");
     choice.equipment = equipment_for(lesson.devices, lesson.hand == "free", choice.equipment);
     use_glove(lesson.glove, choice.equipment);
     if (lesson.hand == "tracked" && lesson.devices.empty()) choice.equipment.devices.clear();
-    if (needs_headset() && (lesson.hand == "tracked" || choice.equipment.leaves_hand_free()))
+    if (shown_in_headset() && (lesson.hand == "tracked" || choice.equipment.hand_unassigned()))
         choice.equipment.hand = HandMode::tracked;
     request.settings.force_scale = lesson.force_scale.value_or(request.settings.force_scale);
     request.options.guide = settings.guide;

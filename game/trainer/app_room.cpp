@@ -93,7 +93,7 @@ void App::follow_headset(const view::ImmersiveFrame* immersive) {
     const auto pause = [&] {
         if (!paused) missing.paused = paused = true;
     };
-    if (needs_headset() && immersive == nullptr) pause();
+    if (shown_in_headset() && immersive == nullptr) pause();
     if (client.tracked && immersive == nullptr) {
         if (!std::exchange(missing.noticed, true)) return pause();
         if (paused) return;
@@ -242,6 +242,15 @@ std::optional<xr::Side> App::working_hand() const {
     return busy ? std::optional(client.tracked->side) : std::nullopt;
 }
 
+// The hands, with the glove that a lesson uses.
+xr::Hands App::gloved_hands(xr::Hands hands) const {
+    if (!active_ || !active_->station) return hands;
+    const StationClient& client = *active_->station;
+    if (const station_setup::WornFingers* glove = client.link->worn_fingers())
+        hands[glove->side] = with_glove(hands[glove->side], *glove, client.wrist_at_controller);
+    return hands;
+}
+
 // Performs an action of a key or of a button of the pause, in a room.
 void App::perform_in_room(Action action) {
     if (!room_) return;
@@ -317,7 +326,7 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     trainer::update(room.vignette, scene_in_room(), window.seconds);
     const HandKeys keys{platform::Key::escape, preferences_.keys.of(Action::tool)};
     const std::vector<platform::InputEvent> hands =
-        hand_events(room, immersive->hands, keys, window.seconds, working_hand());
+        hand_events(room, gloved_hands(immersive->hands), keys, window.seconds, working_hand());
     events.insert(events.end(), hands.begin(), hands.end());
 }
 
@@ -335,12 +344,7 @@ Status App::draw_hands(render::Scene& scene, const view::ImmersiveFrame& immersi
     if (plays && active_->station && active_->station->tracked)
         shown.by_lesson = active_->station->tracked->side;
     if (!active_) add_menu_light(scene);
-    xr::Hands hands = immersive.hands;
-    if (active_ && active_->station)
-        if (const station_setup::WornFingers* glove = active_->station->link->worn_fingers())
-            hands[glove->side] =
-                with_glove(hands[glove->side], *glove, active_->station->wrist_at_controller);
-    add_room_hands(scene, *gpu_->room_hands, hands, *room_, scene_in_room(), shown);
+    add_room_hands(scene, *gpu_->room_hands, gloved_hands(immersive.hands), *room_, scene_in_room(), shown);
     return {};
 }
 

@@ -32,9 +32,8 @@ struct Equipment {
     // True if opening the devices may take seconds, or last until the user has prepared an arm.
     [[nodiscard]] bool has_hardware() const { return !devices.empty() || !glove.empty(); }
     [[nodiscard]] bool needs_station() const { return has_hardware() || hand != HandMode::helped; }
-    // True if neither a device nor a chosen way of the mouse moves the hand. A glove measures only the
-    // fingers.
-    [[nodiscard]] bool leaves_hand_free() const { return devices.empty() && hand == HandMode::helped; }
+    // True if no device and no chosen way of the mouse moves the hand, so that a headset may.
+    [[nodiscard]] bool hand_unassigned() const { return devices.empty() && hand == HandMode::helped; }
     bool operator==(const Equipment&) const = default;
 };
 

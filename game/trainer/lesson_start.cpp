@@ -63,7 +63,8 @@ Result<StartedLesson> begin_again(LessonRequest request, const Error& why) {
     return lesson;
 }
 
-// Continues the station of an interrupted lesson with the session.
+// Sets the station's counters to those of the repeated session. Fails if its limits of force are not those of
+// the recording.
 Status join_station(StartedLesson& lesson) {
     if (!lesson.active.station) return {};
     lesson.active.station->checkpoints_sent = lesson.active.session->checkpoints_saved();
@@ -74,8 +75,8 @@ Status join_station(StartedLesson& lesson) {
         return {};
     Error error;
     error.file = interrupted.file.string();
-    error.what = "was recorded with another device, or with another share of its force";
-    error.expected = "the device of the interrupted lesson";
+    error.what = "has other limits of force than the device now";
+    error.expected = "the device and the share of its force with which the lesson was recorded";
     return fail(std::move(error));
 }
 

@@ -72,10 +72,7 @@ xr::HandInput with_glove(const xr::HandInput& hand, const station_setup::WornFin
         wrist = *palm * Pose{Vec3(0.0), glm::conjugate(grip_at_palm_joint(fingers.side))} *
                 inverse(palm_at_wrist);
     }
-    xr::HandInput gloved = hand;
-    gloved.grip.reset();
-    gloved.joints.reset();
-    gloved.select = 0.0F;
+    xr::HandInput gloved;
     gloved.grasp = static_cast<float>(fingers.closing);
     gloved.active = wrist.has_value();
     if (!wrist) return gloved;

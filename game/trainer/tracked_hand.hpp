@@ -43,9 +43,10 @@ Pose fingertips_at_palm(xr::Side side);
 // The pose of the joint hand::palm in the frame of the fingertips.
 Pose palm_joint_at_fingertips(xr::Side side);
 
-// The hand with the fingers of a glove instead of those that the headset sees, and without the buttons of a
-// controller that is fixed to it. Its wrist is, in this order: at the controller where it is registered,
-// where the cameras see it, or that of a hand that holds the controller.
+// The hand with the fingers of a glove instead of those that the headset sees. It closes as the glove does;
+// the buttons of a controller that is fixed to it do nothing, and it does not point. Its wrist is, in this
+// order: at the controller where it is registered, where the cameras see it, or that of a hand that holds the
+// controller.
 xr::HandInput with_glove(const xr::HandInput& hand, const station_setup::WornFingers& fingers,
                          const std::optional<Pose>& wrist_at_controller);
 

@@ -72,7 +72,7 @@ VkRect2D filling_part(VkExtent2D picture, VkExtent2D window);
 // The largest rectangle with the picture's shape in the middle of a window of this size.
 VkRect2D fitted(VkExtent2D picture, VkExtent2D window);
 
-// The pictures of a headset that its window shows to whoever instructs: copies, so that the window costs no
+// The pictures of a headset that its window shows to the instructor: copies, so that the window costs no
 // drawing.
 enum class Mirror : std::uint8_t {
     left_eye,
@@ -90,7 +90,7 @@ struct MirrorSources {
     std::optional<render::ImageLayer> panel;  // none: there is no panel now
     VkExtent2D panel_size{};                  // px
 };
-// With one eye, or without a panel, what there is.
+// If the chosen picture is missing, the left eye.
 std::vector<gpu::ShownPicture> mirror_pictures(Mirror mirror, const MirrorSources& sources,
                                                VkExtent2D window);
 

@@ -213,8 +213,13 @@ TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras th
         xr::HandInput worn;
         worn.active = true;
         worn.select = worn.grasp = 1.0F;
+        worn.menu = worn.secondary = true;
         worn.grip = xr::LocatedPose{wrist * inverse(mount), true};
-        is_at_wrist(with_glove(worn, fingers, mount), 1e-6);
+        worn.aim = worn.grip;
+        const xr::HandInput without_buttons = with_glove(worn, fingers, mount);
+        is_at_wrist(without_buttons, 1e-6);
+        CHECK_FALSE((without_buttons.menu || without_buttons.secondary || without_buttons.aim));
+        CHECK(without_buttons.select == 0.0F);
         // Cameras that see the wrist, and other fingers than the glove measures.
         xr::HandInput seen;
         seen.active = true;

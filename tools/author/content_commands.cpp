@@ -370,7 +370,7 @@ void add_validate(CLI::App& app, int& exit_code) {
     command->add_option("assembly", options->assemblies, "Folders, files, or names under content/assemblies")
         ->required();
     command->add_option("--variant", options->variant,
-                        "Variant to check alone; otherwise all that work on different joints");
+                        "Variant to check alone; otherwise one for each set of joints and of models");
     command->add_option("--pictures", options->pictures,
                         "Draw each joint with the wrench and its free swing into this folder, JOINT.png");
     command->callback([options, &exit_code] { exit_code = run_validate(*options); });
