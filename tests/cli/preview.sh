@@ -144,6 +144,55 @@ sed -i 's/"modle": /"model": /' mine/assembly.json
 check "the repaired file is shown" eventually says_well
 check "Esc closes" ends_well
 
+# Selecting a joint. In the top view of 320 × 200 pixels B3 is at 189, 121 and B1 at 131, 77.
+cp "$sources/content/assemblies/cover-m8/assembly.json" mine/assembly.json
+entry() { grep -n "\"id\": \"$1\"" mine/assembly.json | cut -d: -f1; }
+count() { [[ $(grep -cE "$1" log) -eq $2 ]]; }
+has_title() { [[ $(title) == $1 ]]; }
+start mine --view top --size 320x200
+eventually shows top.png
+xdotool mousemove 189 121 mousedown 1 mousemove 230 130 mouseup 1
+eventually shows_not top.png
+settle
+check "a drag that begins on a joint selects nothing" count ': joint ' 0
+xdotool key 2
+eventually shows top.png
+xdotool mousemove 189 121 click 3
+xdotool mousemove 189 121 click 1
+line=$(entry B3)
+check "a click on a joint prints its place, type and tool" eventually grep -qxF \
+    "mine/assembly.json:$line:5: joint B3: type M8x30, tool wrench" log
+check "... the right button selects nothing" count ': joint ' 1
+check "... the title shows the same" eventually has_title \
+    "mine - joint B3: type M8x30, tool wrench - mine/assembly.json:$line:5 - bolt-author preview"
+check "... and the joint is highlighted" eventually shows_not top.png
+settle
+cp after.png selected.png
+xdotool mousemove 131 77 click 1
+check "a click on another joint selects that one" eventually grep -qxF \
+    "mine/assembly.json:$(entry B1):5: joint B1: type M8x30, tool wrench" log
+check "... and highlights only it" eventually shows_not selected.png
+xdotool mousemove 160 12 click 1
+check "a click beside all joints clears the title" eventually has_title 'mine - bolt-author preview'
+check "... and the highlight" eventually shows top.png
+xdotool mousemove 189 121 click 1
+check "the joint is selected again" eventually shows selected.png
+sed -i '1a\\n' mine/assembly.json
+check "the selection follows the joint's line when the file changes" eventually grep -qxF \
+    "mine/assembly.json:$((line + 2)):5: joint B3: type M8x30, tool wrench" log
+check "... also in the title" eventually has_title "mine - joint B3: *:$((line + 2)):5 - bolt-author preview"
+check "... and stays highlighted" shows selected.png
+xdotool key l
+check "... also in the far level" eventually count 'reloaded mine' 2
+xdotool key l
+check "... and back" eventually shows selected.png
+check "an unchanged place is not printed again" count ': joint B3' 3
+sed -i 's/"B3"/"B9"/' mine/assembly.json
+check "a joint that has gone is no longer selected" eventually grep -qxF 'joint B3 has gone and is no longer selected' log
+check "... as the title shows" eventually has_title 'mine - bolt-author preview'
+check "... and the highlight is gone" eventually shows top.png
+check "Esc closes" ends_well
+
 # A changing light, and shaders.
 cp "$sources/content/environments/workshop.hdr" light.hdr
 cp -r "$sources/shaders" shaders

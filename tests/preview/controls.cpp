@@ -81,6 +81,21 @@ TEST_CASE("Preview: the wheel zooms towards the cursor") {
     CHECK(at.camera.target.x == doctest::Approx(2.0 * at.camera.target.y));
 }
 
+TEST_CASE("Preview: a click is a press and a release of the left button without a drag between them") {
+    ControlsFixture at;
+    const auto button = [](Button which, bool down, double x) { return ButtonEvent{which, down, {x, 100}}; };
+    const auto left = [&](bool down, double x) { return button(Button::left, down, x); };
+    CHECK(at.apply({left(true, 200), left(false, 200)}).click == glm::dvec2(200, 100));
+    CHECK_FALSE(at.apply({left(true, 200), CursorEvent{{202, 100}}}).click.has_value());
+    CHECK(at.apply({left(false, 202)}).click.has_value());
+    CHECK_FALSE(
+        at.apply({left(true, 200), CursorEvent{{300, 100}}, CursorEvent{{200, 100}}, left(false, 200)})
+            .click.has_value());
+    CHECK_FALSE(at.apply({button(Button::right, true, 200), button(Button::right, false, 200)}).click);
+    CHECK_FALSE(at.apply({left(true, 200), button(Button::right, true, 200), left(false, 200)}).click);
+    CHECK_FALSE(at.apply({left(true, 200), FocusEvent{false}, left(false, 200)}).click);
+}
+
 TEST_CASE("Preview: the help names up to nine views by their keys") {
     std::vector<view::Viewpoint> views(11);
     views[0].name = "overview";

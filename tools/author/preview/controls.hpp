@@ -13,6 +13,8 @@ struct PreviewCommands {
     bool close = false, full_screen = false, reload = false, show_all = false, toggle_level = false;
     bool redraw = false;                     // the window lost its picture or was resized
     std::optional<std::size_t> select_view;  // index of a view of the assembly
+    // Pixels from the upper left corner, where the left button was pressed and released without a drag.
+    std::optional<glm::dvec2> click;
 };
 
 class PreviewControls {
@@ -23,7 +25,11 @@ class PreviewControls {
                           view::Orbit& camera, const render::BoundingBox& box);
 
   private:
+    // Returns the position of a click that ends with the event.
+    std::optional<glm::dvec2> find_click(const platform::InputEvent& event);
+
     view::OrbitControl mouse_;
+    std::optional<glm::dvec2> pressed_;  // of the left button; none: not held, or the mouse has moved since
 };
 
 // Returns one line that lists the keys and the names of up to nine views.

@@ -12,6 +12,7 @@
 #include "game/view/gpu_context.hpp"
 #include "game/view/pictures.hpp"
 #include "tools/author/preview/controls.hpp"
+#include "tools/author/preview/joint_selection.hpp"
 
 namespace bolt::author {
 
@@ -38,6 +39,7 @@ namespace {
 
 constexpr double poll_interval = 0.1;  // s, between checks of the files
 constexpr float level_error = 0.5F;    // px, largest visible error of a coarser level of detail
+constexpr glm::vec4 selected_color{1.0F, 0.78F, 0.1F, 1.0F};
 
 double seconds() { return std::chrono::duration<double>(platform::Clock::now().time_since_epoch()).count(); }
 
@@ -109,9 +111,13 @@ class PreviewSession {
     Status reload_light();
     Status reload_shaders(render::ShaderCode code);
     Status execute(const PreviewCommands& commands);
+    Status select_joint(const SelectableJoint* joint);
+    Status follow_selection();
+    void outline_selection(const glm::vec4& color);
     Result<bool> draw();
     enum Source : std::uint8_t { model_source, light_source, shader_source };
     void report_errors(Source source, std::vector<Error> errors);
+    void update_title();
     void print_messages();
 
     const PreviewOptions& options_;
@@ -123,6 +129,8 @@ class PreviewSession {
     std::optional<GpuState> gpu_;
     view::CameraGlide camera_;
     PreviewControls controls_;
+    SelectableJoints joints_;
+    std::optional<SelectableJoint> selected_;
     bool camera_placed_ = false;  // false until the first picture
     bool needs_redraw_ = true;    // the picture in the window is out of date
     bool closed_ = false;
@@ -136,16 +144,55 @@ class PreviewSession {
     return {size.width, size.height};
 }
 
-// Prints the errors of a source to stderr and shows the first error of any source in the title until it is
-// fixed.
+// Prints the errors of a source to stderr and keeps them for the title.
 void PreviewSession::report_errors(Source source, std::vector<Error> errors) {
     (void)print_error(errors);
     errors_[source] = std::move(errors);
+    update_title();
+}
+
+// Shows the first error of any source until it is fixed; without an error the selected joint.
+void PreviewSession::update_title() {
     const std::string& name = sources_.model().name;
     std::string title = fmt::format("{} - bolt-author preview", name);
+    if (selected_)
+        title = fmt::format("{} - joint {}: {} - {} - bolt-author preview", name, selected_->id,
+                            selected_->description, selected_->location);
     for (const std::vector<Error>& list : errors_)
         if (!list.empty()) title = fmt::format("{} - error: {}", name, list.front().message());
     window_.set_title(title.substr(0, title.find('\n')));
+}
+
+// Alpha 0 removes the outline. A joint without a drawn part is not outlined.
+void PreviewSession::outline_selection(const glm::vec4& color) {
+    if (selected_) (void)view::outline(*gpu_->shown_model, sources_.model(), selected_->node, color);
+    needs_redraw_ = true;
+}
+
+// `joint`: null clears the selection.
+Status PreviewSession::select_joint(const SelectableJoint* joint) {
+    outline_selection(glm::vec4(0.0F));
+    selected_ = joint == nullptr ? std::nullopt : std::optional(*joint);
+    outline_selection(selected_color);
+    update_title();
+    return selected_ ? print(selection_line(*selected_)) : Status();
+}
+
+// Finds the selected joint in the files that were just reloaded.
+Status PreviewSession::follow_selection() {
+    if (!selected_) return {};
+    const SelectableJoint* joint = joint_named(joints_, selected_->id);
+    if (joint == nullptr) {
+        const std::string line = fmt::format("joint {} has gone and is no longer selected\n", selected_->id);
+        selected_.reset();
+        update_title();
+        return print(line);
+    }
+    const bool same = selection_line(*joint) == selection_line(*selected_);
+    selected_ = *joint;
+    outline_selection(selected_color);
+    update_title();
+    return same ? Status() : print(selection_line(*joint));
 }
 
 void PreviewSession::print_messages() {
@@ -164,7 +211,7 @@ Status PreviewSession::start() {
     gpu_->swapchain = std::move(swapchain);
     if (!std::exchange(camera_placed_, true))
         camera_.jump(initial_camera(options_, sources_, *gpu_->shown_model, size_of(window_)));
-    needs_redraw_ = true;
+    outline_selection(selected_color);
     return {};
 }
 
@@ -172,6 +219,11 @@ Status PreviewSession::reload_model(view::DetailLevel level) {
     view::ModelLoadResult loaded = sources_.read_model(level);
     if (!loaded.ok()) {
         report_errors(model_source, std::move(loaded.errors));
+        return {};
+    }
+    Result<SelectableJoints> joints = find_joints(options_.source, loaded.model);
+    if (!joints) {
+        report_errors(model_source, {joints.error()});
         return {};
     }
     auto shown_model = view::show_model(*gpu_->gpu_context.device, loaded.model, *gpu_->light, {true, true});
@@ -184,8 +236,10 @@ Status PreviewSession::reload_model(view::DetailLevel level) {
     gpu_->shown_model = std::move(*shown_model);
     needs_redraw_ = true;
     sources_.set_shown(std::move(loaded.model), level);
+    joints_ = std::move(*joints);
     report_errors(model_source, {});
-    return print(fmt::format("reloaded {}\n", sources_.model().name));
+    BOLT_TRY(print(fmt::format("reloaded {}\n", sources_.model().name)));
+    return follow_selection();
 }
 
 Status PreviewSession::reload_light() {
@@ -255,6 +309,12 @@ Status PreviewSession::execute(const PreviewCommands& commands) {
         camera_.glide_to(view::orbit_of(views[*commands.select_view]));
     if (commands.show_all)
         camera_.glide_to(view::fit_to_box(camera_.goal, gpu_->shown_model->box, aspect_of(size_of(window_))));
+    if (commands.click) {
+        const VkExtent2D size = size_of(window_);
+        const double height = std::max(size.height, 1U);
+        const glm::dvec2 at = (*commands.click - 0.5 * glm::dvec2(size.width, height)) / height;
+        BOLT_TRY(select_joint(joint_at(joints_, camera_.shown, {at.x, -at.y})));
+    }
     if (commands.toggle_level) {
         const bool near = sources_.level() == view::DetailLevel::near;
         BOLT_TRY(reload_model(near ? view::DetailLevel::far : view::DetailLevel::near));
@@ -310,6 +370,7 @@ Status PreviewSession::run() {
         BOLT_TRY_ASSIGN(auto hot, render::HotShaders::open(options_.shaders));
         hot_shaders_.emplace(std::move(hot));
     }
+    BOLT_TRY_ASSIGN(joints_, find_joints(options_.source, sources_.model()));
     report_errors(model_source, {});
     BOLT_TRY(print(help_line(sources_.model().views)));
     gpu::DeviceLossPolicy loss_policy;
