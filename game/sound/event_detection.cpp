@@ -166,12 +166,24 @@ void detect_nut(EventDetector& detector, const servo::Setup& setup, const Audibl
     detector.load = load;
 }
 
+// The slack of a ratchet rises while the handle swings back, and drops by one tooth when the pawl falls into
+// the next one. In a tick no hand turns a handle forward by half a tooth, which would lower the slack too.
+void detect_tooth(EventDetector& detector, const servo::Setup& setup, const world::ToolState& contact,
+                  SoundCues& cues) {
+    const double drop = detector.ratchet_slack - contact.ratchet_slack;
+    const bool same_joint = contact.joint >= 0 && contact.joint == detector.joint;
+    const double tooth = setup.wrench.ratchet.tooth_angle;
+    cues.tooth = same_joint && tooth > 0.0 && drop > 0.5 * tooth;
+    detector.ratchet_slack = contact.ratchet_slack;
+}
+
 }  // namespace
 
 SoundCues detect_events(EventDetector& detector, const servo::Setup& setup, const Audible& world,
                         const LessonCues& lesson) {
     SoundCues cues;
     detect_contact(detector, setup, world, cues);
+    detect_tooth(detector, setup, world.only<world::ToolState>(), cues);
     detect_nut(detector, setup, world, cues);
     cues.click = world.only<world::ToolState>().clicked;
     cues.done = lesson.done;

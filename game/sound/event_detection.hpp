@@ -48,8 +48,9 @@ struct EventDetector {
 
     // Values of the last tick.
     std::int16_t joint = -1;
-    double nut_angle = 0.0;  // rad
-    double load = 0.0;       // clamp force over the reference load of the joint, as load_of() returns
+    double nut_angle = 0.0;      // rad
+    double load = 0.0;           // clamp force over the reference load of the joint, as load_of() returns
+    double ratchet_slack = 0.0;  // rad
 };
 
 // The components that the cues are derived from.

@@ -78,7 +78,7 @@ namespace {
 // Levels, of full scale, before the limiter. Chosen from the waveforms of lessons.
 constexpr double strike_level = 0.55, scrape_gain = 0.5, run_level = 0.06, run_pulse_level = 0.08,
                  groan_level = 0.2, click_level = 0.5, slip_level = 1.2, crackle_level = 0.04,
-                 bell_level = 0.16, gong_level = 0.22;
+                 tooth_level = 0.08, bell_level = 0.16, gong_level = 0.22;
 
 constexpr double smoothing_time = 4e-3, crackle_time = 25e-3;  // s
 
@@ -271,6 +271,10 @@ void apply_cues(Synth& s, const SoundCues& cues) {
         hit(s.ratchet_pulses, click_level, 0.3e-3, s.rate);
         hit(s.ratchet_pulses, 0.4 * click_level, 0.3e-3, s.rate, 0.018);
     }
+    if (cues.tooth && s.since_tooth >= 1.0 / max_teeth) {
+        hit(s.ratchet_pulses, tooth_level, 0.2e-3, s.rate);
+        s.since_tooth = 0.0;
+    }
     if (cues.done) {
         hit(s.bell_pulses, bell_level, 0.5e-3, s.rate);
         hit(s.second_bell_pulses, bell_level, 0.5e-3, s.rate, 0.12);
@@ -291,6 +295,7 @@ void render(Synth& s, std::span<float> samples) {
         s.last_sample += std::clamp(soft_limit(sum) - s.last_sample, -step, step);
         sample = static_cast<float>(s.last_sample);
         ++s.sample_count;
+        s.since_tooth += 1.0 / s.rate;
     }
 }
 

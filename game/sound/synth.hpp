@@ -2,6 +2,7 @@
 // recordings.
 //
 //   strike, click, slip, chimes   force pulses that excite resonators
+//   tooth                         the same; at most max_teeth a second sound
 //   slide                         band-pass noise whose frequency rises with the speed
 //   run                           pulses, a fixed number per turn of the nut; a tone when they are fast
 //   creep                         stick-slip: the nut sticks, then slips with a pulse
@@ -38,6 +39,7 @@ struct SoundCues {
 
     float slip = 0.0F;     // 0 … 1.5: strength with which the jaw slips over the nut's corners in this tick
     bool click = false;    // the torque wrench clicks
+    bool tooth = false;    // the pawl of a ratchet falls into a tooth
     bool done = false;     // chime: a step of a joint is done
     bool mistake = false;  // low chime: a mistake
 };
@@ -93,6 +95,7 @@ class ForcePulses {
 
 // 1/s, limit of the output's slope: a quarter of full scale per sample at 48 kHz.
 inline constexpr double max_slope = 12e3;
+inline constexpr double max_teeth = 60.0;         // 1/s, that sound; the others are left out
 inline constexpr double pulses_per_turn = 120.0;  // of the nut: sets the pitch of `run`
 
 // First-order low-pass filter.
@@ -120,6 +123,8 @@ struct Synth {
 
     SmoothedValue creep_speed, load;
     double stuck_angle = 0.0, release_angle = 0.0;  // rad since the nut began to stick; rad at which it slips
+
+    double since_tooth = 1.0;  // s since the last tooth that sounded
 
     double crackle = 0.0;  // 0 … 1, level of the noise after a slip
     std::uint32_t sample_count = 0;

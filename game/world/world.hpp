@@ -51,6 +51,7 @@ struct ToolState {
     collision::ObstacleId obstacle;        // obstacle that the wrench touches
     std::uint16_t contacts = 0;            // active and nearly active contacts
     bool clicked = false;                  // the torque wrench clicked in this tick
+    double ratchet_slack = 0.0;            // as servo::Engagement::ratchet_slack
 };
 
 // The force that guides the tool to a nut, before the limits of the output stage.

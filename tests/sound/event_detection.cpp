@@ -242,6 +242,48 @@ TEST_CASE("Event detection: a torque wrench clicks in its tick and at no other t
     }
 }
 
+TEST_CASE("Event detection: a swing back gives one cue for each tooth of a ratchet and none without teeth") {
+    for (const int teeth : {0, 72, 36})
+        for (const double half_teeth : {1.0, 9.0, 25.0}) {
+            CAPTURE(teeth);
+            CAPTURE(half_teeth);
+            servo::Setup setup = test::two_joints();
+            const double tooth = to_radians(teeth > 0 ? 360.0 / teeth : 5.0);
+            setup.wrench.ratchet.tooth_angle = teeth > 0 ? tooth : 0.0;
+            setup.wrench.ratchet.drag = 0.25;
+            setup.wrench.head_angle = 0.0;
+            servo::State state = servo::initial_state(setup);
+            const servo::NutGeometry& nut = setup.nuts[0];
+            joint::turn_nut(setup.group, state.joints, 0, nut.start_gap / nut.lead + 0.3, 1.0, 0.001);
+            double handle = state.joints[0].nut.angle;
+            const Vec3 centre = servo::nut_centre(nut, handle);
+            EventDetector detector;
+            world::World world;
+            world::add_haptics(world, state);
+            const auto heard = [&](double by, int ticks) {
+                int cues = 0;
+                for (int i = 0; i < ticks; ++i) {
+                    handle += by / ticks;
+                    const servo::TickInput input =
+                        test::holding(servo::Grip::wrench, test::tool_at(nut, centre, handle));
+                    const servo::Output output = servo::tick(setup, state, input);
+                    world::write_haptics(world, {state, input, output});
+                    cues += detect_events(detector, setup, world).tooth ? 1 : 0;
+                }
+                return cues;
+            };
+            CHECK(heard(0.0, 100) == 0);
+            REQUIRE(state.engagement.joint == 0);
+            CHECK(heard(setup.wrench.half_play + 0.005, 200) == 0);  // pulls
+            heard(-2.0 * setup.wrench.half_play - 0.005, 200);       // takes up the play
+            const double begun = state.engagement.ratchet_slack;
+            const int whole = static_cast<int>((begun + 0.5 * half_teeth * tooth) / tooth);
+            const int ticks = static_cast<int>(400.0 * half_teeth);
+            CHECK(heard(-0.5 * half_teeth * tooth, ticks) == (teeth > 0 ? whole : 0));
+            CHECK(heard(0.4 * tooth, 100) == 0);  // forward again
+        }
+}
+
 TEST_CASE("Event detection: the cues of the lesson are passed on") {
     const std::vector<lesson::LessonEvent> events{{1, lesson::EventKind::engage, 0, 0.0, {}},
                                                   {1, lesson::EventKind::step_end, 0, 0.0, {}}};

@@ -45,7 +45,7 @@ TEST_CASE("Lesson sound: stages differ in loudness, steps chime and the torque w
     auto wav = audio::WavWriter::create(path, test::rate);
     REQUIRE(wav);
     Loudness air, spun, half, full;
-    int clicks = 0, felt = 0, chimes = 0, mistakes = 0, strikes = 0;
+    int clicks = 0, felt = 0, teeth = 0, chimes = 0, mistakes = 0, strikes = 0;
     std::size_t count = 0, ticks = 0, since = 0;
     double most = 0.0, step = 0.0;
     float before = 0.0F;
@@ -64,6 +64,7 @@ TEST_CASE("Lesson sound: stages differ in loudness, steps chime and the torque w
             chimes += cues.done ? 1 : 0;
             mistakes += cues.mistake ? 1 : 0;
             strikes += cues.strike_speed > 0.0F ? 1 : 0;
+            teeth += cues.tooth ? 1 : 0;
             felt += output.clicked ? 1 : 0;
             // Skips the decay of single sounds.
             since = cues.click || cues.done || cues.strike_speed > 0.0F ? 0 : since + 1;
@@ -78,6 +79,7 @@ TEST_CASE("Lesson sound: stages differ in loudness, steps chime and the torque w
     CHECK(chimes == 16);  // four nuts: run-down, half torque, full torque, re-check
     CHECK(mistakes == 0);
     CHECK(clicks == felt);
+    CHECK(teeth == 0);  // the torque wrench has no ratchet
     CHECK(clicks >=
           8);  // four nuts at half and full torque; a re-check ends before the click if the nut moves
     CHECK(strikes > 4);
@@ -94,6 +96,66 @@ TEST_CASE("Lesson sound: stages differ in loudness, steps chime and the torque w
     std::filesystem::remove(path);
     REQUIRE(bytes);
     CHECK(bytes->size() == 44 + 2 * count);
+}
+
+TEST_CASE("Lesson sound: a recorded swing back sounds once for each tooth, in the lesson and in its replay") {
+    const test::Folder folder;
+    content::LoadedAssembly loaded = content::load_assembly("pump-32-160");
+    REQUIRE(loaded.ok());
+    auto started = session::LessonSession::begin(loaded.assembly, {}, folder / "a.boltwright");
+    REQUIRE(started);
+    session::LessonSession& lesson = **started;
+    const servo::Setup& setup = lesson.setup();
+    const servo::NutGeometry& nut = setup.nuts[0];
+    const double tooth_angle = setup.wrench.ratchet.tooth_angle;
+    REQUIRE(tooth_angle > 0.0);
+    sound::EventDetector live;
+    world::World lesson_world;
+    world::add_haptics(lesson_world, lesson.state());
+    double handle = 0.0;
+    const auto heard = [&](double by) {
+        const double angle = lesson.state().joints[0].nut.angle;
+        handle += by;
+        const auto output = lesson.step(
+            lesson_world,
+            test::holding(servo::Grip::wrench, test::tool_at(nut, servo::nut_centre(nut, angle), handle)));
+        REQUIRE(output);
+        return sound::detect_events(live, setup, lesson_world).tooth ? 1 : 0;
+    };
+    int teeth = 0;
+    for (int i = 0; i < 100; ++i) teeth += heard(0.0);
+    REQUIRE(lesson.state().engagement.joint == 0);
+    for (int i = 0; i < 60000 && lesson.state().joints[0].torque < 10.0; ++i) teeth += heard(0.005);
+    REQUIRE(lesson.state().joints[0].torque >= 10.0);
+    CHECK(teeth == 0);
+    while (lesson.state().joints[0].torque > 0.0) heard(-1e-4);
+    while (lesson.state().engagement.ratchet_slack == 0.0) heard(-1e-4);
+    for (int i = 0; i < 4000; ++i) teeth += heard(-9.5 * tooth_angle / 4000);
+    CHECK(teeth == 9);
+    REQUIRE(lesson.finish(lesson_world));
+    const auto reader = session::SessionReader::open(folder / "a.boltwright");
+    REQUIRE(reader);
+    auto again = session::restore_setup(*reader);
+    REQUIRE(again);
+    sound::EventDetector detector;
+    world::World world;
+    world::add_haptics(world, again->state);
+    int replayed = 0, falls = 0;
+    double before = 0.0;
+    const auto status = session::replay(*reader, std::move(*again), [&](const session::ReplayTick& moment) {
+        world::write_haptics(world, {moment.state, moment.input, moment.output});
+        replayed += sound::detect_events(detector, moment.setup, world).tooth ? 1 : 0;
+        // A held ratchet whose slack was almost a tooth and is almost none has passed a tooth.
+        const servo::Engagement& engagement = moment.state.engagement;
+        const double tooth = moment.setup.wrench.ratchet.tooth_angle;
+        const bool held = engagement.joint >= 0 && tooth > 0.0;
+        falls += held && before > 0.7 * tooth && engagement.ratchet_slack < 0.3 * tooth ? 1 : 0;
+        before = engagement.ratchet_slack;
+        return true;
+    });
+    REQUIRE(status);
+    CHECK(replayed == teeth);
+    CHECK(falls == teeth);
 }
 
 TEST_CASE("Lesson sound: a replay gives the same samples") {

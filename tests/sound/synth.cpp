@@ -48,6 +48,7 @@ SoundCues anything(Random& random) {
     cues.load = number(1.5);
     cues.slip = random.chance(0.1) ? number(1.5) : 0.0F;
     cues.click = random.chance(0.2);
+    cues.tooth = random.chance(0.2);
     cues.done = random.chance(0.2);
     cues.mistake = random.chance(0.2);
     return cues;
@@ -65,7 +66,7 @@ TEST_CASE("Synth: silence gives exact zeros, and every sound fades to exact zero
     all.creep_speed = 0.5F;
     all.load = 0.8F;
     all.slip = 1.0F;
-    all.click = all.done = all.mistake = true;
+    all.click = all.tooth = all.done = all.mistake = true;
     CHECK(test::loudest(test::listen(synth, all, 0.5)) > 0.1);
     test::listen(synth, {}, 9.0);
     for (const float sample : test::listen(synth, {}, 1.0)) REQUIRE(sample == 0.0F);
@@ -219,6 +220,32 @@ TEST_CASE("Synth: click, slip and both chimes are audible and differ") {
     CHECK(test::loudest(std::span(click).last(24000)) < 1e-3);
 }
 
+TEST_CASE("Synth: a ratchet's tooth is audible, quieter than a click, and sounds at most 60 times a second") {
+    Synth synth = make(), clicking = make();
+    SoundCues tooth, click;
+    tooth.tooth = click.click = true;
+    const double loud = test::loudest(after(synth, tooth, 0.2));
+    CHECK(loud > 0.01);
+    CHECK(loud < 0.4 * test::loudest(after(clicking, click, 0.2)));
+    const auto pulses_of = [&](int period) {  // ms between the cues, over one second
+        Synth ratchet = make();
+        int pulses = 0;
+        for (int i = 0; i < 1000; ++i) {
+            const double before = ratchet.since_tooth;
+            apply_cues(ratchet, i % period == 0 ? tooth : SoundCues{});
+            pulses += ratchet.since_tooth < before ? 1 : 0;
+            std::vector<float> samples(48);
+            render(ratchet, samples);
+            CHECK(test::loudest(samples) < 0.3);
+        }
+        return pulses;
+    };
+    CHECK(pulses_of(40) == 25);
+    const int fast = pulses_of(2);
+    CHECK(fast > 50);
+    CHECK(fast <= 60);
+}
+
 TEST_CASE("Synth: no single sound except a slip reaches a limiter") {
     std::vector<SoundCues> sounds{strike(1.0, StruckSurface::casing), strike(1.0, StruckSurface::nut)};
     const auto add = [&](auto set) { set(sounds.emplace_back()); };
@@ -227,13 +254,14 @@ TEST_CASE("Synth: no single sound except a slip reaches a limiter") {
     add([](SoundCues& h) { h.run_speed = 60.0F; });
     add([](SoundCues& h) { h.creep_speed = 1.0F, h.load = 1.0F; });
     add([](SoundCues& h) { h.click = true; });
+    add([](SoundCues& h) { h.tooth = true; });
     add([](SoundCues& h) { h.done = true; });
     add([](SoundCues& h) { h.mistake = true; });
     for (std::size_t i = 0; i < sounds.size(); ++i) {
         Synth synth = make();
         SoundCues continued = sounds[i];
         continued.strike_speed = 0.0F;
-        continued.click = continued.done = continued.mistake = false;
+        continued.click = continued.tooth = continued.done = continued.mistake = false;
         std::vector<float> samples = test::listen(synth, sounds[i], 1e-3);
         const std::vector<float> more = test::listen(synth, continued, 1.0);
         samples.insert(samples.end(), more.begin(), more.end());
