@@ -408,6 +408,7 @@ inline constexpr KeyRow key_rows[] = {
     {"caption.strike_nut", ""},
     {"caption.groan", ""},
     {"caption.scrape", ""},
+    {"caption.tooth", ""},
     {"caption.run", ""},
     // Boxes over the picture of a lesson (game/trainer/hud.cpp); hud.turns is a label at the nut.
     {"hud.curve", "joint"},

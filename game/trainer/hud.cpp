@@ -60,6 +60,7 @@ void observe(Captions& captions, const sound::SoundCues& cues, double dt) {
     accumulate(captions, Caption::groan, creep_angle / creep_for_caption, dt / creep_decay_time);
     observe_lasting(captions, Caption::scrape, cues.slide_speed > min_slide && cues.contact_force > min_press,
                     dt);
+    show_if(captions, Caption::tooth, cues.tooth);
     observe_lasting(captions, Caption::run, cues.run_speed > min_run, dt);
 }
 
@@ -75,9 +76,9 @@ std::vector<Caption> visible_captions(const Captions& captions) {
 }
 
 words::TextKey text_key(Caption caption) {
-    constexpr words::TextKey keys[] = {"caption.slip",  "caption.mistake",       "caption.click",
-                                       "caption.done",  "caption.strike_casing", "caption.strike_nut",
-                                       "caption.groan", "caption.scrape",        "caption.run"};
+    constexpr words::TextKey keys[] = {
+        "caption.slip",       "caption.mistake", "caption.click",  "caption.done",  "caption.strike_casing",
+        "caption.strike_nut", "caption.groan",   "caption.scrape", "caption.tooth", "caption.run"};
     static_assert(std::size(keys) == caption_count);
     return keys[static_cast<std::size_t>(caption)];
 }

@@ -26,9 +26,10 @@ enum class Caption : std::uint8_t {
     strike_nut,
     groan,   // stick-slip of a loaded nut
     scrape,  // the wrench slides on a part
+    tooth,   // a ratchet clicks over its teeth
     run      // a free nut runs down
 };
-inline constexpr std::size_t caption_count = 9;
+inline constexpr std::size_t caption_count = 10;
 inline constexpr std::size_t max_captions = 3;   // at once
 inline constexpr double caption_duration = 2.0;  // s
 

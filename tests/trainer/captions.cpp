@@ -29,7 +29,7 @@ TEST_CASE("Captions: each sound shows its caption in the same tick, and the capt
         sound::SoundCues heard;
         Caption caption;
     };
-    std::vector<Row> rows(6);
+    std::vector<Row> rows(7);
     rows[0] = {{}, Caption::slip};
     rows[0].heard.slip = 0.05F;
     rows[1] = {{}, Caption::mistake};
@@ -43,6 +43,8 @@ TEST_CASE("Captions: each sound shows its caption in the same tick, and the capt
     rows[5] = {{}, Caption::strike_nut};
     rows[5].heard.strike_speed = 0.3F;
     rows[5].heard.surface = sound::StruckSurface::nut;
+    rows[6] = {{}, Caption::tooth};
+    rows[6].heard.tooth = true;
     for (const Row& row : rows) {
         Captions captions;
         observe(captions, {}, dt);
@@ -130,6 +132,7 @@ TEST_CASE("Captions: a played lesson shows exactly the captions of the sounds th
     CHECK(said.count(Caption::slip) == 0);
     CHECK(said.count(Caption::mistake) == 0);
     CHECK(said.count(Caption::click) == 0);
+    CHECK(said.count(Caption::tooth) == 0);
 }
 
 TEST_CASE("Captions: at most three at once, the most important first, each with its own text") {
