@@ -218,7 +218,7 @@ std::string answer_counts(const content::Questionnaire& form, const content::Que
                                          const auto given = answers->second.find(item.id);
                                          return given != answers->second.end() && given->second == answer;
                                      });
-        if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", plot::escape(labels[i]), n);
+        if (n > 0) text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", plot::escape(labels[i]), n);
     }
     return text;
 }

@@ -362,7 +362,8 @@ void pull(TraineeState& t, const Percept& felt) {
     const bool no_free_swing = std::abs(t.handle_angle - t.stroke_start) >= t.free_swing;
     if (!plan.finished && !no_free_swing) return;
     // A handle that runs against an obstacle feels like a tight nut, but the joint's torque stays low.
-    const bool turned = std::abs(t.joint().nut.angle - t.nut_angle_at_stroke) > min_turn;
+    t.stroke_turn = t.joint().nut.angle - t.nut_angle_at_stroke;
+    const bool turned = std::abs(t.stroke_turn) > min_turn;
     const bool tight = std::abs(t.joint().torque) > tight_share * plan.goal_torque;
     t.fruitless_strokes = turned || tight ? 0 : t.fruitless_strokes + 1;
 
@@ -387,6 +388,15 @@ void unload(TraineeState& t) {
 bool pulls_again(const TraineeState& t) {
     return t.setup->wrench.ratchet.tooth_angle > 0.0 && !t.plan.finished && !t.step_is_past() &&
            t.holds_intended_nut() && t.fruitless_strokes <= max_fruitless;
+}
+
+// A free nut has less friction than the pawl of a ratchet, so the handle takes it along when it swings back.
+// The trainee sees that, and stops loosening: the ratchet gets such a nut no further.
+void see_free_nut(TraineeState& t) {
+    constexpr double taken_back = 0.5;  // share of the stroke
+    if (!t.plan.loosening || std::abs(t.stroke_turn) < min_turn) return;
+    const double net = t.joint().nut.angle - t.nut_angle_at_stroke;
+    if (std::abs(net) < (1.0 - taken_back) * std::abs(t.stroke_turn)) t.plan.finished = true;
 }
 
 void swing_back(TraineeState& t) {

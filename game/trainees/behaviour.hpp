@@ -77,6 +77,7 @@ struct TraineeState {
     double stroke_start = 0.0;         // rad, handle angle at the start of the stroke
     double stroke_end = 0.0;           // rad, from which a ratchet swings back
     double nut_angle_at_stroke = 0.0;  // rad, at the start of the stroke
+    double stroke_turn = 0.0;          // rad by which the last stroke turned the nut; negative: loosened it
     int fruitless_strokes = 0;         // consecutive strokes that neither turned nor tightened the nut
 
     double nut_angle_at_start = 0.0;  // rad, nut angle at the start of the step
@@ -180,6 +181,8 @@ void unload(TraineeState& t);
 // Returns true if a ratchet can pull again without leaving the nut.
 bool pulls_again(const TraineeState& t);
 void swing_back(TraineeState& t);
+// At the end of a swing back: ends the plan if the ratchet has taken the nut back with it.
+void see_free_nut(TraineeState& t);
 void spin_back(TraineeState& t);
 
 }  // namespace bolt::trainees

@@ -111,7 +111,8 @@ Pose step_phase(TraineeState& t, const Percept& felt, Grip& grip) {
             grip = own;
             swing_back(t);
             pose = t.tool_at_nut(0.0);
-            if (!t.holds_intended_nut())
+            if (t.phase_over()) see_free_nut(t);
+            if (!t.holds_intended_nut() || t.plan.finished)
                 start_lift(t, pose, 0.3);
             else if (t.phase_over())
                 t.enter(Phase::engage, 0.12);

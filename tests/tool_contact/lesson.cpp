@@ -130,3 +130,21 @@ TEST_CASE("Tool contact: a lesson among obstacles replays to the same bits") {
     CHECK(replayed->mismatches == 0);
     std::filesystem::remove(file);
 }
+
+TEST_CASE("Contact lesson: a trainee sees that a free nut follows the ratchet, and goes on to the next one") {
+    if (test::sanitized) return test::skip_rest("a lesson of minutes");
+    // Here the loosened nut followed the ratchet back and forth without an end.
+    auto loaded = content::load_assembly(content::assembly_folder("pump-32-160"));
+    REQUIRE(loaded.ok());
+    REQUIRE(content::choose_tool(loaded.assembly, "torque_wrench"));
+    trainees::TrainOptions options;
+    options.trainee = trainees::find_profile("clumsy").value();
+    options.lesson.task = lesson::Task::loosen;
+    options.lesson.obstacles = session::Obstacles::required;
+    options.lesson.seed = 1001;
+    const test::Folder folder;
+    const auto outcome = trainees::train(loaded.assembly, options, folder / "loosened.boltwright",
+                                         [](const auto&) { return true; });
+    REQUIRE(outcome);
+    CHECK(outcome->result.finished);
+}
