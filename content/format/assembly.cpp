@@ -81,7 +81,7 @@ bool is_turned_node(const AssemblyJoint& joint, std::string_view mesh_node) {
     return joint.design.turned == joint::TurnedPart::head && !mesh_node.empty() && mesh_node == joint.node;
 }
 
-std::vector<std::string> model_parts(const Assembly& assembly, ModelFile file) {
+std::vector<std::string> model_paths(const Assembly& assembly, ModelFile file) {
     if ((assembly.models.*file).empty()) return {};
     std::vector<std::string> parts{assembly.models.*file};
     if (!(assembly.added_models.*file).empty()) parts.push_back(assembly.added_models.*file);

@@ -185,7 +185,7 @@ struct Assembly {
 };
 
 // The paths of a model and of what the chosen variant adds to it; empty if there is none.
-std::vector<std::string> model_parts(const Assembly& assembly, ModelFile file);
+std::vector<std::string> model_paths(const Assembly& assembly, ModelFile file);
 
 // An assembly without errors, or all errors of the file in the order of the file. Each error has
 // ErrorCode::bad_content, file, line, column and JSON pointer.

@@ -36,7 +36,7 @@ struct JointIds {
     const char* owner = "this file";  // "B1 is not a joint of <owner>"
 };
 
-// What an order must contain.
+// The joints that an order must contain.
 enum class OrderRule : std::uint8_t { every_joint, some_joints };
 
 JointIds read_ids(JsonReader& reader, const std::vector<AssemblyJoint>& joints) {

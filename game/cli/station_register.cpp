@@ -138,12 +138,7 @@ Result<station_setup::WornGlove> open_glove(const RegisterArguments& options,
                     "a glove, or --points FILE --from hand --to controller");
     BOLT_TRY_ASSIGN(const auto folder, station_setup::calibrations_folder());
     BOLT_TRY_ASSIGN(const auto person, person_argument(options.trainee, folder, NewPerson::unchanged));
-    BOLT_TRY(hand::check_port_access(station.glove_port));
-    hand::GloveIdentity glove;
-    {
-        hand::GloveDriver driver = hand::GloveDriver::start(station.glove_port);
-        BOLT_TRY_ASSIGN(glove, station_setup::wait_for_glove(driver, station.glove_port));
-    }
+    BOLT_TRY_ASSIGN(const auto glove, station_setup::find_glove(station.glove_port));
     const std::string_view side = glove.side == hand::Side::left ? "left" : "right";
     if (side != options.hand)
         return fail(ErrorCode::usage, fmt::format("--hand {}: the glove is a {} one", options.hand, side),
@@ -151,10 +146,7 @@ Result<station_setup::WornGlove> open_glove(const RegisterArguments& options,
     BOLT_TRY_ASSIGN(
         const auto calibration,
         station_setup::find_calibration(person.code.empty() ? person.name : person.code, glove, folder));
-    hand::GloveWearer wearer;
-    wearer.calibration = calibration.calibration;
-    wearer.hand = hand::make_hand(calibration.hand, calibration.hand_length);
-    return station_setup::WornGlove::start(station.glove_port, std::move(wearer));
+    return station_setup::WornGlove::start(station.glove_port, station_setup::wearer_of(calibration));
 }
 
 // Opens the tracker of the controller. Fails without a stage, because only the stage is fixed in the room.

@@ -227,7 +227,7 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
     const std::filesystem::path file = assembly.models.contact;
     ContactModels models;
     std::vector<MeshNode> nodes;
-    for (const std::filesystem::path part : content::model_parts(assembly, &content::ModelFiles::contact)) {
+    for (const std::filesystem::path part : content::model_paths(assembly, &content::ModelFiles::contact)) {
         BOLT_TRY_ASSIGN(auto part_nodes, read_mesh_nodes(part));
         BOLT_TRY_ASSIGN(const auto identity, identity_of(part));
         models.files += (models.files.empty() ? "" : "; ") + identity;

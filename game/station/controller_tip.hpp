@@ -36,7 +36,8 @@ inline constexpr TouchOptions controller_touch{0.3, 3.0e-3, 5, 1.0};
 // A tip that has slipped by some millimetres exceeds the limit.
 inline constexpr double pivot_time = 6.0, max_pivot_rms = 2.0e-3;
 
-// What the user turns about a fixed point, and with which precision.
+// A tip that stays on a fixed point while the user turns the object that it belongs to, as requests name
+// them.
 struct Pivot {
     std::string_view tip = "the tip of the controller", turned = "the controller";
     double max_rms = max_pivot_rms;  // m

@@ -192,6 +192,12 @@ Result<hand::GloveIdentity> wait_for_glove(hand::GloveDriver& driver, const fs::
     return driver.report().identity;
 }
 
+Result<hand::GloveIdentity> find_glove(const fs::path& port) {
+    BOLT_TRY(hand::check_port_access(port));
+    hand::GloveDriver driver = hand::GloveDriver::start(port);
+    return wait_for_glove(driver, port);
+}
+
 std::string adapter_warning(const fs::path& port) {
     const auto ms = hand::latency_timer_ms(port);
     if (!ms || *ms <= max_latency_timer) return {};
@@ -239,12 +245,17 @@ Pose wrist_at_handle(const hand::Hand& hand, const collision::ToolShape& tool, d
     return best;
 }
 
-Result<station::HandSetup> make_hand_setup(const content::Assembly& assembly,
-                                           const content::GloveCalibration& calibration) {
-    BOLT_TRY_ASSIGN(auto tool, session::load_wrench(assembly));
+hand::GloveWearer wearer_of(const content::GloveCalibration& calibration) {
     hand::GloveWearer wearer;
     wearer.calibration = calibration.calibration;
     wearer.hand = hand::make_hand(calibration.hand, calibration.hand_length);
+    return wearer;
+}
+
+Result<station::HandSetup> make_hand_setup(const content::Assembly& assembly,
+                                           const content::GloveCalibration& calibration) {
+    BOLT_TRY_ASSIGN(auto tool, session::load_wrench(assembly));
+    hand::GloveWearer wearer = wearer_of(calibration);
     const Pose wrist = wrist_at_handle(wearer.hand, tool, assembly.wrench.handle_length);
     return station::HandSetup{std::move(wearer), std::move(tool), wrist, {}};
 }
@@ -281,9 +292,7 @@ struct InitialState {
 Status open_glove(const content::Assembly& assembly, const StationRequest& request, PlannedStation& planned) {
     if (request.glove.empty()) return {};
     planned.glove = planned.options.glove = request.glove;
-    BOLT_TRY(hand::check_port_access(request.glove));
-    hand::GloveDriver driver = hand::GloveDriver::start(request.glove);
-    BOLT_TRY_ASSIGN(const auto glove, wait_for_glove(driver, request.glove));
+    BOLT_TRY_ASSIGN(const auto glove, find_glove(request.glove));
     if (request.trainee.empty()) return {};
     BOLT_TRY_ASSIGN(const auto calibration, find_calibration(request.trainee, glove, request.calibrations));
     BOLT_TRY_ASSIGN(auto hand, make_hand_setup(assembly, calibration));

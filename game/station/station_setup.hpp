@@ -61,6 +61,10 @@ Result<std::filesystem::path> calibrations_folder();
 // or no glove answers.
 Result<hand::GloveIdentity> wait_for_glove(hand::GloveDriver& driver, const std::filesystem::path& port);
 
+// Opens the port for a moment and returns the identity of the glove there. Fails as wait_for_glove(), or if
+// the port cannot be accessed.
+Result<hand::GloveIdentity> find_glove(const std::filesystem::path& port);
+
 // Returns a warning if the serial adapter's latency timer delays the glove's bytes; otherwise an empty text.
 std::string adapter_warning(const std::filesystem::path& port);
 
@@ -69,6 +73,8 @@ std::string adapter_warning(const std::filesystem::path& port);
 Result<content::GloveCalibration> find_calibration(const std::string& trainee,
                                                    const hand::GloveIdentity& glove,
                                                    const std::filesystem::path& folder = {});
+
+hand::GloveWearer wearer_of(const content::GloveCalibration& calibration);
 
 // The pose of the wrist, in the tool's frame, of a hand around the handle at `along` m from the jaw, thumb
 // towards the jaw, palm on the side of the tool's normal. Tries poses near a natural one with several

@@ -112,8 +112,8 @@ Result<LessonRequest> App::study_request() {
 Status App::record_study_lesson(const StartedLesson& started) {
     if (!study_) return {};
     if (started.continued) return study_->participation().record_continued(folder_);
-    if (!started.begun_again) return study_->participation().record_begun(folder_);
-    const std::string why = started.begun_again->message();
+    if (!started.why_begun_again) return study_->participation().record_begun(folder_);
+    const std::string why = started.why_begun_again->message();
     log("the interrupted lesson cannot be continued and begins again: " + why);
     return study_->participation().record_begun(folder_, why);
 }
@@ -138,7 +138,7 @@ Status App::begin_lesson(float aspect) {
     if (is_quick) return enter_lesson(start_lesson(request), aspect);
     if (active_) BOLT_TRY(close_lesson());
     arm_screen_ = {};
-    arm_screen_.continues = !request.interrupted.empty();
+    arm_screen_.restores = !request.interrupted.empty();
     start_thread_ = std::make_unique<LessonStartThread>(std::move(request), std::move(given_up_));
     screen_ = ShownScreen::starting;
     return {};

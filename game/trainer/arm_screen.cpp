@@ -25,7 +25,7 @@ std::string request_of(const words::Words& words, const ArmScreen& screen) {
         case device::DeviceNeed::none:
             break;
     }
-    return words[screen.continues ? words::TextKey("study.restoring") : "arm.starting"];
+    return words[screen.restores ? words::TextKey("study.restoring") : "arm.starting"];
 }
 
 std::string keys_of(const words::Words& words, const ArmScreen& screen) {

@@ -19,7 +19,7 @@ inline constexpr double question_time = 0.5;
 struct ArmScreen {
     device::ArmNeeds needs;
     bool in_lesson = false;
-    bool continues = false;  // an interrupted lesson is restored, which may take longer than its devices
+    bool restores = false;   // an interrupted lesson is restored, which may take longer than its devices
     double shown_for = 0.0;  // s
 };
 

@@ -12,7 +12,7 @@
 
 namespace bolt::trainer {
 
-// What the menu shows of one variant, or of an assembly without variants.
+// One variant, or an assembly without variants, as the menu lists it.
 struct VariantEntry {
     content::AssemblyVariant variant;
     std::map<std::string, std::string> instructions;  // by language

@@ -59,7 +59,7 @@ Status resume_session(const LessonRequest& request, session::SessionSetup setup,
 Result<StartedLesson> begin_again(LessonRequest request, const Error& why) {
     request.interrupted.clear();
     BOLT_TRY_ASSIGN(auto lesson, start_lesson(request));
-    lesson.begun_again = why;
+    lesson.why_begun_again = why;
     return lesson;
 }
 

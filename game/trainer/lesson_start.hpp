@@ -57,7 +57,7 @@ struct StartedLesson {
     LessonContext context;
     ActiveLesson active;     // with session and station; its workplace is made when the models are on the GPU
     bool continued = false;  // at the point reached by LessonRequest::interrupted
-    std::optional<Error> begun_again;  // why that lesson begins again instead
+    std::optional<Error> why_begun_again;  // why that lesson begins again instead
 };
 
 // Creates the folder of the next session: `out` itself, or with `folder_per_lesson` a folder in it that is
@@ -65,7 +65,7 @@ struct StartedLesson {
 Result<std::filesystem::path> make_lesson_folder(const std::filesystem::path& out, bool folder_per_lesson,
                                                  const std::string& assembly);
 
-// If the interrupted lesson cannot be continued, begins it again (StartedLesson::begun_again).
+// If the interrupted lesson cannot be continued, begins it again (StartedLesson::why_begun_again).
 // Fails if the assembly cannot be loaded, a chosen device cannot be used, a model is damaged, or the session
 // file cannot be created. Close the station of an earlier lesson first, because it holds the devices.
 Result<StartedLesson> start_lesson(const LessonRequest& request);

@@ -17,17 +17,6 @@ namespace {
 constexpr double notch = 0.88;        // distance ratio of one notch of the wheel
 constexpr double glide_time = 0.070;  // s, time constant
 
-struct OrbitAxes {
-    Vec3 right, up, back;  // back: from the target to the eye
-};
-
-OrbitAxes axes(const Orbit& o) {
-    const Vec3 right(std::cos(o.yaw), 0.0, -std::sin(o.yaw));
-    const Vec3 back(std::sin(o.yaw) * std::cos(o.pitch), std::sin(o.pitch),
-                    std::cos(o.yaw) * std::cos(o.pitch));
-    return {right, glm::cross(back, right), back};
-}
-
 // Length in m at the target's distance that spans the height of the picture.
 double span(const Orbit& o) { return 2.0 * o.distance * std::tan(0.5 * o.fov); }
 
@@ -36,6 +25,13 @@ double extent(const render::BoundingBox& box) {
 }
 
 }  // namespace
+
+OrbitAxes axes_of(const Orbit& o) {
+    const Vec3 right(std::cos(o.yaw), 0.0, -std::sin(o.yaw));
+    const Vec3 back(std::sin(o.yaw) * std::cos(o.pitch), std::sin(o.pitch),
+                    std::cos(o.yaw) * std::cos(o.pitch));
+    return {right, glm::cross(back, right), back};
+}
 
 Orbit orbit_of(const Viewpoint& view) {
     const Vec3 offset = Vec3(view.eye) - Vec3(view.target);
@@ -52,12 +48,12 @@ Orbit orbit_of(const Viewpoint& view) {
 }
 
 Viewpoint viewpoint_of(const Orbit& o) {
-    return {"", glm::vec3(o.target + o.distance * axes(o).back), glm::vec3(o.target),
+    return {"", glm::vec3(o.target + o.distance * axes_of(o).back), glm::vec3(o.target),
             static_cast<float>(o.fov)};
 }
 
 render::Eye eye_of(const Orbit& o, const render::BoundingBox& box, float aspect, float offset) {
-    const OrbitAxes a = axes(o);
+    const OrbitAxes a = axes_of(o);
     const Vec3 shift = static_cast<double>(offset) * a.right;
     const Vec3 eye = o.target + o.distance * a.back + shift;
     // The arguments are columns; the rows are the axes.
@@ -77,14 +73,14 @@ void turn(Orbit& o, glm::dvec2 by) {
 }
 
 void pan(Orbit& o, glm::dvec2 by) {
-    const OrbitAxes a = axes(o);
+    const OrbitAxes a = axes_of(o);
     o.target -= span(o) * (by.x * a.right + by.y * a.up);
 }
 
 void zoom(Orbit& o, double notches, glm::dvec2 at, const render::BoundingBox& box) {
     const double size = extent(box);
     const double to = std::clamp(o.distance * std::pow(notch, notches), 1e-3 * size, 30.0 * size);
-    const OrbitAxes a = axes(o);
+    const OrbitAxes a = axes_of(o);
     const Vec3 point = o.target + span(o) * (at.x * a.right + at.y * a.up);
     o.target = point + (o.target - point) * (to / o.distance);
     o.distance = to;
@@ -102,7 +98,7 @@ Orbit fit_to_box(const Orbit& o, const render::BoundingBox& box, float aspect) {
     perspective.fov = static_cast<float>(o.fov);
     perspective.aspect = aspect;
     const glm::vec3 middle = 0.5F * (box.low + box.high);
-    const glm::vec3 eye = render::framing_eye(box, glm::vec3(axes(o).back), perspective);
+    const glm::vec3 eye = render::framing_eye(box, glm::vec3(axes_of(o).back), perspective);
     Orbit framed = o;
     framed.target = Vec3(middle);
     framed.distance = static_cast<double>(glm::distance(eye, middle));

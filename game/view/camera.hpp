@@ -19,6 +19,12 @@ struct Orbit {
     double fov = 0.61;      // rad, vertical
 };
 
+// The directions of the camera, unit vectors.
+struct OrbitAxes {
+    Vec3 right, up, back;  // back: from the target to the eye
+};
+OrbitAxes axes_of(const Orbit& orbit);
+
 Orbit orbit_of(const Viewpoint& view);
 Viewpoint viewpoint_of(const Orbit& orbit);
 

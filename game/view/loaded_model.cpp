@@ -51,7 +51,7 @@ ModelLoadResult load_model(const std::string& source, DetailLevel level, const s
         content::LoadedAssembly assembly = content::load_assembly(source, variant);
         if (!assembly.ok()) return {{}, std::move(assembly.errors)};
         const content::Assembly& a = assembly.assembly;
-        parts = content::model_parts(
+        parts = content::model_paths(
             a, level == DetailLevel::far ? &content::ModelFiles::far_level : &content::ModelFiles::model);
         if (parts.empty()) return {{}, {no_model(a, level)}};
         model.name = a.name;

@@ -66,7 +66,7 @@ TEST_CASE("Variants: zq350 has lessons about its covers and its feet, and the ca
     CHECK(feet.joints.size() == 8);
     CHECK_FALSE(feet.flange.joints_interact);
     CHECK(tool_names(feet) == std::vector<std::string>{"ratchet_30", "ring_30"});
-    CHECK(content::model_parts(feet, &content::ModelFiles::contact).size() == 2);
+    CHECK(content::model_paths(feet, &content::ModelFiles::contact).size() == 2);
     for (const Assembly* lesson : {&covers, &feet}) {
         for (const char* language : {"en", "de", "zh"}) {
             REQUIRE(lesson->instructions.contains(language));

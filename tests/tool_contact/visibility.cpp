@@ -81,25 +81,30 @@ TEST_CASE("Visibility: with less sight placement is worse, and improves with eve
     CHECK(placement_noise(1e-3, 0.0, 100) == doctest::Approx(1e-3));
 }
 
-TEST_CASE("Path planning: paths from nut to nut meet no obstacle in either direction") {
-    if (test::sanitized) return test::skip_rest("twelve paths take minutes under a sanitizer");
-    test::Workbench bench("zq350");
+namespace {
+
+struct PathCounts {
+    int paths = 0, touching = 0, straight = 0;  // touching: as planned; straight: would touch without a plan
+};
+
+// Plans a path from each nut to the nut `step` further in the list.
+PathCounts count_paths(test::Workbench& bench, std::size_t step) {
     servo::ToolContact& contact = *bench.state.tool_contact;
+    const auto grip_at = [&](std::size_t joint) {
+        const GripAngle grip = choose_grip(bench.setup, &contact, joint, 0.0, 0.0, 1.0, to_radians(40.0));
+        const servo::NutGeometry& nut = bench.setup.nuts[joint];
+        const Vec3 x = std::cos(-grip.handle) * nut.e1 + std::sin(-grip.handle) * nut.e2;
+        const Vec3 z = grip.flipped ? -nut.axis : nut.axis;
+        return Pose{servo::nut_centre(nut, 0.0) + hover * nut.axis,
+                    glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)))};
+    };
+    PathCounts counts;
     const std::size_t joints = bench.setup.nuts.size();
-    int paths = 0, touching = 0, straight = 0;
     for (std::size_t i = 0; i < joints; ++i) {
-        const std::size_t j = (i + 5) % joints;
-        const auto grip_at = [&](std::size_t joint) {
-            const GripAngle grip = choose_grip(bench.setup, &contact, joint, 0.0, 0.0, 1.0, to_radians(40.0));
-            const servo::NutGeometry& nut = bench.setup.nuts[joint];
-            const Vec3 x = std::cos(-grip.handle) * nut.e1 + std::sin(-grip.handle) * nut.e2;
-            const Vec3 z = grip.flipped ? -nut.axis : nut.axis;
-            return Pose{servo::nut_centre(nut, 0.0) + hover * nut.axis,
-                        glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)))};
-        };
+        const std::size_t j = (i + step) % joints;
         Pose from = grip_at(i);
         const Pose to = grip_at(j);
-        straight += share_touching(contact, from, to, Vec3(0.0), 0.5e-3) > 0.0 ? 1 : 0;
+        counts.straight += share_touching(contact, from, to, Vec3(0.0), 0.5e-3) > 0.0 ? 1 : 0;
         const ReachPath path = plan_reach(bench.setup, contact, from, to, bench.setup.nuts[j].axis, 0.05);
         double touched = 0.0;
         for (const Pose& waypoint : path.waypoints) {
@@ -107,11 +112,31 @@ TEST_CASE("Path planning: paths from nut to nut meet no obstacle in either direc
             from = waypoint;
         }
         touched += share_touching(contact, from, to, path.bulge, 0.5e-3);
-        ++paths;
-        touching += touched > 0.0 ? 1 : 0;
+        ++counts.paths;
+        counts.touching += touched > 0.0 ? 1 : 0;
     }
-    MESSAGE("of " << paths << " paths " << straight << " touch an obstacle if straight, " << touching
-                  << " as planned");
-    CHECK(straight >= 6);
-    CHECK(touching <= 1);
+    MESSAGE("of " << counts.paths << " paths " << counts.straight << " touch an obstacle if straight, "
+                  << counts.touching << " as planned");
+    return counts;
+}
+
+}  // namespace
+
+TEST_CASE("Path planning: paths from nut to nut meet no obstacle in either direction") {
+    if (test::sanitized) return test::skip_rest("twelve paths take minutes under a sanitizer");
+    test::Workbench bench("zq350");
+    const PathCounts counts = count_paths(bench, 5);
+    CHECK(counts.straight >= 6);
+    CHECK(counts.touching <= 1);
+}
+
+TEST_CASE("Path planning: a key is carried around the casing, from its front to its back") {
+    if (test::sanitized) return test::skip_rest("28 paths take minutes under a sanitizer");
+    auto loaded = content::load_assembly(content::assembly_folder("zq350"), "bearing_covers");
+    REQUIRE(loaded.ok());
+    test::Workbench bench(std::move(loaded.assembly));
+    // Half of the screws are in front and half behind, so each path leads through the casing if straight.
+    const PathCounts counts = count_paths(bench, bench.setup.nuts.size() / 2);
+    CHECK(counts.straight == counts.paths);
+    CHECK(counts.touching <= 1);
 }

@@ -52,6 +52,10 @@ struct Led {
         press("study.next");
         REQUIRE(due() == "part-1/lesson-1");
     }
+    void begin_lesson() {
+        go_to_lesson();
+        press("study.start");
+    }
     void answer_form(std::size_t items) {
         for (std::size_t i = 0; i < items; ++i) press("study.item");
         press("study.next");
@@ -161,8 +165,7 @@ TEST_CASE(
     double killed = 0.0, closed = 0.0;
     {
         Led led(enrolled(study, folder), folder);
-        led.go_to_lesson();
-        led.press("study.start");
+        led.begin_lesson();
         SimulatedUser(led.driver).play(6.0);
         killed = led.driver.lesson().session->time();
         // The application is not told that it ends, as if the program was killed.
@@ -219,8 +222,7 @@ TEST_CASE(
     double free = 0.0;
     {
         Led led(enrolled(study, folder), folder);
-        led.go_to_lesson();
-        led.press("study.start");
+        led.begin_lesson();
         SimulatedUser(led.driver).play(300.0, 1);  // until the nut is run down
         led.driver.key(platform::Key::t);
         led.driver.wait(4.0);
@@ -252,8 +254,7 @@ TEST_CASE("Trainer: an interrupted lesson with a station continues, and the stat
     double killed = 0.0;
     {
         Led led(enrolled(study, folder), folder);
-        led.go_to_lesson();
-        led.press("study.start");
+        led.begin_lesson();
         FreeHandUser(led.driver).play(10.0);
         killed = led.driver.lesson().session->time();
         REQUIRE(killed > 9.0);
@@ -276,8 +277,7 @@ TEST_CASE(
     const content::Study study = folder.load();
     {
         Led led(enrolled(study, folder), folder);
-        led.go_to_lesson();
-        led.press("study.start");
+        led.begin_lesson();
         led.driver.wait(2.0);
         REQUIRE(led.driver.app().end());
     }
@@ -372,8 +372,7 @@ TEST_CASE("Trainer: an answer that cannot be stored is shown and asked again") {
     folder.make_short();
     const content::Study study = folder.load();
     Led led(enrolled(study, folder), folder);
-    led.go_to_lesson();
-    led.press("study.start");
+    led.begin_lesson();
     led.driver.key(platform::Key::escape);
     led.press("menu.end");
     REQUIRE(led.due() == "part-1/paper");

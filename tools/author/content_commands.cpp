@@ -250,7 +250,7 @@ std::vector<std::string> models_of(const content::Assembly& assembly) {
     };
     using content::ModelFiles;
     for (const content::ModelFile file : {&ModelFiles::model, &ModelFiles::far_level, &ModelFiles::contact})
-        for (const std::string& part : content::model_parts(assembly, file)) add(part);
+        for (const std::string& part : content::model_paths(assembly, file)) add(part);
     for (const content::Tool& tool : assembly.tools) add(tool.wrench.model);
     return files;
 }

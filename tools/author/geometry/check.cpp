@@ -142,7 +142,7 @@ Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchR
     check_tools(assembly, messages);
     using content::ModelFiles;
     const auto read = [&](content::ModelFile file, std::string_view pointer) {
-        return read_scene(content::model_parts(assembly, file), pointer, messages);
+        return read_scene(content::model_paths(assembly, file), pointer, messages);
     };
     auto model = read(&ModelFiles::model, "/model");
     const auto far = read(&ModelFiles::far_level, "/model_far");

@@ -84,8 +84,7 @@ view::Orbit joint_view(const geometry::WrenchRooms& rooms, const geometry::Wrenc
     viewpoint.eye = viewpoint.target + glm::vec3(best);
     viewpoint.fov = view::default_fov;
     view::Orbit orbit = view::orbit_of(viewpoint);
-    // The camera's axes, as the orbit will have them.
-    const Vec3 right{std::cos(orbit.yaw), 0.0, -std::sin(orbit.yaw)}, up = glm::cross(best, right);
+    const auto [right, up, back] = view::axes_of(orbit);
     const auto span_of = [&](const Vec3& axis) {
         double least = 1e9, greatest = -1e9;
         for (const Vec3& p : contents.framed) {

@@ -67,10 +67,8 @@ const SelectableJoint* joint_named(const SelectableJoints& joints, std::string_v
 
 const SelectableJoint* joint_at(const SelectableJoints& joints, const view::Orbit& camera, glm::dvec2 at) {
     constexpr double reach = 1e3;  // m
-    const Vec3 right{std::cos(camera.yaw), 0.0, -std::sin(camera.yaw)};
-    const Vec3 back{std::sin(camera.yaw) * std::cos(camera.pitch), std::sin(camera.pitch),
-                    std::cos(camera.yaw) * std::cos(camera.pitch)};
-    const Vec3 up = glm::cross(back, right), eye = camera.target + camera.distance * back;
+    const auto [right, up, back] = view::axes_of(camera);
+    const Vec3 eye = camera.target + camera.distance * back;
     const double span = 2.0 * std::tan(0.5 * camera.fov);  // height of the picture at a distance of 1
     const Vec3 direction = glm::normalize(span * (at.x * right + at.y * up) - back);
     const auto hit = geometry::first_hit(joints.triangles, eye, direction, reach);
