@@ -81,6 +81,12 @@ bool is_turned_node(const AssemblyJoint& joint, std::string_view mesh_node) {
     return joint.design.turned == joint::TurnedPart::head && !mesh_node.empty() && mesh_node == joint.node;
 }
 
+bool is_held_node(const AssemblyJoint& joint, std::string_view mesh_node) {
+    if (joint.design.counter_hold == joint::CounterHold::fixed) return false;
+    const bool head_is_turned = joint.design.turned == joint::TurnedPart::head;
+    return mesh_node == joint.design.id + (head_is_turned ? "_nut" : "_bolt");
+}
+
 std::vector<std::string> model_paths(const Assembly& assembly, ModelFile file) {
     if ((assembly.models.*file).empty()) return {};
     std::vector<std::string> parts{assembly.models.*file};

@@ -71,6 +71,9 @@ std::string turned_node(const AssemblyJoint& joint);
 // head that is turned, the joint's own node, which then is the screw itself.
 bool is_turned_node(const AssemblyJoint& joint, std::string_view mesh_node);
 
+// The same of the part that a second wrench holds (joint::CounterHold): a joint without one has no such node.
+bool is_held_node(const AssemblyJoint& joint, std::string_view mesh_node);
+
 // run_down: nuts to their seats, by hand. tighten: to a fraction of the target torque. turn: to a fraction of
 // the target angle, whatever the torque. recheck: at the full target torque. loosen: in a loosening lesson.
 enum class PassKind : std::uint8_t { run_down, tighten, turn, recheck, loosen };

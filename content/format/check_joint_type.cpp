@@ -85,7 +85,8 @@ bool check_screw_length(const LayeredObject& layers, const joint::JointDesign& d
 // Reports members that this form of joint cannot have, and those that it lacks.
 void check_form(const LayeredObject& layers, const joint::JointDesign& design) {
     using joint::JointForm;
-    if (!layers.all_valid({"form", "head", "turned", "tapped_hole", "locking_insert"})) return;
+    if (!layers.all_valid({"form", "head", "turned", "counter_hold", "tapped_hole", "locking_insert"}))
+        return;
     JsonReader& reader = layers.reader();
     const auto reject = [&](const char* key, const char* what, const char* expected) {
         if (const JsonNode node = layers.find(key)) reader.report(node.pointer, what, expected);
@@ -104,6 +105,8 @@ void check_form(const LayeredObject& layers, const joint::JointDesign& design) {
         reject("locking_insert", "a screw in a tapped hole has no nut", "false");
     if (screw)
         reject("nut_proof_stress_MPa", "a screw in a tapped hole has no nut", "the values of tapped_hole");
+    if (design.form != JointForm::through_bolt && design.counter_hold == joint::CounterHold::second_wrench)
+        reject("counter_hold", "only a through-bolt has a part for a second wrench", "no such value");
     const JsonNode hole = layers.find("tapped_hole");
     if (!design.is_tapped() && hole)
         reader.report(hole.pointer, "a through-bolt has no tapped hole",

@@ -78,6 +78,8 @@ void read_form(const LayeredObject& layers, joint::JointDesign& design) {
     design.hole.depth = hole.number("depth_mm").value_or(0.0) * mm;
     design.thread_direction = read_name(layers, "thread_direction", joint::thread_direction_named)
                                   .value_or(joint::ThreadDirection::right);
+    design.counter_hold =
+        read_name(layers, "counter_hold", joint::counter_hold_named).value_or(joint::CounterHold::fixed);
     design.locking_insert = layers.boolean("locking_insert").value_or(false);
 }
 

@@ -134,6 +134,7 @@ joint::FrictionDesign read_friction(const LayeredObject& layers) {
     friction.thread = layers.number("friction_thread").value_or(friction.thread);
     friction.bearing = layers.number("friction_bearing").value_or(friction.bearing);
     friction.static_ratio = layers.number("friction_static_ratio").value_or(friction.static_ratio);
+    if (const auto held = layers.number("friction_held_bearing")) friction.held_bearing = *held;
     friction.scatter = layers.number("friction_scatter_percent").value_or(friction.scatter * 100.0) / 100.0;
     const std::string lubrication = layers.text("lubrication").value_or("as_received");
     using joint::Lubrication;

@@ -26,7 +26,7 @@ constexpr ControlRow control_rows[] = {
     {HintMotion::lift, "control.mouse.let_go", "control.drag.lift", "control.device.move"},
     {HintMotion::set_back, "control.mouse.again", "control.drag.set_back", "control.device.move"},
 };
-static_assert(std::size(control_rows) == motion_count - 1);  // all but `none`
+static_assert(std::size(control_rows) == motion_count - 2);  // all but `none` and `hold`
 
 std::string& at(ControlNames& controls, HintMotion motion) {
     return controls.at(static_cast<std::size_t>(motion));
@@ -34,12 +34,18 @@ std::string& at(ControlNames& controls, HintMotion motion) {
 
 ControlNames controls(const words::Words& words, TextKey ControlRow::*column, const std::string& key) {
     ControlNames names;
+    at(names, HintMotion::hold) = words::format_text(words, "control.room.hold", {});
     for (const ControlRow& row : control_rows)
         at(names, row.motion) = words::format_text(words, row.*column, {{"key", key}});
     return names;
 }
 
 }  // namespace
+
+ControlNames with_second_wrench(const words::Words& words, ControlNames controls, const std::string& key) {
+    at(controls, HintMotion::hold) = words::format_text(words, "control.key.hold", {{"key", key}});
+    return controls;
+}
 
 ControlNames mouse_controls(const words::Words& words, const std::string& tool_key) {
     return controls(words, &ControlRow::mouse, tool_key);
@@ -103,6 +109,7 @@ ControlNames glove_controls(const words::Words& words, ControlNames controls) {
 
 ControlNames tracked_controls(const words::Words& words) {
     ControlNames names = glove_controls(words, {});
+    at(names, HintMotion::hold) = words::format_text(words, "control.room.hold", {});
     for (const HintMotion motion : {HintMotion::approach, HintMotion::reach, HintMotion::set_on,
                                     HintMotion::lift, HintMotion::set_back})
         at(names, motion) = words::format_text(words, "control.hand.move", {});

@@ -23,6 +23,7 @@ constexpr MistakeRow mistake_rows[] = {
     {MistakeKind::tightened, "mistake.tightened", "mistake.tightened.do"},
     {MistakeKind::over_torque, "mistake.over_torque", "mistake.over_torque.do"},
     {MistakeKind::over_turned, "mistake.over_turned", "mistake.over_turned.do"},
+    {MistakeKind::turned_together, "mistake.turned_together", "mistake.turned_together.do"},
     {MistakeKind::slipped, "mistake.slipped", "mistake.slipped.do"},
     {MistakeKind::stripped, "mistake.stripped", "mistake.stripped.do"},
     {MistakeKind::broken, "mistake.broken", "mistake.broken.do"},
@@ -203,6 +204,11 @@ Review review(const content::Assembly& assembly, const LessonResult& result) {
             case DeductionKind::slipped:
                 deduction.key = once ? TextKey("reason.slipped.one") : TextKey("reason.slipped.many");
                 advice = TextKey("mistake.slipped.do");
+                break;
+            case DeductionKind::turned_together:
+                deduction.key =
+                    once ? TextKey("reason.turned_together.one") : TextKey("reason.turned_together.many");
+                advice = TextKey("mistake.turned_together.do");
                 break;
             case DeductionKind::unfinished:
                 deduction.key = TextKey("reason.unfinished");

@@ -26,6 +26,7 @@ constexpr HintRow hint_rows[] = {
     {Situation::set_on, "hint.set_on", HintMotion::set_on},
     {Situation::set_on_again, "hint.set_on_again", HintMotion::set_on},
     {Situation::set_on_rounded, "hint.set_on_rounded", HintMotion::set_on},
+    {Situation::hold_other_part, "hint.hold_other_part", HintMotion::hold},
     {Situation::grip_nut, "hint.grip_nut", HintMotion::grip_nut},
     {Situation::run_down, "hint.run_down", HintMotion::spin},
     {Situation::run_down_by_wrench, "hint.run_down_by_wrench", HintMotion::pull_on},
@@ -79,7 +80,7 @@ static_assert([] {
 constexpr TextKey motion_keys[] = {
     "how.take",    "how.take",     "how.put_away", "how.approach",   "how.reach",
     "how.set_on",  "how.grip_nut", "how.spin",     "how.twist_back", "how.let_go",
-    "how.pull_on", "how.pull_off", "how.lift",     "how.set_back",
+    "how.pull_on", "how.pull_off", "how.lift",     "how.set_back",   "how.hold",
 };
 static_assert(std::size(motion_keys) == motion_count);
 
@@ -122,6 +123,7 @@ GhostKind Hint::ghost() const {
     if (level < 2) return GhostKind::none;
     switch (motion) {
         case HintMotion::none:
+        case HintMotion::hold:
             return GhostKind::none;
         case HintMotion::take:
         case HintMotion::reach:

@@ -29,8 +29,9 @@ enum class HintMotion : std::uint8_t {
     pull_off,  // pull the wrench in the loosening direction
     lift,      // take the wrench off the nut
     set_back,  // move the handle back for another stroke
+    hold,      // the other part, with the second wrench
 };
-inline constexpr std::size_t motion_count = 14;
+inline constexpr std::size_t motion_count = 15;
 
 enum class GhostKind : std::uint8_t { none, hand, hand_and_wrench };
 
@@ -63,6 +64,10 @@ std::string motion_text(const words::Words& words, const Hint& hint, const Contr
 
 // The following functions describe, in the trainee's language, which input performs each motion of a hint.
 // The caller names the bound keys and buttons.
+
+// The control that puts the second wrench on the due joint is the button of the panel in a room; this makes
+// it `key`.
+ControlNames with_second_wrench(const words::Words& words, ControlNames controls, const std::string& key);
 
 // Mouse: press on a nut and hold, drag, release. `tool_key` takes the wrench and puts it down.
 ControlNames mouse_controls(const words::Words& words, const std::string& tool_key);

@@ -16,8 +16,9 @@ constexpr double turning_speed = 0.01;            // rad/s
 constexpr double wrong_way = to_radians(5.0);     // nut angle; more than play and the wrench's elasticity
 constexpr double turn_excess = to_radians(1.0);   // nut angle beyond the window that is reported
 constexpr std::uint64_t assessment_end_ticks = 3000;
-constexpr std::uint64_t regrip_ticks = 1000;  // gap within which a grip by fingers continues the hold
-constexpr double working_torque = 0.5;        // N·m; less is only a touch
+constexpr std::uint64_t regrip_ticks = 1000;   // gap within which a grip by fingers continues the hold
+constexpr double working_torque = 0.5;         // N·m; less is only a touch
+constexpr double let_turn = to_radians(20.0);  // of nut and bolt together, that is reported
 
 using world::joint_at;
 
@@ -109,8 +110,9 @@ void engage(Lesson& lesson, int joint, servo::Grip grip, const world::ReadHaptic
     lesson.grip = grip;
     JointTrack& track = lesson.joints[static_cast<std::size_t>(joint)];
     track.worked = again && track.worked;
-    track.turned_back = track.seated = false;
+    track.turned_back = track.seated = track.let_turn = false;
     track.furthest = joint_at(world, static_cast<std::size_t>(joint)).angle;
+    track.turned_with_bolt = joint_at(world, static_cast<std::size_t>(joint)).common_turn;
     add_event(lesson, tick_of(world), EventKind::engage, joint, 0.0,
               fmt::format("{} on the {}", grip == servo::Grip::wrench ? "wrench" : "fingers",
                           fastener_name(lesson.assembly->joints[static_cast<std::size_t>(joint)].design)));
@@ -206,6 +208,18 @@ void report_wrong_way(Lesson& lesson, std::size_t joint, const world::ReadHaptic
                             loosens ? "tightens" : "loosens"));
 }
 
+// Reports a wrench that turns nut and bolt together, once a hold.
+void report_common_turn(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
+    JointTrack& track = lesson.joints[joint];
+    const double turned = joint_at(world, joint).common_turn - track.turned_with_bolt;
+    if (track.let_turn || std::abs(turned) < let_turn) return;
+    track.let_turn = true;
+    ++track.let_turn_count;
+    add_mistake(
+        lesson, tick_of(world), MistakeKind::turned_together, joint, turned,
+        fmt::format("nut and bolt of {} turned together: nothing held the other end", track.result.id));
+}
+
 void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[joint];
     const world::Joint& nut = joint_at(world, joint);
@@ -225,6 +239,7 @@ void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& w
     report_excess_torque(lesson, joint, tick_of(world));
     report_excess_angle(lesson, joint, world);
     if (!fingers) report_wrong_way(lesson, joint, world);
+    if (!fingers) report_common_turn(lesson, joint, world);
     // A nut that came off its seat during a step of kind `turn` has lost its mark; it gets a new one.
     const bool marks =
         !lesson.turns_by_angle || (due != nullptr && due->joint == joint && due->kind == StepKind::turn);
@@ -287,6 +302,17 @@ double angle_from_mark(const Lesson& lesson, const world::ReadJoints& world, std
 bool requires_yield(const Lesson& lesson, const LessonStep& step) {
     return step.kind == StepKind::tighten && step.fraction > 0.999 &&
            spec_of(lesson, step.joint).strategy == content::Strategy::yield;
+}
+
+bool needs_second_wrench(const content::Assembly& assembly, std::size_t joint) {
+    return assembly.law == joint::Law::mechanistic &&
+           assembly.joints[joint].design.counter_hold == joint::CounterHold::second_wrench;
+}
+
+bool needs_second_wrench(const content::Assembly& assembly) {
+    for (std::size_t i = 0; i < assembly.joints.size(); ++i)
+        if (needs_second_wrench(assembly, i)) return true;
+    return false;
 }
 
 bool requires_click(const Lesson& lesson, const LessonStep& step) {
@@ -390,6 +416,7 @@ bool undo_steps(Lesson& lesson, const world::ReadHaptics& world, std::size_t ste
         tracks[i].over_torque_count = lesson.joints[i].over_torque_count;
         tracks[i].over_turn_count = lesson.joints[i].over_turn_count;
         tracks[i].slip_count = lesson.joints[i].slip_count;
+        tracks[i].let_turn_count = lesson.joints[i].let_turn_count;
         tracks[i].result.condition = joint_at(world, i).condition;
     }
     lesson.joints = std::move(tracks);

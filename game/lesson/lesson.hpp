@@ -91,6 +91,9 @@ struct JointTrack {
     bool over_turned = false;    // an excess angle was reported since the nut was last off its seat
     int over_turn_count = 0;
     int slip_count = 0;
+    double turned_with_bolt = 0.0;  // rad, world::Joint::common_turn when this hold began
+    bool let_turn = false;          // that nut and bolt turned together was reported in this hold
+    int let_turn_count = 0;
     int done_in_pass = -1;  // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;
 };
@@ -129,6 +132,10 @@ double angle_from_mark(const Lesson& lesson, const world::ReadJoints& world, std
 
 // True if the step tightens to the whole target with strategy `yield`.
 bool requires_yield(const Lesson& lesson, const LessonStep& step);
+
+// True if a second wrench must hold the other part of the joint while a tool turns it.
+bool needs_second_wrench(const content::Assembly& assembly, std::size_t joint);
+bool needs_second_wrench(const content::Assembly& assembly);  // any of its joints
 
 // True if only the click of the torque wrench ends the step. This is so under the published law: there the
 // torque grows so slowly in the yield stage that a stroke can end inside the torque window before the click.

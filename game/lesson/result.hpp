@@ -58,6 +58,7 @@ enum class DeductionKind : std::uint8_t {
     over_torque,  // corrected since; excess torque that remains is `not_ok`
     over_turned,  // the same of an excess angle
     slipped,
+    turned_together,
     unfinished
 };
 
@@ -88,7 +89,8 @@ enum class MistakeKind : std::uint8_t {
     loosened,   // in a tightening lesson
     tightened,  // in a loosening lesson
     over_torque,
-    over_turned,  // turned further than its angle window
+    over_turned,      // turned further than its angle window
+    turned_together,  // nut and bolt turned together: nothing held the other part
     slipped,
     stripped,
     broken

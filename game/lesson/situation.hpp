@@ -19,8 +19,9 @@ enum class Situation : std::uint8_t {
     find_by_wrench,
     find_by_fingers,
     set_on,
-    set_on_again,    // earlier pulls were not enough
-    set_on_rounded,  // onto corners that a slipping jaw has rounded off
+    set_on_again,     // earlier pulls were not enough
+    set_on_rounded,   // onto corners that a slipping jaw has rounded off
+    hold_other_part,  // with the second wrench
     grip_nut,
     run_down,
     run_down_by_wrench,
@@ -63,13 +64,15 @@ enum class Situation : std::uint8_t {
     pass_loosen,
     all_done,
 };
-inline constexpr std::size_t situation_count = 48;
+inline constexpr std::size_t situation_count = 49;
 
 // The lesson after observe(), and the world that it observed in this tick.
 struct ObservedLesson {
     const Lesson& lesson;
     const servo::Setup& setup;
-    ecs::Access<const world::Joint, const world::ConstrainedTool, const world::WorkingHand> world;
+    ecs::Access<const world::Joint, const world::ConstrainedTool, const world::WorkingHand,
+                const world::ToolState>
+        world;
 };
 
 // Also true while the wrench is on a nut.

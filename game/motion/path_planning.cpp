@@ -278,7 +278,7 @@ ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contac
 }
 
 GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
-                      double nut_angle, double preferred, double sign, double stroke) {
+                      const joint::JointState& state, double preferred, double sign, double stroke) {
     std::optional<FreeSpace> space;
     if (contact != nullptr) space.emplace(setup, *contact);
     GripAngle best;
@@ -290,14 +290,15 @@ GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* conta
         if (flip && !reversible(setup.wrench)) break;
         const double head =
             setup.nuts[joint].sense * (flip ? setup.wrench.head_angle : -setup.wrench.head_angle);
-        const double nearest = preferred + wrap(nut_angle - head - preferred, period);
+        const double nearest = preferred + wrap(state.rotation() - head - preferred, period);
         for (int k = -half; k < half; ++k) {
             const double candidate = nearest + (contact != nullptr ? k * step : 0.0);
             double swing = stroke, penalty = 0.0;
             if (space) {
-                swing = space->free_swing(joint, nut_angle, candidate, sign, stroke);
+                swing = space->free_swing(joint, state.nut.angle, candidate, sign, stroke);
                 for (const double above : approach_heights)
-                    if (!space->handle_is_free(joint, nut_angle, candidate, above)) penalty = squeeze_cost;
+                    if (!space->handle_is_free(joint, state.nut.angle, candidate, above))
+                        penalty = squeeze_cost;
             }
             // Room for the pull has more weight than the preferred angle.
             const double cost = std::abs(candidate - preferred) + 4.0 * (stroke - swing) + penalty;

@@ -67,7 +67,7 @@ struct GripAngle {
 // the one nearest to `preferred` with room for a pull of `stroke` rad in the direction of `sign` (tightening
 // positive) and for the approach. Without obstacles every angle has room.
 GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
-                      double nut_angle, double preferred, double sign, double stroke);
+                      const joint::JointState& state, double preferred, double sign, double stroke);
 
 // Height above the nut, m, at which a wrench waits before it is lowered: `max_height`, or less if an obstacle
 // is above the nut.

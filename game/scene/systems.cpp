@@ -92,9 +92,42 @@ double widest_nut(const servo::Setup& setup) {
 
 void place_nuts(SceneWorld& world, const servo::Setup& setup) {
     world.view<const NutPart, Transform>().each([&](const NutPart& nut, Transform& transform) {
-        const Pose pose = servo::nut_pose(setup.nuts[nut.joint], world::joint_at(world, nut.joint).angle);
+        const world::Joint& joint = world::joint_at(world, nut.joint);
+        const Pose pose = servo::nut_pose(setup.nuts[nut.joint], joint.angle, joint.common_turn);
         transform.world = glm::mat4(matrix(pose) * nut.nut_from_mesh);
     });
+    world.view<const HeldPart, Transform>().each([&](const HeldPart& part, Transform& transform) {
+        const servo::NutGeometry& nut = setup.nuts[part.joint];
+        const Pose at_rest{nut.seat, Quat(1, 0, 0, 0)};
+        const Quat turn =
+            glm::angleAxis(-nut.sense * world::joint_at(world, part.joint).common_turn, nut.axis);
+        transform.world =
+            glm::mat4(matrix(Pose{nut.seat, turn}) * matrix(inverse(at_rest)) * part.assembly_from_mesh);
+    });
+}
+
+Pose second_wrench_pose(const servo::Setup& setup, std::size_t joint) {
+    Vec3 middle(0.0);
+    for (const servo::NutGeometry& nut : setup.nuts)
+        middle += nut.seat / static_cast<double>(setup.nuts.size());
+    const servo::NutGeometry& nut = setup.nuts[joint];
+    Vec3 handle = nut.seat - middle;
+    handle -= nut.axis * glm::dot(handle, nut.axis);
+    handle = glm::length(handle) > 1e-3 ? glm::normalize(handle) : nut.e1;
+    const Quat turn = glm::quat_cast(glm::dmat3(handle, glm::cross(-nut.axis, handle), -nut.axis));
+    return {nut.seat - nut.held_distance * nut.axis, turn};
+}
+
+void place_second_wrench(SceneWorld& world, const servo::Setup& setup) {
+    const int joint = world.only<world::ToolState>().second_wrench;
+    world.view<const SecondWrenchPart, Transform, Appearance>().each(
+        [&](const SecondWrenchPart& part, Transform& transform, Appearance& appearance) {
+            const auto* const nut = joint >= 0 ? &setup.nuts[static_cast<std::size_t>(joint)] : nullptr;
+            appearance.hidden = nut == nullptr || nut->held_across_flats != part.across_flats;
+            if (appearance.hidden) return;
+            const Pose pose = second_wrench_pose(setup, static_cast<std::size_t>(joint));
+            transform.world = glm::mat4(matrix(pose) * part.tool_from_mesh);
+        });
 }
 
 void place_tool(SceneWorld& world, std::size_t tool, const ToolAndHand& state) {
@@ -163,6 +196,7 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     held.gloved = glove != nullptr ? &glove->fingers : nullptr;
     held.solids = context.solids;
     place_nuts(world, context.setup);
+    place_second_wrench(world, context.setup);
     place_tool(world, context.setup.tool, held);
     place_hand(world, context.postures, held);
 }

@@ -31,6 +31,10 @@ struct ToolAndHand {
 
 // The parts of placement_system().
 void place_nuts(SceneWorld& world, const servo::Setup& setup);
+// The second wrench on its joint, with the handle away from the middle of all joints. It is no obstacle for
+// the tool in the hand.
+Pose second_wrench_pose(const servo::Setup& setup, std::size_t joint);
+void place_second_wrench(SceneWorld& world, const servo::Setup& setup);
 // `tool`: index in servo::Setup::tools of the one to show.
 void place_tool(SceneWorld& world, std::size_t tool, const ToolAndHand& state);
 void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& state);

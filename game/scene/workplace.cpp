@@ -89,6 +89,13 @@ Result<LessonModels> load_lesson_models(const content::Assembly& assembly, hand:
             tool.turn = turn;
         }
     }
+    for (const content::AssemblyJoint& joint : assembly.joints) {
+        if (joint.design.counter_hold == joint::CounterHold::fixed) continue;
+        const double size = joint::held_part_size(joint.design).across_flats;
+        if (models.second_wrenches.contains(size)) continue;
+        BOLT_TRY_ASSIGN(const auto ring, tool_models::completed({tool_models::ModelKind::ring_wrench, size}));
+        models.second_wrenches.emplace(size, tool_models::drawn_model(ring));
+    }
     models.dial_windows = dial_windows(assembly);
     models.dial = dial_model(models.dial_windows);
     load_pictures(assembly, models);
@@ -116,6 +123,8 @@ Result<std::unique_ptr<GpuLessonModels>> upload(gpu::Device& device, const Lesso
     uploaded->tools.resize(models.tools.size());
     for (std::size_t i = 0; i < models.tools.size(); ++i)
         BOLT_TRY(upload_to(models.tools[i].model, uploaded->tools[i]));
+    for (const auto& [size, model] : models.second_wrenches)
+        BOLT_TRY(upload_to(model, uploaded->second_wrenches[size]));
     BOLT_TRY(upload_to(arrow_model(), uploaded->arrows));
     for (const auto& [file, picture] : models.pictures) {
         BOLT_TRY_ASSIGN(auto image, upload_picture(device, picture));
@@ -184,6 +193,10 @@ Status add_workpiece(Workplace& workplace, const LessonModels& models, const Gpu
         if (joints[node] < 0) continue;
         const auto joint = static_cast<std::size_t>(joints[node]);
         workplace.world.add<JointPart>(entity, joint);
+        if (content::is_held_node(assembly.joints[joint], model.nodes[node].name)) {
+            workplace.world.add<HeldPart>(entity, joint, glm::dmat4(object.world));
+            workplace.world.get<Drawable>(entity).moves = true;
+        }
         if (!content::is_turned_node(assembly.joints[joint], model.nodes[node].name)) continue;
         workplace.world.add<NutPart>(
             entity, joint, nut_from_mesh(model.meshes[object.mesh], object.world, setup.nuts[joint]));
@@ -224,6 +237,18 @@ void add_tool(Workplace& workplace, std::size_t index, const ToolModel& tool,
         const ecs::Entity ghost = view::add_drawable(workplace.world, object);
         workplace.world.get<Drawable>(ghost).moves = true;
         workplace.world.add<GhostPart>(ghost, tool_from_mesh, false, index);
+    }
+}
+
+void add_second_wrench(Workplace& workplace, double size, const assets::Model& model,
+                       const render::GpuModel& on_gpu) {
+    render::Scene scene;
+    render::add_model(scene, model, on_gpu);
+    for (const render::Object& object : scene.objects) {
+        const ecs::Entity entity = view::add_drawable(workplace.world, object);
+        workplace.world.get<Drawable>(entity).moves = true;
+        workplace.world.add<SecondWrenchPart>(entity, glm::dmat4(object.world), size);
+        workplace.world.add<Appearance>(entity).hidden = true;
     }
 }
 
@@ -284,6 +309,8 @@ Result<Workplace> make_workplace(SceneWorld world, const LessonModels& models, c
     add_workshop(workplace, models, on_gpu);
     for (std::size_t i = 0; i < models.tools.size(); ++i)
         add_tool(workplace, i, models.tools[i], on_gpu.tools[i]);
+    for (const auto& [size, model] : models.second_wrenches)
+        add_second_wrench(workplace, size, model, on_gpu.second_wrenches.at(size));
     add_hand(workplace, models, on_gpu);
     add_arrows(workplace, on_gpu);
     add_dial(workplace, models, on_gpu);

@@ -37,6 +37,18 @@ struct JointPart {
     std::size_t joint = 0;
 };
 
+// The part of a joint that a second wrench holds, which turns with the nut if nothing holds it.
+struct HeldPart {
+    std::size_t joint = 0;
+    glm::dmat4 assembly_from_mesh{1.0};
+};
+
+// A part of a second wrench. The one that fits the joint on which it is, is drawn.
+struct SecondWrenchPart {
+    glm::dmat4 tool_from_mesh{1.0};
+    double across_flats = 0.0;  // m, as servo::NutGeometry::held_across_flats
+};
+
 // A part of a tool, which moves with it. Only the parts of the tool in use are drawn.
 struct ToolPart {
     glm::dmat4 tool_from_mesh{1.0};
@@ -88,8 +100,9 @@ struct DialMarker {
 };
 
 // The registry with the components of the simulation and of its pictures.
-using SceneWorld = world::WorldWith<Transform, Drawable, Appearance, Outline, Fadable, NutPart, JointPart,
-                                    ToolPart, SkinnedHand, GhostPart, ArrowMarker, DialMarker>;
+using SceneWorld =
+    world::WorldWith<Transform, Drawable, Appearance, Outline, Fadable, NutPart, JointPart, HeldPart,
+                     ToolPart, SecondWrenchPart, SkinnedHand, GhostPart, ArrowMarker, DialMarker>;
 
 // The properties of the person at the workplace that the scene depends on.
 struct Worker {
@@ -137,9 +150,10 @@ struct ToolModel {
 struct LessonModels {
     view::LoadedModel workpiece;
     assets::Model workshop, hand;
-    assets::Model dial;                    // angle_dial.hpp; empty if no nut is turned by an angle
-    std::vector<DialWindow> dial_windows;  // of the dial's meshes
-    std::vector<ToolModel> tools;          // in the order of content::LessonTools
+    assets::Model dial;                               // angle_dial.hpp; empty if no nut is turned by an angle
+    std::vector<DialWindow> dial_windows;             // of the dial's meshes
+    std::vector<ToolModel> tools;                     // in the order of content::LessonTools
+    std::map<double, assets::Model> second_wrenches;  // by width across flats, m
     std::optional<shading::RadianceImage> light;
     std::map<std::string, assets::Bitmap> pictures;  // of the author's instructions, decoded, by path
     std::vector<std::string> missing;                // error messages
@@ -152,6 +166,7 @@ Result<LessonModels> load_lesson_models(const content::Assembly& assembly,
 struct GpuLessonModels {
     render::GpuModel workpiece, workshop, hand, arrows, dial;
     std::vector<render::GpuModel> tools;
+    std::map<double, render::GpuModel> second_wrenches;
     render::EnvironmentLight light;
     std::map<std::string, gpu::Image>
         pictures;  // in ResourceUse::transfer_from, as ui::Ui::picture needs them

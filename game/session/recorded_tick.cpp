@@ -58,6 +58,7 @@ TickRecord make_record(const servo::TickInput& input, const servo::Output& outpu
     record.checkpoint_action = input.checkpoint_action;
     record.set_torque = input.set_torque;
     record.tool = input.tool;
+    record.second_wrench = input.second_wrench;
     return record;
 }
 
@@ -74,6 +75,7 @@ servo::TickInput input_of(const TickRecord& record) {
     input.checkpoint_action = record.checkpoint_action;
     input.set_torque = record.set_torque;
     input.tool = record.tool;
+    input.second_wrench = record.second_wrench;
     return input;
 }
 
@@ -88,14 +90,15 @@ bool same_output(const TickRecord& a, const TickRecord& b) {
 bool is_valid(const TickRecord& record) {
     constexpr auto last_grip = static_cast<std::uint8_t>(servo::Grip::wrench);
     return record.grip <= last_grip && record.stage < joint::stage_count && record.guide >= -1 &&
-           record.joint >= -1 && file_number(record.touched) && record.fault < force::fault_kinds &&
+           record.joint >= -1 && record.second_wrench >= -1 && file_number(record.touched) &&
+           record.fault < force::fault_kinds &&
            (record.checkpoint_action <= servo::max_checkpoints ||
             record.checkpoint_action == servo::save_checkpoint);
 }
 
 namespace {
 
-constexpr std::byte newest_chunk_version{5};
+constexpr std::byte newest_chunk_version{6};
 constexpr std::size_t header_bytes = 1 + 4 + 8;
 constexpr int compression_level = 1;  // level 3 takes a tenth longer and saves nothing on these columns
 
@@ -142,6 +145,8 @@ void for_each_column(std::byte chunk_version, Visit visit) {
     visit([](auto& tick) -> auto& { return tick.set_torque; });
     if (chunk_version < std::byte{5}) return;
     visit([](auto& tick) -> auto& { return tick.tool; });
+    if (chunk_version < std::byte{6}) return;
+    visit([](auto& tick) -> auto& { return tick.second_wrench; });
 }
 
 std::size_t tick_bytes(std::byte chunk_version) {

@@ -34,6 +34,7 @@ struct TickRecord {
     std::uint8_t checkpoint_action = 0;  // TickInput::checkpoint_action; since format 3
     float set_torque = 0.0F;             // N·m, TickInput::set_torque; since format 4
     std::uint8_t tool = 0;               // TickInput::tool; since format 7
+    std::int16_t second_wrench = -1;     // TickInput::second_wrench; since format 8
 };
 
 // The number of an obstacle in a session file, in its ticks and in its table of names: none −1, fixed
@@ -63,8 +64,8 @@ bool is_valid(const TickRecord& record);
 // as the difference of its bits from the previous value's (the first one from zero), zigzag-encoded, so that
 // small steps up or down have leading zero bits. Each column is split into byte planes, lowest bytes first.
 // Each version adds columns at the end: version 1 ends with the clamp force, 2 with the fault, 3 with the
-// checkpoint action, 4 with the set torque, 5 with the tool. Version 5 is written. In an older chunk the
-// missing columns have their defaults.
+// checkpoint action, 4 with the set torque, 5 with the tool, 6 with the second wrench. Version 6 is written.
+// In an older chunk the missing columns have their defaults.
 
 // The greatest number of ticks in a chunk: one second at the shortest tick, 10 µs. A larger count is damage.
 inline constexpr std::size_t max_chunk_ticks = 100'000;

@@ -344,14 +344,14 @@ device::WheelConfig apply_station(const content::StationFile& station, PlannedSt
 }
 
 Pose initial_wrench_pose(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
-                         double nut_angle) {
+                         const joint::JointState& state) {
     const motion::GripAngle grip =
-        motion::choose_grip(setup, contact, joint, nut_angle, nut_angle, 1.0, stroke);
+        motion::choose_grip(setup, contact, joint, state, state.rotation(), 1.0, stroke);
     const servo::NutGeometry& nut = setup.nuts[joint];
     // Raises a head that is thicker than the nut, so that it does not penetrate the nut's seat.
     const double above =
         std::max(0.0, 0.5 * (collision::thickness(setup.wrench.head) - nut.height) + clearance);
-    return {servo::nut_centre(nut, nut_angle) + above * nut.axis,
+    return {servo::nut_centre(nut, state.nut.angle) + above * nut.axis,
             motion::tool_orientation(nut, grip.handle, grip.flipped)};
 }
 
@@ -377,7 +377,7 @@ Result<PlannedStation> plan_station(const content::Assembly& assembly, const Sta
     planned.obstacles = initial->contact.has_value();
     planned.options.handle_length = setup.wrench.handle_length;
     planned.options.home = initial_wrench_pose(setup, initial->contact ? &*initial->contact : nullptr,
-                                               request.joint, state.joints[request.joint].nut.angle);
+                                               request.joint, state.joints[request.joint]);
     planned.options.make_setup = [initial](const force::OutputLimits& limits, double dt) {
         return initial->setup(limits, dt);
     };

@@ -138,6 +138,6 @@ Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
 // The pose of a wrench on a joint's nut with a handle direction in which it can swing by 30°. `contact` null:
 // there are no obstacles, and every direction is free.
 Pose initial_wrench_pose(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
-                         double nut_angle);
+                         const joint::JointState& state);
 
 }  // namespace bolt::station_setup

@@ -36,6 +36,8 @@ StepPlan make_step_plan(const TraineeProfile& profile, Random& random, const ser
         plan.wrong_joint = setup.nuts[other].tool == setup.nuts[due.joint].tool;
         if (plan.wrong_joint) plan.joint = other;
     }
+    plan.forgets_second_wrench = !plan.fingers && lesson::needs_second_wrench(*lesson.assembly, plan.joint) &&
+                                 random.chance(profile.forgets_second_wrench);
     // With a torque wrench a trainee that means to stop at the target waits for the click.
     plan.until_click = !plan.wrong_joint && lesson::wrench_set_torque(lesson) > 0.0;
     double stop = 1.0 + profile.torque_bias + profile.torque_noise * random.normal();
@@ -77,9 +79,11 @@ constexpr int max_misses = 3, max_fruitless = 3;  // misses and strokes before t
 constexpr int max_lift = 4;                       // in steps of lift_step
 constexpr double lift_step = 1e-3;                // m
 
-// These two values are chosen, not measured.
-constexpr double glance = 0.3;                   // s
-constexpr double head_speed = to_radians(60.0);  // rad/s
+// These values are chosen, not measured.
+constexpr double second_wrench_time = 1.5;         // s in which it is put on
+constexpr double noticed_turn = to_radians(30.0);  // of nut and bolt together
+constexpr double glance = 0.3;                     // s
+constexpr double head_speed = to_radians(60.0);    // rad/s
 // The camera reaches a new view within five time constants of 70 ms (game/view/camera.hpp).
 constexpr double view_transition = 0.35;  // s
 
@@ -215,8 +219,11 @@ void begin_next_action(TraineeState& t) {
         go_to_rest(t);
         return;
     }
-    if (search_time > 0.0) {
-        t.enter(Phase::search_view, search_time);
+    const bool holds_other_part = t.lacks_second_wrench() && !t.plan.forgets_second_wrench;
+    if (holds_other_part) t.second_wrench = static_cast<std::int16_t>(t.plan.joint);
+    const double pause = std::max(search_time, holds_other_part ? second_wrench_time : 0.0);
+    if (pause > 0.0) {
+        t.enter(Phase::search_view, pause);
         return;
     }
     start_reach(t);
@@ -241,7 +248,7 @@ void choose_grip_angle(TraineeState& t) {
                          t.consecutive_catches > max_catches;
     const double other_side = in_vain ? t.random.uniform(-1.0, 1.0) * pi : 0.0;
     const motion::GripAngle grip =
-        motion::choose_grip(*t.setup, t.obstacles(), t.plan.joint, t.joint().nut.angle,
+        motion::choose_grip(*t.setup, t.obstacles(), t.plan.joint, t.joint(),
                             t.nut().sense * 0.5 * pi - 0.5 * sign + other_side, sign, t.profile.stroke);
     t.handle_angle = grip.handle + t.profile.angle_noise * t.random.normal();
     t.flipped = grip.flipped;
@@ -397,6 +404,13 @@ void see_free_nut(TraineeState& t) {
     if (!t.plan.loosening || std::abs(t.stroke_turn) < min_turn) return;
     const double net = t.joint().nut.angle - t.nut_angle_at_stroke;
     if (std::abs(net) < (1.0 - taken_back) * std::abs(t.stroke_turn)) t.plan.finished = true;
+}
+
+void see_common_turn(TraineeState& t) {
+    if (!t.lacks_second_wrench()) return;
+    if (std::abs(t.joint().common_turn - t.common_turn_at_stroke) < noticed_turn) return;
+    t.plan.forgets_second_wrench = false;
+    t.second_wrench = static_cast<std::int16_t>(t.plan.joint);
 }
 
 void swing_back(TraineeState& t) {

@@ -31,8 +31,9 @@ struct StepPlan {
     // of the step, turned back; 0: it goes by the torque.
     double goal_angle = 0.0;
     double min_torque = 0.0;  // N·m, known lower limit: below it, yielding does not stop the pull
-    int attempt = 0;          // earlier attempts at this step
-    bool finished = false;    // the trainee believes that the step is done
+    bool forgets_second_wrench = false;
+    int attempt = 0;        // earlier attempts at this step
+    bool finished = false;  // the trainee believes that the step is done
 };
 
 // Returns the step to work on, or null if none is left. In an assessment the lesson does not report that a
@@ -89,10 +90,12 @@ struct TraineeState {
     double hover_height = 0.0;        // m above the nut, start of the lowering
 
     bool holds_wrench = false;
-    std::uint8_t tool = 0;        // that it uses or wants next: servo::TickInput::tool
-    double caught_time = 0.0;     // s for which an obstacle has held the wrench back
-    int consecutive_catches = 0;  // retreats from an obstacle in a row
-    int consecutive_misses = 0;   // attempts in a row in which the jaw did not slide onto the nut
+    std::uint8_t tool = 0;               // that it uses or wants next: servo::TickInput::tool
+    std::int16_t second_wrench = -1;     // joint on which it has put the second wrench; −1: none
+    double common_turn_at_stroke = 0.0;  // rad, joint::JointState::common_turn at the start of the stroke
+    double caught_time = 0.0;            // s for which an obstacle has held the wrench back
+    int consecutive_catches = 0;         // retreats from an obstacle in a row
+    int consecutive_misses = 0;          // attempts in a row in which the jaw did not slide onto the nut
     motion::VisibilityModel visibility;
     motion::ViewHelper view_help;
     Vec3 next_eye{0.0};                       // m, target of the head's movement
@@ -122,6 +125,11 @@ struct TraineeState {
     }
     [[nodiscard]] double elapsed() const { return time - phase_start; }
     [[nodiscard]] double progress() const { return phase_duration > 0.0 ? elapsed() / phase_duration : 1.0; }
+    // A second wrench must hold the other part of the joint, and is not there.
+    [[nodiscard]] bool lacks_second_wrench() const {
+        return !plan.fingers && lesson::needs_second_wrench(*lesson->assembly, plan.joint) &&
+               second_wrench != static_cast<int>(plan.joint);
+    }
     [[nodiscard]] bool phase_over() const { return progress() >= 1.0; }
     [[nodiscard]] bool step_is_past() const { return plan.step != lesson->current; }
     [[nodiscard]] bool holds_intended_nut() const {
@@ -178,6 +186,8 @@ void spin(TraineeState& t, const Percept& felt);
 // These move the handle by one tick; the caller ends the phase. The wrench springs back before it is lifted;
 // a ratchet swings back on the nut, and the open fingers turn back for the next twist.
 void unload(TraineeState& t);
+// Puts the second wrench on the joint of the plan once the trainee sees that nut and bolt turn together.
+void see_common_turn(TraineeState& t);
 // Returns true if a ratchet can pull again without leaving the nut.
 bool pulls_again(const TraineeState& t);
 void swing_back(TraineeState& t);

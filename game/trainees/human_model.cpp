@@ -136,7 +136,8 @@ constexpr TraineeProfile profiles[] = {
      .pause = 0.15,
      .wrong_joint = 0.0,
      .stops_early = 0.0,
-     .overtightens = 0.0},
+     .overtightens = 0.0,
+     .forgets_second_wrench = 0.0},
     {.name = "novice",
      .reach_time = 1.5,
      .placing_time = 0.8,
@@ -158,7 +159,8 @@ constexpr TraineeProfile profiles[] = {
      .pause = 0.8,
      .wrong_joint = 0.03,
      .stops_early = 0.05,
-     .overtightens = 0.0},
+     .overtightens = 0.0,
+     .forgets_second_wrench = 0.15},
     {.name = "clumsy",
      .reach_time = 1.3,
      .placing_time = 0.7,
@@ -180,7 +182,8 @@ constexpr TraineeProfile profiles[] = {
      .pause = 0.5,
      .wrong_joint = 0.10,
      .stops_early = 0.08,
-     .overtightens = 0.08},
+     .overtightens = 0.08,
+     .forgets_second_wrench = 0.3},
 };
 
 }  // namespace

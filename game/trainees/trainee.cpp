@@ -25,6 +25,7 @@ void engage(TraineeState& t, const Pose& pose) {
     if (t.holds_intended_nut()) {
         t.stroke_start = t.handle_angle;
         t.nut_angle_at_stroke = t.joint().nut.angle;
+        t.common_turn_at_stroke = t.joint().common_turn;
         t.consecutive_misses = 0;
         t.enter(t.plan.fingers ? Phase::spin : Phase::pull);
     } else if (t.phase_over()) {
@@ -92,6 +93,7 @@ Pose step_phase(TraineeState& t, const Percept& felt, Grip& grip) {
         case Phase::pull:
             grip = own;
             pull(t, felt);
+            see_common_turn(t);
             pose = t.tool_at_nut(0.0);
             if (!t.holds_intended_nut()) start_lift(t, pose, 0.3);  // the jaw slipped off
             break;
@@ -201,6 +203,7 @@ IntendedPose advance(TraineeState& t, const servo::Setup& setup, const servo::St
     if (t.obstacles() != nullptr && t.holds_wrench) intended.grip = Grip::wrench;
     intended.tool = pose;
     intended.tool_index = t.tool;
+    intended.second_wrench = t.second_wrench;
     intended.holds_nut = holds_nut;
     return intended;
 }
@@ -229,6 +232,7 @@ servo::TickInput SimulatedTrainee::act(const servo::Setup& setup, const servo::S
     input.guide = intended.guide;
     input.grip = intended.grip;
     input.tool = intended.tool_index;
+    input.second_wrench = t.second_wrench;
     input.commanded_tool = servo::to_commanded_tool(t.hand);
     report_visibility(t, lesson.due());
     return input;

@@ -22,9 +22,10 @@ struct TraineeState;  // behaviour.hpp
 struct IntendedPose {
     Pose tool;  // in the assembly's frame
     servo::Grip grip = servo::Grip::none;
-    std::int16_t guide = -1;      // joint that the guiding force leads to; −1: none
-    std::uint8_t tool_index = 0;  // servo::TickInput::tool
-    bool holds_nut = false;       // the hand turns a nut, or waits on it, and does not give way to forces
+    std::int16_t guide = -1;          // joint that the guiding force leads to; −1: none
+    std::uint8_t tool_index = 0;      // servo::TickInput::tool
+    std::int16_t second_wrench = -1;  // as servo::TickInput::second_wrench
+    bool holds_nut = false;           // the hand turns a nut, or waits on it, and does not give way to forces
 };
 
 class SimulatedTrainee {

@@ -172,6 +172,17 @@ void handle_mouse_input(ActiveLesson& active, const FrameInput& input, const Pro
 
 }  // namespace
 
+void move_second_wrench(ActiveLesson& active) {
+    const lesson::Lesson& lesson = active.session->lesson();
+    const lesson::LessonStep* due = trainer::due(active.undo, lesson);
+    const int joint = lesson.held_joint >= 0 ? lesson.held_joint
+                      : due != nullptr       ? static_cast<int>(due->joint)
+                                             : -1;
+    if (joint < 0 || !lesson::needs_second_wrench(*lesson.assembly, static_cast<std::size_t>(joint))) return;
+    active.second_wrench =
+        active.second_wrench == joint ? std::int16_t{-1} : static_cast<std::int16_t>(joint);
+}
+
 void handle_input(const scene::SceneWorld& world, LessonFrame& frame) {
     ActiveLesson& active = frame.active;
     const FrameInput& input = frame.input;
@@ -179,6 +190,7 @@ void handle_input(const scene::SceneWorld& world, LessonFrame& frame) {
     const Projection projection = projection_of(active, frame.size);
     update_pointer(world, active, input, projection);
     if (input.triggered(Action::restart_step)) request_undo(active.undo, active.session->lesson(), 0);
+    if (input.triggered(Action::second_wrench)) move_second_wrench(active);
     if (input.triggered(Action::undo)) request_undo(active.undo, active.session->lesson(), 1);
     FrameInput view_input = input;
     if (active.station) {
@@ -257,6 +269,7 @@ void step_ticks(scene::SceneWorld& world, LessonFrame& frame) {
         servo::TickInput input = step_hand(active.helped_hand, setup, session.state());
         if (const lesson::LessonStep* due = session.lesson().due(); due != nullptr && session.lesson().guides)
             input.guide = static_cast<std::int16_t>(due->joint);
+        input.second_wrench = active.second_wrench;
         const auto undo = steps_to_undo(active.undo, session.lesson());
         if (undo && active.helped_hand.action == HandAction::resting && !active.helped_hand.nut)
             session.request_undo(*undo);
@@ -292,11 +305,11 @@ void repeat_station_ticks(scene::SceneWorld& world, LessonFrame& frame) {
                                         client.link->lost_ticks()),
                             "frames that are short enough for the queue of ticks: close other programs or "
                             "lower the resolution");
-    const Status sent =
-        send_actions(client, *active.session,
-                     {active.clock.paused || active.clock.finished || !continues(active),
-                      frame.input.triggered(Action::tool), frame.input.triggered(Action::recentre),
-                      steps_to_undo(active.undo, active.session->lesson()), viewer_heading(active)});
+    const Status sent = send_actions(
+        client, *active.session,
+        {active.clock.paused || active.clock.finished || !continues(active),
+         frame.input.triggered(Action::tool), frame.input.triggered(Action::recentre),
+         steps_to_undo(active.undo, active.session->lesson()), viewer_heading(active), active.second_wrench});
     if (frame.status && !sent) frame.status = sent;
     const WorkingHand hand = write_hand(world, hand_of(client));
     if (hand.wrench && !had_wrench)

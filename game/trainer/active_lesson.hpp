@@ -98,6 +98,7 @@ struct ActiveLesson {
     LessonSound sound;
     LessonVibration vibration;
     StepUndo undo;
+    std::int16_t second_wrench = -1;  // joint whose held part it is on; −1: none
     TorquePlot plot;
     std::vector<lesson::Verdict> verdicts;    // of the joints, after the end of the lesson
     std::vector<lesson::LessonEvent> events;  // not logged yet
@@ -143,6 +144,10 @@ struct LessonFrame {
 // Call before the systems. Applies mouse and keys to the hand and the view, based on the world of the
 // previous frame.
 void handle_input(const scene::SceneWorld& world, LessonFrame& frame);
+
+// Puts the second wrench on the joint that is held or due, or takes it away if it is there. Does nothing for
+// a joint that needs none.
+void move_second_wrench(ActiveLesson& active);
 
 // The systems of a frame follow, in the order in which they run.
 

@@ -188,6 +188,8 @@ void App::perform(ScreenAction action) {
             return perform_in_room(Action::raise);
         case ScreenAction::lower:
             return perform_in_room(Action::lower);
+        case ScreenAction::second_wrench:
+            return move_second_wrench(*active_);
         case ScreenAction::select_trainee:
             return select_trainee();
         case ScreenAction::change_display:
@@ -273,7 +275,8 @@ void App::draw_screen(const ScreenContext& context) {
         perform(draw_pause(context, preferences_, active_->session->lesson().mode,
                            {lost, room_ && room_->present}));
     } else if (in_lesson && in_room()) {
-        perform(draw_room_bar(context, {controls_text(room_->controller), !room_->arm}));
+        perform(draw_room_bar(context, {controls_text(room_->controller), !room_->arm,
+                                        lesson::needs_second_wrench(active_->session->assembly())}));
     } else if (screen_ == ShownScreen::menu) {
         MenuPictures pictures;
         for (const AssemblyEntry& entry : menu_.assemblies)

@@ -30,10 +30,11 @@ enum class Action : std::uint8_t {
     mute,  // mutes and unmutes the sound
     undo,  // returns to the previous step
     restart_step,
-    recentre,     // at a station: moves the tool to its initial pose
-    close_up,     // shows and hides the close-up
-    place_again,  // in a room: places panel and workpiece in front of the user
-    turn_left,    // in a room, by a step: the workpiece
+    recentre,       // at a station: moves the tool to its initial pose
+    close_up,       // shows and hides the close-up
+    second_wrench,  // puts the second wrench on the due joint or takes it away
+    place_again,    // in a room: places panel and workpiece in front of the user
+    turn_left,      // in a room, by a step: the workpiece
     turn_right,
     raise,
     lower,
@@ -45,8 +46,8 @@ inline constexpr std::size_t action_count = static_cast<std::size_t>(Action::mir
 constexpr std::string_view name(Action action) {
     constexpr std::array names = std::to_array<std::string_view>(
         {"tool", "find_view", "whole_view", "hint", "flange_map", "pause", "full_screen", "quiet", "undo",
-         "restart_step", "recentre", "close_up", "place_again", "turn_left", "turn_right", "raise", "lower",
-         "mirror"});
+         "restart_step", "recentre", "close_up", "second_wrench", "place_again", "turn_left", "turn_right",
+         "raise", "lower", "mirror"});
     static_assert(names.size() == action_count);
     return names.at(static_cast<std::size_t>(action));
 }
@@ -54,8 +55,8 @@ constexpr std::string_view name(Action action) {
 inline constexpr std::array default_keys = std::to_array<platform::Key>(
     {platform::Key::t, platform::Key::v, platform::Key::f, platform::Key::h, platform::Key::c,
      platform::Key::escape, platform::Key::f11, platform::Key::m, platform::Key::backspace, platform::Key::r,
-     platform::Key::home, platform::Key::i, platform::Key::b, platform::Key::j, platform::Key::l,
-     platform::Key::plus, platform::Key::minus, platform::Key::f9});
+     platform::Key::home, platform::Key::i, platform::Key::g, platform::Key::b, platform::Key::j,
+     platform::Key::l, platform::Key::plus, platform::Key::minus, platform::Key::f9});
 static_assert(default_keys.size() == action_count);
 
 struct KeyMap {

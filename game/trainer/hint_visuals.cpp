@@ -104,6 +104,8 @@ std::optional<MotionArrow> arrow_of(HintMotion motion, const MotionGeometry& geo
     switch (motion) {
         case HintMotion::none:
             return std::nullopt;
+        case HintMotion::hold:
+            return up_from(geometry.nut_centre - geometry.nut.held_distance * axis, -axis, width);
         case HintMotion::take:
             return down_to(grip, geometry.rest.orientation * Vec3(0, 0, 1), width, forward_color);
         case HintMotion::put_away:

@@ -42,6 +42,7 @@ ScreenAction draw_room_bar(const ScreenContext& context, const RoomBar& bar) {
         note_widget(context, key);
     };
     button("room.pause", bar_width * scale, ScreenAction::pause);
+    if (bar.second_wrench) button("action.second_wrench", bar_width * scale, ScreenAction::second_wrench);
     if (bar.moves_workpiece) {
         button("room.turn_left", half, ScreenAction::turn_left);
         ImGui::SameLine(0.0F, 8.0F * scale);

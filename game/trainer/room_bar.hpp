@@ -10,6 +10,7 @@ namespace bolt::trainer {
 struct RoomBar {
     words::TextKey controls = "room.controls.hands";
     bool moves_workpiece = true;  // the workpiece can be turned and raised
+    bool second_wrench = false;   // the lesson needs one
 };
 
 // The text about the buttons of the controller in a hand; null: a bare hand, or an unknown controller.

@@ -13,12 +13,12 @@ constexpr double default_seat = 1.2;  // m, height of the eyes
 constexpr glm::vec4 highlight{1.0F, 0.85F, 0.4F, 1.0F};
 
 words::TextKey text_key(Action action) {
-    constexpr words::TextKey keys[] = {"action.tool",         "action.find_view",  "action.whole_view",
-                                       "action.hint",         "action.flange_map", "action.pause",
-                                       "action.full_screen",  "action.quiet",      "action.undo",
-                                       "action.restart_step", "action.recentre",   "action.close_up",
-                                       "action.place_again",  "action.turn_left",  "action.turn_right",
-                                       "action.raise",        "action.lower",      "action.mirror"};
+    constexpr words::TextKey keys[] = {
+        "action.tool",          "action.find_view",    "action.whole_view",  "action.hint",
+        "action.flange_map",    "action.pause",        "action.full_screen", "action.quiet",
+        "action.undo",          "action.restart_step", "action.recentre",    "action.close_up",
+        "action.second_wrench", "action.place_again",  "action.turn_left",   "action.turn_right",
+        "action.raise",         "action.lower",        "action.mirror"};
     static_assert(std::size(keys) == action_count);
     return keys[static_cast<std::size_t>(action)];
 }

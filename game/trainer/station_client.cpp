@@ -225,6 +225,7 @@ Status send_actions(StationClient& client, const session::LessonSession& session
         attracting_nut && closes ? static_cast<std::int16_t>(*attracting_nut) : std::int16_t{-1};
     controls.set_torque = static_cast<float>(lesson::wrench_set_torque(session.lesson()));
     controls.tool = session.due_tool();
+    controls.second_wrench = actions.second_wrench;
     client.link->set_controls(controls);
     client.hand_closed = closes;
     return send_commands(client, session, actions);
@@ -232,10 +233,13 @@ Status send_actions(StationClient& client, const session::LessonSession& session
 
 lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys, const Equipment& equipment,
                                    const StationClient* client) {
+    if (client != nullptr && client->tracked) return lesson::tracked_controls(words);
     const std::string tool = key_name(keys, Action::tool);
-    if (client == nullptr) return lesson::mouse_controls(words, tool);
-    if (client->dragged) return lesson::drag_controls(words, tool);
-    if (client->tracked) return lesson::tracked_controls(words);
+    const auto with_second_wrench = [&](lesson::ControlNames names) {
+        return lesson::with_second_wrench(words, std::move(names), key_name(keys, Action::second_wrench));
+    };
+    if (client == nullptr) return with_second_wrench(lesson::mouse_controls(words, tool));
+    if (client->dragged) return with_second_wrench(lesson::drag_controls(words, tool));
     const station::DeviceLayout& layout = client->link->layout();
     const std::uint32_t held = layout.mover_buttons.dead_man;
     const bool keyboard = equipment.devices.empty();
@@ -250,7 +254,7 @@ lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys
                                  : feels  ? lesson::device_controls(words, closes, tool)
                                           : lesson::puck_controls(words, closes, tool);
     const bool fingers = client->link->hand() != nullptr || (layout.mover && layout.mover->senses_gripper);
-    return fingers ? lesson::glove_controls(words, std::move(names)) : names;
+    return with_second_wrench(fingers ? lesson::glove_controls(words, std::move(names)) : std::move(names));
 }
 
 }  // namespace bolt::trainer

@@ -101,6 +101,7 @@ struct UserActions {
     bool recentre = false;            // move the tool to its initial pose
     std::optional<std::size_t> undo;  // steps (StepUndo)
     Quat view{1.0, 0.0, 0.0, 0.0};    // viewing direction; pushes are relative to it
+    std::int16_t second_wrench = -1;  // as servo::TickInput::second_wrench
 };
 // Call once a frame: reads the latest tick and sends controls and commands. Fails if the station's command
 // queue is full.

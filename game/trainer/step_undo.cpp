@@ -28,6 +28,8 @@ void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t step
 void observe(StepUndo& undo, const lesson::Lesson& lesson, const lesson::LessonEvent& event) {
     if (event.kind == lesson::EventKind::undo) undo = {};
     if (event.mistake == lesson::MistakeKind::none || lesson.mode != lesson::Mode::guided) return;
+    // A bolt that turned along has changed nothing that an undo would mend.
+    if (event.mistake == lesson::MistakeKind::turned_together) return;
     undo = {std::min(undo.target.value_or(lesson.current), lesson.current), true};
 }
 

@@ -32,6 +32,7 @@ void write_joints(const WriteHaptics& world, const servo::State& servo) {
         joint.clamp = state.clamp;
         joint.breakaway = state.breakaway;
         joint.rounded = servo.rounded[joint.index];
+        joint.common_turn = state.common_turn;
     }
 }
 
@@ -47,9 +48,14 @@ void write_haptics(const WriteHaptics& world, const Snapshot& servo) {
     world.only<ServoClock>().tick = servo.state.tick;
     write_joints(world, servo.state);
     world.only<ConstrainedTool>().pose = output.constrained_tool;
-    world.only<ToolState>() = {
-        output.joint,   servo.state.engagement.grip,         output.slipped, output.touched, output.contacts,
-        output.clicked, servo.state.engagement.ratchet_slack};
+    world.only<ToolState>() = {output.joint,
+                               servo.state.engagement.grip,
+                               output.slipped,
+                               output.touched,
+                               output.contacts,
+                               output.clicked,
+                               servo.state.engagement.ratchet_slack,
+                               servo.input.second_wrench};
     world.only<GuidingForce>() = {servo.input.guide, servo.state.guiding_command.force,
                                   servo.state.guiding_command.torque};
     world.only<DeviceForce>() = {output.force, output.torque, output.fault};

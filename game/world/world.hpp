@@ -30,12 +30,13 @@ struct Joint {
     std::size_t index = 0;  // in the assembly
     joint::Stage stage = joint::Stage::navigation;
     joint::JointCondition condition = joint::JointCondition::intact;
-    double angle = 0.0;      // of the nut from its hand-started position, tightening positive
-    double speed = 0.0;      // rad/s of the nut
-    double torque = 0.0;     // of wrench or fingers on the nut, tightening positive
-    double clamp = 0.0;      // bolt force
-    double breakaway = 0.0;  // 0 … 1, as joint::JointState::breakaway
-    double rounded = 0.0;    // m of each flat that slipping jaws have rounded off
+    double angle = 0.0;        // of the nut from its hand-started position, tightening positive
+    double speed = 0.0;        // rad/s of the nut
+    double torque = 0.0;       // of wrench or fingers on the nut, tightening positive
+    double clamp = 0.0;        // bolt force
+    double breakaway = 0.0;    // 0 … 1, as joint::JointState::breakaway
+    double rounded = 0.0;      // m of each flat that slipping jaws have rounded off
+    double common_turn = 0.0;  // by which nut and bolt have turned together (joint::JointState)
 };
 
 // The tool at the pose that the obstacles permit: the wrench in the hand, or the fingertips of an empty hand.
@@ -52,6 +53,7 @@ struct ToolState {
     std::uint16_t contacts = 0;            // active and nearly active contacts
     bool clicked = false;                  // the torque wrench clicked in this tick
     double ratchet_slack = 0.0;            // as servo::Engagement::ratchet_slack
+    std::int16_t second_wrench = -1;       // as servo::TickInput::second_wrench
 };
 
 // The force that guides the tool to a nut, before the limits of the output stage.

@@ -15,6 +15,20 @@ TorqueLevers torque_levers(const ScrewThread& thread, double mu_thread, double m
     return levers;
 }
 
+HeldPartSize held_part_size(const JointDesign& design) {
+    const FastenerSize& size = design.thread.size;
+    if (design.turned == TurnedPart::head) return {size.across_flats, nut_height(design), size.nut_bearing};
+    return {size.across_flats, size.head_height, size.head_bearing};
+}
+
+HeldPartTorques held_part_torques(const JointDesign& design, double clamp) {
+    const double diameter = bearing_mean_diameter(held_part_size(design).bearing, design.thread.size.hole);
+    const TorqueLevers levers =
+        torque_levers(design.thread.thread, design.friction.thread,
+                      design.friction.held_bearing.value_or(design.friction.bearing), diameter);
+    return {clamp * (levers.lead + levers.thread) + design.prevailing_torque, clamp * levers.bearing};
+}
+
 double sliding_slope(const ScrewThread& thread, double mu_thread, double friction_share) {
     const double lead = thread.pitch / (pi * thread.d2);
     const double friction = friction_share * mu_thread / std::cos(thread_half_angle);

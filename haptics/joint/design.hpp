@@ -2,6 +2,7 @@
 // levers, assembly preload and elastic compliance (VDI 2230). The joint laws are derived from it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -20,10 +21,11 @@ namespace bolt::joint {
 enum class Lubrication { as_received, dry, oiled, mos2 };
 
 struct FrictionDesign {
-    double thread = 0.12;        // μ_G, running
-    double bearing = 0.12;       // μ_K, running, under the turned nut
-    double static_ratio = 1.15;  // breakaway / running
-    double scatter = 0.0;        // standard deviation of both from bolt to bolt, relative
+    double thread = 0.12;                  // μ_G, running
+    double bearing = 0.12;                 // μ_K, running, under the turned nut
+    std::optional<double> held_bearing{};  // running, under the part that is not turned; none: as `bearing`
+    double static_ratio = 1.15;            // breakaway / running
+    double scatter = 0.0;                  // standard deviation of both from bolt to bolt, relative
     Lubrication lubrication = Lubrication::as_received;
 };
 
@@ -92,6 +94,26 @@ constexpr std::string_view size_suffix(ThreadDirection direction) {
 // The part that a tool turns.
 enum class TurnedPart : std::uint8_t { nut, head };
 
+// What keeps the part of a through-bolt that is not turned from turning too: its head while a tool turns the
+// nut, or its nut while a tool turns the head. Below it is called the held part.
+enum class CounterHold : std::uint8_t {
+    fixed,         // it cannot turn
+    second_wrench  // friction under it, and a second wrench while that is on it
+};
+inline constexpr std::array all_counter_holds{CounterHold::fixed, CounterHold::second_wrench};
+
+// The name in assembly files.
+constexpr std::string_view name(CounterHold hold) {
+    constexpr std::array<std::string_view, all_counter_holds.size()> names{"fixed", "second_wrench"};
+    return names.at(static_cast<std::size_t>(hold));
+}
+// None if there is no such name.
+constexpr std::optional<CounterHold> counter_hold_named(std::string_view text) {
+    for (const CounterHold hold : all_counter_holds)
+        if (name(hold) == text) return hold;
+    return std::nullopt;
+}
+
 // The thread that a screw or stud is screwed into.
 struct TappedHole {
     TappedMaterial material;
@@ -103,8 +125,9 @@ struct JointDesign {
     std::string id;
     JointForm form = JointForm::through_bolt;
     HeadShape head = HeadShape::hexagon;
-    TurnedPart turned = TurnedPart::nut;  // a screw in a tapped hole: head
-    TappedHole hole;                      // of a tapped hole or a stud
+    TurnedPart turned = TurnedPart::nut;            // a screw in a tapped hole: head
+    TappedHole hole;                                // of a tapped hole or a stud
+    CounterHold counter_hold = CounterHold::fixed;  // of a through-bolt
     ThreadSize thread;
     // The joint laws do not depend on it: their angle is positive in the direction that tightens.
     ThreadDirection thread_direction = ThreadDirection::right;
@@ -172,6 +195,26 @@ struct TorqueLevers {
 
 TorqueLevers torque_levers(const ScrewThread& thread, double mu_thread, double mu_bearing,
                            double bearing_mean_diameter);
+
+// The torques on the held part of a through-bolt that is tightened to the clamp force F. The thread turns it
+// with F (P/2π + μ_G r_t/cos β) and the prevailing torque; friction under it holds it with up to F μ r_b.
+// With equal coefficients and sizes M8 to M24 it turns below μ ≈ 0.21.
+struct HeldPartTorques {
+    double thread = 0.0;    // N·m
+    double friction = 0.0;  // N·m, at most
+
+    // N·m that a second wrench on the held part bears; 0: friction alone holds it.
+    [[nodiscard]] double second_wrench() const { return std::max(0.0, thread - friction); }
+};
+HeldPartTorques held_part_torques(const JointDesign& design, double clamp);
+
+// Dimensions of the held part of a through-bolt, m: of its head, or of its nut if the head is turned.
+struct HeldPartSize {
+    double across_flats = 0.0;
+    double height = 0.0;
+    double bearing = 0.0;  // d_w
+};
+HeldPartSize held_part_size(const JointDesign& design);
 
 // D_Km = (d_w + d_h)/2, VDI 2230: mean diameter of the bearing under the turned nut or head.
 inline double bearing_mean_diameter(double d_w, double d_h) { return 0.5 * (d_w + d_h); }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace bolt::joint {
@@ -74,14 +75,14 @@ void copy_outputs(JointState& joint) {
     joint.condition = joint.mechanistic.condition;
 }
 
-void update_clamps(const GroupParameters& group, std::span<JointState> joints, int moved, double angle,
-                   double friction_share, double dt) {
+void update_clamps(const GroupParameters& group, std::span<JointState> joints, int moved, const NutTurn& turn,
+                   double dt) {
     for (std::size_t i = 0; i < joints.size(); ++i) {
         MechanisticState& s = joints[i].mechanistic;
         if (!group.interaction.row_begin.empty())
             s.neighbour_closure = neighbour_closure(group.interaction, joints, i);
         const bool turned = static_cast<int>(i) == moved;
-        advance(group.joints[i], s, turned ? angle : s.angle, turned ? friction_share : s.friction_share, dt);
+        advance(group.joints[i], s, turned ? turn : NutTurn{s.angle, s.friction_share}, dt);
         copy_outputs(joints[i]);
     }
 }
@@ -120,7 +121,7 @@ GroupParameters make_published_group(std::vector<PublishedParameters> joints) {
 
 std::vector<JointState> initial_state(const GroupParameters& group, std::size_t joints) {
     std::vector<JointState> states(joints);
-    if (group.law == Law::mechanistic) update_clamps(group, states, -1, 0.0, 0.0, 0.0);
+    if (group.law == Law::mechanistic) update_clamps(group, states, -1, {}, 0.0);
     return states;
 }
 
@@ -142,11 +143,74 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
     return r;
 }
 
+namespace {
+
+// Resistances of the turned part if it turns on the thread, or together with the held part.
+struct NutResistances {
+    Resistance on_thread;
+    std::optional<Resistance> together;  // none: the held part stands
+
+    [[nodiscard]] bool turns_together(double speed) const {
+        if (!together || speed == 0.0) return false;
+        return speed > 0.0 ? together->tighten < on_thread.tighten : together->loosen > on_thread.loosen;
+    }
+    // That of the motion which needs less torque.
+    [[nodiscard]] Resistance weaker() const {
+        Resistance r = on_thread;
+        if (turns_together(1.0)) {
+            r.tighten = together->tighten;
+            r.tighten_slope = 0.0;
+        }
+        if (turns_together(-1.0)) {
+            r.loosen = together->loosen;
+            r.loosen_slope = 0.0;
+        }
+        return r;
+    }
+};
+
+NutResistances resistances(const GroupParameters& group, std::size_t joint, const JointState& state,
+                           double counter_hold) {
+    NutResistances r{resistance(group, joint, state), std::nullopt};
+    if (group.law == Law::mechanistic && group.joints[joint].held_part_can_turn &&
+        std::isfinite(counter_hold))
+        r.together = resistance_together(group.joints[joint], state.mechanistic, counter_hold);
+    return r;
+}
+
+// The thread does not slide while nut and bolt turn together, so its friction only balances the torque.
+double held_friction_share(const Resistance& on_thread, double torque) {
+    const double lead = on_thread.lead_torque;
+    const double friction = torque >= lead ? on_thread.tighten - lead : lead - on_thread.loosen;
+    return friction > 0.0 ? std::clamp((torque - lead) / friction, -1.0, 1.0) : 0.0;
+}
+
+// One step of the driven part, on the thread or together with the held part.
+NutStep step_driven(const GroupParameters& group, std::size_t index, JointState& joint, NutDrive drive,
+                    double dt) {
+    const double inertia = drive_inertia(std::max(drive.stiffness, 1.0), dt);
+    const NutResistances r = resistances(group, index, joint, drive.counter_hold);
+    drive.angle -= joint.common_turn;
+    NutStep step = step_nut(r.weaker(), inertia, joint.nut, drive, dt);
+    if (r.turns_together(step.nut.speed)) {
+        joint.common_turn += step.nut.angle - joint.nut.angle;
+        step.nut.angle = joint.nut.angle;
+        step.friction_share = held_friction_share(r.on_thread, step.torque);
+    }
+    if (step.nut.angle < 0.0) {  // end of the thread: the nut stops and the drive winds up
+        step.nut = {};
+        step.torque = wound_torque(drive, 0.0);
+    }
+    return step;
+}
+
+}  // namespace
+
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
                      const NutDrive& drive, double dt) {
     ClickStep click;
     int moved = -1;
-    double angle = 0.0, friction_share = 0.0;
+    NutTurn turn;
     for (std::size_t i = 0; i < joints.size(); ++i) {
         joints[i].torque = 0.0;
         if (static_cast<int>(i) != driven || !drive.engaged)
@@ -154,24 +218,19 @@ ClickStep step_group(const GroupParameters& group, std::span<JointState> joints,
     }
     if (driven >= 0 && static_cast<std::size_t>(driven) < joints.size()) {
         const auto i = static_cast<std::size_t>(driven);
-        const double inertia = drive_inertia(std::max(drive.stiffness, 1.0), dt);
-        NutStep step = step_nut(resistance(group, i, joints[i]), inertia, joints[i].nut, drive, dt);
+        const double common_turn = joints[i].common_turn;
+        const NutStep step = step_driven(group, i, joints[i], drive, dt);
         click = step.click;
-        if (step.nut.angle < 0.0) {  // end of the thread: the nut stops and the drive winds up
-            step.nut = {};
-            step.torque = wound_torque(drive, 0.0);
-        }
         joints[i].nut = step.nut;
         joints[i].torque = step.torque;
         moved = driven;
-        angle = step.nut.angle;
-        friction_share = step.friction_share;
+        turn = {step.nut.angle, step.friction_share, joints[i].common_turn - common_turn};
     }
     if (group.law == Law::mechanistic)
-        update_clamps(group, joints, moved, angle, friction_share, dt);
+        update_clamps(group, joints, moved, turn, dt);
     else if (moved >= 0)
         update_published(group.published[static_cast<std::size_t>(moved)],
-                         joints[static_cast<std::size_t>(moved)], angle, friction_share);
+                         joints[static_cast<std::size_t>(moved)], turn.angle, turn.friction_share);
     return click;
 }
 
@@ -180,7 +239,7 @@ void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::s
     JointState& j = joints[joint];
     j.nut = {angle, (angle - j.nut.angle) / dt};
     if (group.law == Law::mechanistic)
-        update_clamps(group, joints, static_cast<int>(joint), angle, friction_share, dt);
+        update_clamps(group, joints, static_cast<int>(joint), {angle, friction_share}, dt);
     else
         update_published(group.published[joint], j, angle, friction_share);
     const Resistance r = resistance(group, joint, j);

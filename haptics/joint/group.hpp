@@ -57,15 +57,19 @@ struct GroupParameters {
 };
 
 struct JointState {
-    NutMotion nut;
-    double torque = 0.0;  // N·m applied by wrench or fingers, tightening positive
-    double clamp = 0.0;   // N
+    NutMotion nut;             // angle on the thread; speed in the assembly's frame
+    double common_turn = 0.0;  // rad by which nut and bolt have turned together, tightening positive
+    double torque = 0.0;       // N·m applied by wrench or fingers, tightening positive
+    double clamp = 0.0;        // N
     // 0…1, active share of the additional friction at rest; decreases as the nut turns.
     double breakaway = 0.0;
     Stage stage = Stage::navigation;
     JointCondition condition = JointCondition::intact;
     MechanisticState mechanistic;
     PublishedState published;
+
+    // rad by which the turned part has turned about the bolt's axis in the assembly's frame.
+    [[nodiscard]] double rotation() const { return nut.angle + common_turn; }
 };
 
 // Derives the joints (seeded scatter, one random stream per joint) and their interaction through the flange,
@@ -82,7 +86,12 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
 // One step of dt: moves the nut `driven` (−1: none) with the drive, then updates every joint's clamp force.
 // The group's forces minimise a strictly convex energy. Each step performs one sweep of exact minimisation,
 // joint by joint, from the last solution, so the sweeps never diverge, and the next steps reduce the
-// remaining error. Returns the step of the drive's click mechanism.
+// remaining error.
+//
+// With CounterHold::second_wrench, nut and bolt turn together where the thread resists more than their faces
+// do (resistance_together). Then the clamp force does not change.
+//
+// Returns the step of the drive's click mechanism.
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
                      const NutDrive& drive, double dt);
 

@@ -241,6 +241,21 @@ void derive_insert(const JointDesign& design, MechanisticParameters& p) {
     p.insert_wear = std::pow(nut->least_off_5th / nut->least_off, 0.25);
 }
 
+// Draws from `random` only for a joint whose held part can turn, so that those of other joints stay as they
+// are. The bolt's weight rests on its head, or in its hole if it is level; d/2 lies between the two levers
+// (ours).
+void derive_held_part(const JointDesign& design, Random& random, MechanisticParameters& p) {
+    p.held_part_can_turn = design.counter_hold == CounterHold::second_wrench;
+    if (!p.held_part_can_turn) return;
+    const double scatter = std::max(0.3, 1.0 + design.friction.scatter * random.normal());
+    const double mu = design.friction.held_bearing.value_or(design.friction.bearing) * scatter;
+    const FastenerSize& size = design.thread.size;
+    p.held_lever = 0.5 * mu * bearing_mean_diameter(held_part_size(design).bearing, size.hole);
+    const double hexagon = 0.5 * std::sqrt(3.0) * square(size.across_flats) * size.head_height;
+    const double shank = 0.25 * pi * square(p.thread.d2) * design.bolt_length;
+    p.held_drag = 0.5 * size.d * mu * gravity * steel_density * (hexagon + shank);
+}
+
 }  // namespace
 
 MechanisticParameters derive(const JointDesign& design, Random& random, double own_compliance) {
@@ -310,6 +325,7 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
     p.weight_lead = -weight * design.axis.y * p.levers.lead;
     p.weight_friction = weight * std::abs(design.axis.y) * p.levers.thread;
     for (double& phase : p.ripple_phase) phase = random.uniform(0.0, 2.0 * pi);
+    derive_held_part(design, random, p);
     return p;
 }
 
@@ -328,13 +344,22 @@ Resistance resistance(const MechanisticParameters& p, const MechanisticState& s)
     return r;
 }
 
+Resistance resistance_together(const MechanisticParameters& p, const MechanisticState& s, double hold) {
+    const double breakaway_factor = 1.0 + (p.static_ratio - 1.0) * s.breakaway;
+    const double lever = (p.levers.bearing + p.held_lever) * wear_factor(p, s.uses);
+    Resistance r;
+    r.tighten = (s.clamp * lever + p.held_drag) * breakaway_factor + hold;
+    r.loosen = -r.tighten;
+    return r;
+}
+
 double free_closure(const MechanisticParameters& p, const MechanisticState& s, double angle) {
     return p.levers.lead * angle - p.start_gap - s.plastic - s.stripped - s.embedding - s.neighbour_closure;
 }
 
-void advance(const MechanisticParameters& p, MechanisticState& s, double angle, double friction_share,
-             double dt) {
-    const double turned = std::abs(angle - s.angle);
+void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn& turn, double dt) {
+    const double angle = turn.angle, friction_share = turn.friction_share;
+    const double turned = std::abs(angle - s.angle) + std::abs(turn.with_bolt);
     // Exponentials are computed only where they have an effect: most joints rest unloaded in most ticks.
     if (turned > 0.0)
         s.breakaway *= std::exp(-turned / p.breakaway_angle);

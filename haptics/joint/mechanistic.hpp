@@ -81,6 +81,10 @@ struct MechanisticParameters {
     double weight_lead = 0.0;    // N·m, weight of the nut along the lead; negative if it helps tightening
     double weight_friction = 0;  // N·m
     double ripple_phase[3] = {0.0, 0.0, 0.0};  // of the running drag over the angle
+    // CounterHold::second_wrench. Only then the next two have values.
+    bool held_part_can_turn = false;
+    double held_lever = 0.0;  // m, μ r_b under the held part
+    double held_drag = 0.0;   // N·m, friction of the bolt's weight
 };
 
 // `random` determines this bolt's friction and the ripple of its drag; equal seeds give equal bolts.
@@ -113,11 +117,21 @@ struct Resistance {
 
 Resistance resistance(const MechanisticParameters& p, const MechanisticState& s);
 
-// Advances the joint by `dt` (s) after the nut has turned to `angle` (rad) with `friction_share`.
-// Call it with an unchanged angle too, because embedding and yield continue at rest. No allocation; cannot
-// fail.
-void advance(const MechanisticParameters& p, MechanisticState& s, double angle, double friction_share,
-             double dt);
+// The same if nut and bolt turn together: the faces under nut and head slide, the thread does not, and the
+// clamp force stays as it is. All faces of a joint have one breakaway state (ours), so that running friction
+// alone decides which of them slide. `hold`: N·m that holds the held part besides friction.
+Resistance resistance_together(const MechanisticParameters& p, const MechanisticState& s, double hold);
+
+// The motion of a nut in a step.
+struct NutTurn {
+    double angle = 0.0;           // rad, on the thread, after the step
+    double friction_share = 0.0;  // as in MechanisticState
+    double with_bolt = 0.0;       // rad by which nut and bolt have turned together in the step
+};
+
+// Advances the joint by `dt` (s) after the nut has turned. Call it with an unchanged angle too, because
+// embedding and yield continue at rest. No allocation; cannot fail.
+void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn& turn, double dt);
 
 // Free closure of the seat spring at this state and angle, m (negative: gap).
 double free_closure(const MechanisticParameters& p, const MechanisticState& s, double angle);

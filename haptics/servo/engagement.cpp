@@ -69,20 +69,20 @@ double pawl_drag(const Ratchet& ratchet, double slack) {
     return ratchet.drag * (ratchet.least_drag_share + (1.0 - ratchet.least_drag_share) * climbed);
 }
 
-void limit_to_pawl(const Wrench& wrench, double nut_angle, const Engagement& e, joint::NutDrive& drive) {
+void limit_to_pawl(const Wrench& wrench, double rotation, const Engagement& e, joint::NutDrive& drive) {
     if (wrench.ratchet.tooth_angle <= 0.0) return;
-    const double ahead = (wrench.ratchet.loosens ? -1.0 : 1.0) * (e.hand_angle - nut_angle);
+    const double ahead = (wrench.ratchet.loosens ? -1.0 : 1.0) * (e.hand_angle - rotation);
     if (ahead < -drive.half_play) drive.torque_limit = pawl_drag(wrench.ratchet, e.ratchet_slack);
 }
 
-void settle_ratchet(const Wrench& wrench, double nut_angle, double play, Engagement& e) {
+void settle_ratchet(const Wrench& wrench, double rotation, double play, Engagement& e) {
     const Ratchet& ratchet = wrench.ratchet;
     if (ratchet.tooth_angle <= 0.0) return;
     // Positive in the direction in which the head turns with the handle.
     const double sense = ratchet.loosens ? -1.0 : 1.0;
     const auto slip = [&] {
         const double rearmost =
-            sense * nut_angle - play - pawl_drag(ratchet, e.ratchet_slack) / wrench.stiffness;
+            sense * rotation - play - pawl_drag(ratchet, e.ratchet_slack) / wrench.stiffness;
         const double slipped = std::max(0.0, rearmost - sense * e.hand_angle);
         e.ratchet_slack += slipped;
         e.hand_angle += sense * slipped;
@@ -157,12 +157,12 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
         const Vec3 from_centre = tool.position - nut_centre(nut, nut_angle);
         if (std::abs(from_centre.x) + std::abs(from_centre.y) + std::abs(from_centre.z) > 0.1) continue;
         const double azimuth = tool_azimuth(setup, nut, tool, grip);
-        const double misalignment = misalignment_of(setup.wrench, azimuth - nut_angle);
+        const double misalignment = misalignment_of(setup.wrench, azimuth - joints[i].rotation());
         if (!fits(setup, nut, offset_of(from_centre, nut), tool, grip, misalignment)) continue;
         e.joint = static_cast<int>(i);
         e.grip = grip;
         e.azimuth = azimuth;
-        e.hand_angle = nut_angle + (grip == Grip::wrench ? misalignment : 0.0);
+        e.hand_angle = joints[i].rotation() + (grip == Grip::wrench ? misalignment : 0.0);
         e.offset_at_engagement = from_centre;
         return;
     }
@@ -211,8 +211,8 @@ double azimuth_of(const Setup& setup, const NutGeometry& nut, const ToolPose& to
 
 }  // namespace
 
-Pose pose_in_nut_frame(const NutGeometry& nut, double nut_angle, const ToolPose& tool) {
-    return inverse(nut_pose(nut, nut_angle)) * Pose{tool.position, tool.orientation};
+Pose pose_in_nut_frame(const NutGeometry& nut, const joint::JointState& joint, const ToolPose& tool) {
+    return inverse(nut_pose(nut, joint.nut.angle, joint.common_turn)) * Pose{tool.position, tool.orientation};
 }
 
 void update_contact_engagement(const Setup& setup, std::span<const joint::JointState> joints,
@@ -222,7 +222,7 @@ void update_contact_engagement(const Setup& setup, std::span<const joint::JointS
     const auto* jaw = std::get_if<collision::Jaw>(&head);
     const auto fit_on = [&](std::size_t i) {
         const NutGeometry& nut = setup.nuts[i];
-        return collision::head_fit(head, shape_of(nut), pose_in_nut_frame(nut, joints[i].nut.angle, tool));
+        return collision::head_fit(head, shape_of(nut), pose_in_nut_frame(nut, joints[i], tool));
     };
     if (!tool.valid) {
         e = {};
@@ -253,7 +253,7 @@ void update_contact_engagement(const Setup& setup, std::span<const joint::JointS
         e.joint = static_cast<int>(i);
         e.grip = Grip::wrench;
         e.azimuth = azimuth_of(setup, nut, tool);
-        e.hand_angle = nut_angle + nut.sense * fit.misalignment;
+        e.hand_angle = joints[i].rotation() + nut.sense * fit.misalignment;
         e.fit = fit;
         return;
     }
@@ -277,7 +277,7 @@ bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::Join
                  play = play_of(setup, nut, rounded);
     const double limit = std::max(min_torque_limit, e.corner_torque_share * full_corner_torque);
     if (std::abs(joint.torque) < 0.999 * limit) return false;
-    const double wound = e.hand_angle - e.swung - joint.nut.angle;
+    const double wound = e.hand_angle - e.swung - joint.rotation();
     const double beyond = std::abs(wound) - play - full_corner_torque / setup.wrench.stiffness;
     const double turned = std::max(0.0, beyond - e.turned_beyond_corner_torque);
     e.turned_beyond_corner_torque = std::max(e.turned_beyond_corner_torque, beyond);

@@ -28,7 +28,7 @@ struct Engagement {
     // rad, angle of the tool about the bolt at the last tick, in −π … π; a rotation that tightens increases
     // it.
     double azimuth = 0.0;
-    // rad, the nut's angle at which the tool would apply no torque: the nut's angle at engagement, plus the
+    // rad, the rotation of the nut at which the tool would apply no torque: that at engagement, plus the
     // misalignment of the jaw, plus the tool's rotation about the bolt since then (not wrapped). With a
     // ratchet: of its head.
     double hand_angle = 0.0;
@@ -70,13 +70,14 @@ void turn_tool(const Wrench& wrench, double turned, Engagement& engagement);
 double pawl_drag(const Ratchet& ratchet, double slack);
 
 // While the handle turns back, the torque on the nut is at most the drag of the pawl: sets the torque limit
-// of `drive`.
-void limit_to_pawl(const Wrench& wrench, double nut_angle, const Engagement& engagement,
+// of `drive`. `rotation`: rad, of the nut (joint::JointState::rotation).
+void limit_to_pawl(const Wrench& wrench, double rotation, const Engagement& engagement,
                    joint::NutDrive& drive);
 
 // Call after the joint's step. While the handle turns back, the head stops where its torque on the nut equals
-// the drag of the pawl; the pawl climbs over the teeth while the handle moves on. `nut_angle`, `play` in rad.
-void settle_ratchet(const Wrench& wrench, double nut_angle, double play, Engagement& engagement);
+// the drag of the pawl; the pawl climbs over the teeth while the handle moves on. `rotation`
+// (joint::JointState::rotation) and `play` in rad.
+void settle_ratchet(const Wrench& wrench, double rotation, double play, Engagement& engagement);
 
 // Grip of a tool on a nut with contact simulation. Geometry alone determines whether the head holds the nut
 // (haptics/collision/tool_head.hpp); the corners limit the torque that it can transmit
@@ -90,7 +91,7 @@ void settle_ratchet(const Wrench& wrench, double nut_angle, double play, Engagem
 // moment are zero.
 
 // Pose of the wrench in the nut's frame.
-Pose pose_in_nut_frame(const NutGeometry& nut, double nut_angle, const ToolPose& tool);
+Pose pose_in_nut_frame(const NutGeometry& nut, const joint::JointState& joint, const ToolPose& tool);
 
 // One tick. The head engages a nut that it can turn if the head surrounds the hexagon and the two are aligned
 // within the play. At that moment the flats of head and hexagon must overlap by the bevel of a jaw, or by

@@ -55,6 +55,9 @@ struct TickInput {
     // Index in Setup::tools of the tool that the hand gets when it next takes one. change_tool() (tick.hpp)
     // puts this tool into use while the hand holds neither a tool nor a nut.
     std::uint8_t tool = 0;
+    // Index of the joint whose held part the second wrench is on; −1: on none. It acts on joints with
+    // joint::CounterHold::second_wrench.
+    std::int16_t second_wrench = -1;
 };
 
 struct Output {

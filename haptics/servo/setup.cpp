@@ -35,6 +35,11 @@ NutGeometry nut_geometry(const joint::JointDesign& design) {
         part.depth > 0.0 ? joint::socket_pressure(hardness) : joint::corner_pressure(hardness);
     nut.start_gap = design.start_gap;
     nut.lead = design.thread.thread.pitch / (2.0 * pi);
+    if (design.counter_hold == joint::CounterHold::second_wrench) {
+        const joint::HeldPartSize held = joint::held_part_size(design);
+        nut.held_across_flats = held.across_flats;
+        nut.held_distance = design.grip_length() + 0.5 * held.height;
+    }
     return nut;
 }
 
@@ -51,10 +56,11 @@ double angle_of(const NutGeometry& nut, const Vec3& direction) {
     return -nut.sense * std::atan2(glm::dot(direction, nut.e2), glm::dot(direction, nut.e1));
 }
 
-Pose nut_pose(const NutGeometry& nut, double nut_angle) {
+Pose nut_pose(const NutGeometry& nut, double nut_angle, double common_turn) {
     const double gap = std::max(0.0, nut.start_gap - nut.lead * nut_angle);
     const Quat seat = glm::normalize(glm::quat_cast(glm::dmat3(nut.e1, nut.e2, nut.axis)));
-    return {nut.seat + gap * nut.axis, seat * glm::angleAxis(-nut.sense * nut_angle, Vec3(0, 0, 1))};
+    return {nut.seat + gap * nut.axis,
+            seat * glm::angleAxis(-nut.sense * (nut_angle + common_turn), Vec3(0, 0, 1))};
 }
 
 collision::TurnedShape shape_of(const NutGeometry& nut) {

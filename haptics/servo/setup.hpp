@@ -38,9 +38,11 @@ struct NutGeometry {
     // m, height above the bearing face of the tool's origin when the tool is on the nut; also that of the
     // fingertips.
     double grip_height = 0.0;
-    double corner_pressure = 0.0;  // Pa at which the corners yield (haptics/joint/nut.hpp)
-    double start_gap = 0.0;        // m from bearing face to seat at nut angle 0
-    double lead = 0.0;             // m of advance per rad
+    double corner_pressure = 0.0;    // Pa at which the corners yield (haptics/joint/nut.hpp)
+    double start_gap = 0.0;          // m from bearing face to seat at nut angle 0
+    double lead = 0.0;               // m of advance per rad
+    double held_across_flats = 0.0;  // m, of a held part that can turn (joint::CounterHold); 0: it cannot
+    double held_distance = 0.0;      // m from the seat along −axis to the middle of that part
 };
 
 // The ratchet between the handle and the head of a tool. In one direction the head turns with the handle. In
@@ -64,7 +66,8 @@ double angle_of(const NutGeometry& nut, const Vec3& direction);
 
 // Pose of the nut's frame in the assembly: origin on the bearing face, +Z along the bolt away from the
 // members, +X through a corner of the hexagon. `nut_angle` in rad, tightening positive.
-Pose nut_pose(const NutGeometry& nut, double nut_angle);
+// `common_turn`: rad by which nut and bolt have turned together (joint::JointState::common_turn).
+Pose nut_pose(const NutGeometry& nut, double nut_angle, double common_turn = 0.0);
 
 // The shape of a nut or head for contacts with the head of a tool.
 collision::TurnedShape shape_of(const NutGeometry& nut);

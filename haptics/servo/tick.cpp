@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "haptics/servo/denormals.hpp"
 #include "haptics/servo/engagement.hpp"
@@ -41,9 +42,18 @@ joint::NutDrive drive_without_click(const Setup& setup, const State& state) {
     return drive;
 }
 
-joint::NutDrive drive_of(const Setup& setup, const State& state) {
+// N·m that holds the held part of the engaged joint besides friction. While the fingers of one hand turn a
+// nut, those of the other hold the head.
+double counter_hold(const Setup& setup, const Engagement& e, int second_wrench) {
+    if (e.joint < 0 || second_wrench == e.joint) return std::numeric_limits<double>::infinity();
+    if (e.grip != Grip::fingers) return 0.0;
+    return 0.5 * setup.finger_force * setup.nuts[static_cast<std::size_t>(e.joint)].held_across_flats;
+}
+
+joint::NutDrive drive_of(const Setup& setup, const State& state, int second_wrench) {
     const Engagement& e = state.engagement;
     joint::NutDrive drive = drive_without_click(setup, state);
+    drive.counter_hold = counter_hold(setup, e, second_wrench);
     drive.click = setup.wrench.click;
     drive.click.set_torque = e.set_torque * (1.0 + setup.wrench.deviation);
     drive.swung = e.swung;
@@ -52,10 +62,10 @@ joint::NutDrive drive_of(const Setup& setup, const State& state) {
 
 // Slipping fingertips do not wind up: the hand angle is clamped to the deflection at the largest finger
 // torque.
-void clamp_finger_deflection(const Setup& setup, Engagement& e, double nut_angle) {
+void clamp_finger_deflection(const Setup& setup, Engagement& e, double rotation) {
     const double most =
         setup.finger_torque(setup.nuts[static_cast<std::size_t>(e.joint)]) / setup.finger_stiffness;
-    e.hand_angle = nut_angle + std::clamp(e.hand_angle - nut_angle, -most, most);
+    e.hand_angle = rotation + std::clamp(e.hand_angle - rotation, -most, most);
 }
 
 constexpr double release_fade_time = 0.05;  // s
@@ -196,16 +206,16 @@ void update_engagement(const Setup& setup, State& state, const ToolPose& tool, G
 }
 
 // Part 3. Returns true if the torque wrench clicks.
-bool step_joints(const Setup& setup, State& state, float set_torque) {
+bool step_joints(const Setup& setup, State& state, const TickInput& input) {
     Engagement& e = state.engagement;
-    update_set_torque(setup, e, set_torque);
-    joint::NutDrive drive = drive_of(setup, state);
+    update_set_torque(setup, e, input.set_torque);
+    joint::NutDrive drive = drive_of(setup, state, input.second_wrench);
     const bool turns = e.joint >= 0 && e.grip == Grip::wrench;
-    const auto nut_angle = [&] { return state.joints[static_cast<std::size_t>(e.joint)].nut.angle; };
-    if (turns) limit_to_pawl(setup.wrench, nut_angle(), e, drive);
+    const auto rotation = [&] { return state.joints[static_cast<std::size_t>(e.joint)].rotation(); };
+    if (turns) limit_to_pawl(setup.wrench, rotation(), e, drive);
     const joint::ClickStep click = step_group(setup.group, state.joints, e.joint, drive, setup.dt);
     e.swung = click.swung;
-    if (turns) settle_ratchet(setup.wrench, nut_angle(), drive.half_play, e);
+    if (turns) settle_ratchet(setup.wrench, rotation(), drive.half_play, e);
     return click.clicked;
 }
 
@@ -229,7 +239,7 @@ force::ForceRequest nut_request(const Setup& setup, State& state, const ToolPose
     const auto i = static_cast<std::size_t>(engaged);
     const joint::JointState& joint = state.joints[i];
     if (state.engagement.grip == Grip::fingers)
-        clamp_finger_deflection(setup, state.engagement, joint.nut.angle);
+        clamp_finger_deflection(setup, state.engagement, joint.rotation());
     const force::ForceRequest request = hold_request(setup, state, tool, held_before);
     const bool slips = held_by_contact(state) &&
                        round_corners(setup, setup.nuts[i], joint, state.rounded[i], state.engagement);
@@ -306,7 +316,7 @@ Output tick(const Setup& setup, State& state, const TickInput& input, force::IsS
     update_engagement(setup, state, tool, grip);
     const int engaged = state.engagement.joint;
 
-    output.clicked = step_joints(setup, state, input.set_torque);
+    output.clicked = step_joints(setup, state, input);
 
     const bool guides = engaged < 0 && tool.valid && input.dead_man;
     const force::ForceRequest guiding =
@@ -345,9 +355,9 @@ force::GuideTarget guide_target(const Setup& setup, std::span<const joint::Joint
     const auto i = static_cast<std::size_t>(joint);
     if (joint < 0 || i >= setup.nuts.size()) return target;
     const NutGeometry& nut = setup.nuts[i];
-    const double angle = joints[i].nut.angle;
+    const double angle = joints[i].rotation();
     target.id = joint;
-    target.point = nut_centre(nut, angle);
+    target.point = nut_centre(nut, joints[i].nut.angle);
     target.axis = nut.axis;
     // The ball that the target's own nut and bolt end fill; the nut's corners are 0.58 across_flats away.
     target.bounding_radius = 1.2 * std::max(nut.height, nut.across_flats);

@@ -57,7 +57,7 @@ bool equal(const Pose& a, const Pose& b) {
 void update_nut_poses(const Setup& setup, ToolContact& contact, std::span<const joint::JointState> joints,
                       bool held) {
     for (std::size_t i = 0; i < contact.nut_poses.size(); ++i) {
-        const Pose nut_frame = nut_pose(setup.nuts[i], joints[i].nut.angle);
+        const Pose nut_frame = nut_pose(setup.nuts[i], joints[i].nut.angle, joints[i].common_turn);
         const bool unchanged = equal(nut_frame, contact.nut_poses[i]);
         contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && unchanged;
         contact.nut_poses[i] = nut_frame;

@@ -339,6 +339,7 @@ servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& set
     input.dead_man = controls.dead_man;
     input.guide = controls.guide;
     input.tool = controls.tool;
+    input.second_wrench = controls.second_wrench;
     input.stop = controls.stop;
     input.reset = controls.reset;
     input.missed = static_cast<std::uint8_t>(std::min<std::uint64_t>(inputs.missed, 15));

@@ -70,9 +70,10 @@ struct StationControls {
     // the dead-man switch.
     double dead_man_timeout = std::numeric_limits<double>::infinity();
     bool clutch = false, stop = false, reset = false;
-    std::int16_t guide = -1;  // joint that the guiding force leads to; −1: none
-    float set_torque = 0.0F;  // N·m, of a click-type torque wrench
-    std::uint8_t tool = 0;    // index of the tool that the hand gets next, as servo::TickInput::tool
+    std::int16_t guide = -1;          // joint that the guiding force leads to; −1: none
+    float set_torque = 0.0F;          // N·m, of a click-type torque wrench
+    std::uint8_t tool = 0;            // index of the tool that the hand gets next, as servo::TickInput::tool
+    std::int16_t second_wrench = -1;  // as servo::TickInput::second_wrench
     // Unit, from the viewer's frame to the assembly's. A puck moves the tool in the viewer's frame, an arm in
     // the assembly's frame rotated about the vertical to face the viewer.
     Quat view{1.0, 0.0, 0.0, 0.0};

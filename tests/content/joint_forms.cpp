@@ -108,6 +108,7 @@ TEST_CASE("Joint forms: forms and shapes of heads have the names that the schema
     };
     CHECK(properties.at("form").at("enum") == names(joint::all_joint_forms));
     CHECK(properties.at("head").at("enum") == names(joint::all_head_shapes));
+    CHECK(properties.at("counter_hold").at("enum") == names(joint::all_counter_holds));
     CHECK(properties.at("thread_direction").at("enum") == names(joint::all_thread_directions));
     for (const joint::HeadShape shape : joint::all_head_shapes)
         CHECK(design_of(R"("bolt_length_mm": 30, "head": ")" + std::string(name(shape)) + '"').head == shape);
@@ -126,6 +127,8 @@ TEST_CASE("Joint forms: mistakes are reported with their place and what would fi
         {R"("bolt_length_mm": 30, "thread_direction": true)", R"(4:44: /joint_types/T/thread_direction: )"},
         {R"("bolt_length_mm": 30, "thread_directon": "left")",
          R"(4:24: /joint_types/T/thread_directon: unknown property "thread_directon"; did you mean "thread_direction"?)"},
+        {R"("form": "stud", "tapped_hole": {"material": "C45", "engagement_mm": 8}, "counter_hold": "second_wrench", "bolt_length_mm": 30)",
+         R"(4:90: /joint_types/T/counter_hold: only a through-bolt has a part for a second wrench; expected no such value)"},
         {R"("form": "tapped_hole", "bolt_length_mm": 30)",
          R"(4:10: /joint_types/T/form: a joint of this form needs its tapped hole; expected tapped_hole with its material)"},
         {R"("tapped_hole": {"material": "C45"}, "bolt_length_mm": 30)",

@@ -295,7 +295,7 @@ const FileMistake mistakes[] = {
      {R"(20:18: /joint_types: this is empty; expected at least 1)",
       R"(20:22: /other: unknown property "other"; did you mean "order"?)"}},
     {R"("lubrication": "oiled")", R"("lubricant": "oiled")",
-     {R"(35:7: /joint_types/M8x30/lubricant: unknown property "lubricant"; expected one of bolt_thread_length_mm, embedding_time_s, form, friction_static_ratio, head, locking_insert, lubrication, misfit_um, nut_mass_g, nut_proof_stress_MPa, prevailing_torque_Nm, published, roughness_Rz_um, running_torque_Nm, start_gap_mm, tapped_hole, thread_direction, tool, turned)"}},
+     {R"(35:7: /joint_types/M8x30/lubricant: unknown property "lubricant"; expected one of bolt_thread_length_mm, counter_hold, embedding_time_s, form, friction_held_bearing, friction_static_ratio, head, locking_insert, lubrication, misfit_um, nut_mass_g, nut_proof_stress_MPa, prevailing_torque_Nm, published, roughness_Rz_um, running_torque_Nm, start_gap_mm, tapped_hole, thread_direction, tool, ...)"}},
     {R"("risk_class": "C")", R"("risk_class": "c")",
      {R"(41:23: /joint_types/M8x30/spec/risk_class: "c" is not known here; did you mean "C"?)"}},
     {R"({ "id": "B2", "type": "M8x30")", R"({ "id": "B2", "Type": "M8x30")",

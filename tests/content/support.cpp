@@ -82,9 +82,9 @@ std::string_view everything() {
       }
     },
     "M12 stud": {
-      "form": "stud", "head": "hexagon", "turned": "nut", "thread_direction": "left", "locking_insert": true, "size": "M12", "class": "8.8",
+      "form": "stud", "head": "hexagon", "turned": "nut", "counter_hold": "fixed", "thread_direction": "left", "locking_insert": true, "size": "M12", "class": "8.8",
       "tapped_hole": {"material": "our iron", "E_GPa": 105, "tensile_strength_MPa": 260, "shear_ratio": 1.1, "engagement_mm": 15, "depth_mm": 40},
-      "bolt_length_mm": 60, "members": [{"thickness_mm": 35, "material": "steel"}], "friction_thread": 0.12, "friction_bearing": 0.12,
+      "bolt_length_mm": 60, "members": [{"thickness_mm": 35, "material": "steel"}], "friction_thread": 0.12, "friction_bearing": 0.12, "friction_held_bearing": 0.1,
       "spec": {"strategy": "torque", "target_torque_Nm": 50}
     }
   },

@@ -67,14 +67,18 @@ Status HeadsetDriver::update(const view::WindowFrame& window) {
 Status HeadsetDriver::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
     const bool seen = is_new(window);
     const double time = app_.lesson() ? app_.lesson()->session->time() : 0.0;
-    newly_drawn_ = !seen || !drawn_ || app_.screen() != trainer::ShownScreen::lesson ||
+    if (!seen) {  // a frame of the window alone, while the runtime is late
+        newly_drawn_ = false;
+        return app_.draw(frame, window);
+    }
+    newly_drawn_ = !drawn_ || app_.screen() != trainer::ShownScreen::lesson ||
                    time >= drawn_at_ + options_.draw_interval || time < drawn_at_;
     if (newly_drawn_) {
         drawn_at_ = time;
         BOLT_TRY(app_.draw(frame, window));
-        if (seen && !window.immersive->groups.empty()) drawn_ = window.immersive->groups.front().size;
+        if (!window.immersive->groups.empty()) drawn_ = window.immersive->groups.front().size;
     }
-    if (seen) user_done_ = turns_.give();
+    user_done_ = turns_.give();
     return {};
 }
 

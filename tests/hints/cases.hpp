@@ -53,6 +53,19 @@ inline const Case cases[] = {
          b.wrench = true;
          b.near(0);
      }},
+    {Situation::hold_other_part, "hint.hold_other_part", HintMotion::hold,
+     [](Bench& b) {
+         b.assembly.joints[0].design.counter_hold = joint::CounterHold::second_wrench;
+         b.seat_both();
+         b.wrench = true;
+         b.near(0);
+     }},
+    {Situation::hold_other_part, "hint.hold_other_part", HintMotion::hold,
+     [](Bench& b) {
+         b.assembly.joints[0].design.counter_hold = joint::CounterHold::second_wrench;
+         b.seat_both();
+         b.tick(0, Grip::wrench, 5.0, 0.5);
+     }},
     {Situation::grip_nut, "hint.grip_nut", HintMotion::grip_nut,
      [](Bench& b) {
          b.idle();

@@ -30,7 +30,7 @@ double angle_at(const MechanisticParameters& p, const MechanisticState& s, doubl
 
 MechanisticState tightened(const MechanisticParameters& p, double force, double share = 1.0) {
     MechanisticState s;
-    advance(p, s, angle_at(p, s, force), share, 1e-3);
+    advance(p, s, {angle_at(p, s, force), share}, 1e-3);
     return s;
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("Derive: less thread torque raises the yield load, at rest and while l
         MechanisticState s;
         for (double force = 70e3; s.plastic == 0.0 && force < 200e3; force += 20.0) {
             last = force;
-            advance(p, s, angle_at(p, s, force), share, 1e-3);
+            advance(p, s, {angle_at(p, s, force), share}, 1e-3);
         }
         return last;
     };
@@ -138,7 +138,7 @@ TEST_CASE("Derive: linearity begins at three quarters of the elastic stiffness, 
     int changes = 0;
     for (double angle = 6.0; angle < 16.0 && changes < 3; angle += step) {
         const Stage before = s.stage;
-        advance(p, s, angle, 1.0, dt);
+        advance(p, s, {angle, 1.0}, dt);
         clamp[0] = clamp[1];
         clamp[1] = clamp[2];
         clamp[2] = s.clamp;
@@ -203,7 +203,7 @@ TEST_CASE("Derive: a tenth of the reference load causes a tenth of the embedding
     const MechanisticParameters& p = group.joints[0];
     for (const double share : {0.1, 0.5, 1.0}) {
         MechanisticState s;
-        for (int i = 0; i < 2000; ++i) advance(p, s, angle_at(p, s, share * p.reference_load), 1.0, 0.1);
+        for (int i = 0; i < 2000; ++i) advance(p, s, {angle_at(p, s, share * p.reference_load), 1.0}, 0.1);
         CHECK(s.embedding / p.embedding == doctest::Approx(share).epsilon(1e-3));
     }
 }

@@ -151,7 +151,7 @@ TEST_CASE("Tapped hole: too short an engagement strips at its force, and the cla
     MechanisticState s;
     double highest = 0.0;
     for (double angle = 0.0; angle < to_radians(13.0 * 360.0); angle += to_radians(0.03)) {
-        advance(group.joints[0], s, angle, 1.0, 1e-3);
+        advance(group.joints[0], s, {angle, 1.0}, 1e-3);
         highest = std::max(highest, s.clamp);
     }
     CHECK(s.condition == JointCondition::stripped);

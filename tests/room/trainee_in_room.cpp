@@ -166,7 +166,7 @@ bool TraineeInRoom::lower(std::size_t joint, const Pose& seated) {
         const Vec3 level = error - glm::dot(error, up) * up;
         const collision::HeadFit fit = collision::head_fit(
             setup().wrench.head, servo::shape_of(geometry),
-            servo::pose_in_nut_frame(geometry, state().joints[joint].nut.angle, servo::tool_pose(at)));
+            servo::pose_in_nut_frame(geometry, state().joints[joint], servo::tool_pose(at)));
         const Vec3 handle = at.orientation * Vec3(setup().wrench.handle_length, 0.0, 0.0);
         const Vec3 swing = fit.misalignment * glm::cross(up, handle);
         const bool fits = std::abs(fit.misalignment) < aligned && glm::length(level) < level_error;
@@ -186,7 +186,7 @@ void TraineeInRoom::tighten(std::size_t joint) {
     const auto& contact = state().tool_contact;
     const double nut_angle = state().joints[joint].nut.angle;
     const motion::GripAngle side =
-        motion::choose_grip(setup(), contact ? &*contact : nullptr, joint, nut_angle,
+        motion::choose_grip(setup(), contact ? &*contact : nullptr, joint, state().joints[joint],
                             nut_angle + setup().wrench.head_angle + approaches * pi / 3.0, 1.0, stroke);
     const double above =
         contact ? motion::hover_height(setup(), *contact, joint, nut_angle, side, hover) : hover;

@@ -100,8 +100,8 @@ struct TestWorkplace {
         return state;
     }
     [[nodiscard]] Pose wrench_on(std::size_t joint, double handle_angle) const {
-        const auto grip = motion::choose_grip(at.setup, &*at.state.tool_contact, joint, 0.0, handle_angle,
-                                              1.0, to_radians(30.0));
+        const auto grip = motion::choose_grip(at.setup, &*at.state.tool_contact, joint, {}, handle_angle, 1.0,
+                                              to_radians(30.0));
         const auto& nut = at.setup.nuts[joint];
         return {servo::nut_centre(nut, 0.0), motion::tool_orientation(nut, grip.handle, grip.flipped)};
     }

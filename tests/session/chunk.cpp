@@ -45,7 +45,7 @@ TEST_CASE("Chunk: the bytes are the same on every machine") {
     tick.commanded_tool.position[0] = 1.0F;  // 0x3F800000
     const std::vector<std::byte> bytes = packed(0x0102, {&tick, 1});
     const std::vector<std::byte> header(bytes.begin(), bytes.begin() + 13);
-    const int expected[] = {5, 1, 0, 0, 0, 0x02, 0x01, 0, 0, 0, 0, 0, 0};
+    const int expected[] = {6, 1, 0, 0, 0, 0x02, 0x01, 0, 0, 0, 0, 0, 0};
     for (std::size_t i = 0; i < header.size(); ++i) CHECK(header[i] == static_cast<std::byte>(expected[i]));
     // zstd's magic number, and the checksum bit in the frame header's descriptor.
     CHECK(bytes[13] == std::byte{0x28});

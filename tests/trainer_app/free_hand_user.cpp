@@ -237,8 +237,8 @@ motion::GripAngle FreeHandUser::choose_side() const {
     std::vector<std::pair<double, motion::GripAngle>> sides;
     for (int sixth = 0; sixth < 6; ++sixth) {
         const double fits = nut_angle + geometry.sense * setup().wrench.head_angle + sixth * pi / 3.0;
-        const motion::GripAngle side =
-            motion::choose_grip(setup(), contact ? &*contact : nullptr, joint, nut_angle, fits, sign, stroke);
+        const motion::GripAngle side = motion::choose_grip(setup(), contact ? &*contact : nullptr, joint,
+                                                           state().joints[joint], fits, sign, stroke);
         if (side.flipped) continue;
         const double off = std::abs(std::remainder(side.handle - preferred, 2.0 * pi));
         sides.emplace_back(off + 4.0 * (stroke - side.free_swing), side);
@@ -306,7 +306,7 @@ bool FreeHandUser::lower(const Pose& seated) {
         const Vec3 level = error - glm::dot(error, up) * up;
         const collision::HeadFit seat = collision::head_fit(
             setup().wrench.head, servo::shape_of(geometry),
-            servo::pose_in_nut_frame(geometry, state().joints[joint].nut.angle, servo::tool_pose(tool)));
+            servo::pose_in_nut_frame(geometry, state().joints[joint], servo::tool_pose(tool)));
         const Vec3 handle = handle_end(tool) - tool.position;
         // The misalignment is positive if the jaw is turned too far clockwise, about −axis.
         const Vec3 swing = seat.misalignment * glm::cross(up, handle);

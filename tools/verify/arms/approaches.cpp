@@ -49,8 +49,8 @@ ReachTask draw_reach_task(TightenedAssembly& tightened, Random& random) {
                           setup.nuts.size() - 1);
     const servo::NutGeometry& nut = setup.nuts[task.joint];
     const double angle = tightened.state.joints[task.joint].nut.angle;
-    const motion::GripAngle grip =
-        motion::choose_grip(setup, &contact, task.joint, angle, angle, 1.0, to_radians(30.0));
+    const motion::GripAngle grip = motion::choose_grip(
+        setup, &contact, task.joint, tightened.state.joints[task.joint], angle, 1.0, to_radians(30.0));
     task.nut = servo::nut_centre(nut, angle);
     task.axis = nut.axis;
     task.orientation = motion::tool_orientation(nut, grip.handle, grip.flipped);
