@@ -105,7 +105,8 @@ std::optional<MotionArrow> arrow_of(HintMotion motion, const MotionGeometry& geo
         case HintMotion::none:
             return std::nullopt;
         case HintMotion::hold:
-            return up_from(geometry.nut_centre - geometry.nut.held_distance * axis, -axis, width);
+            return down_to(geometry.nut.seat - geometry.nut.held_distance * axis, -axis, width,
+                           forward_color);
         case HintMotion::take:
             return down_to(grip, geometry.rest.orientation * Vec3(0, 0, 1), width, forward_color);
         case HintMotion::put_away:

@@ -296,12 +296,13 @@ void draw_hint(const ActiveLesson& active, const HudText& texts, const glm::dvec
     if (active.guidance.mistakes.shown) {
         lines.push_back({lesson::mistake_text(w, *active.guidance.mistakes.shown), warm});
         lines.push_back({lesson::remedy_text(w, *active.guidance.mistakes.shown), white});
-        lines.push_back(
-            {active.session->lesson().mode == lesson::Mode::guided
-                 ? w["mistake.begins_again"]
-                 : words::format_text(w, "mistake.take_back",
-                                      {{"control", key_name(active.input.keys, Action::restart_step)}}),
-             pale});
+        if (is_undone(active.guidance.mistakes.shown->kind))
+            lines.push_back(
+                {active.session->lesson().mode == lesson::Mode::guided
+                     ? w["mistake.begins_again"]
+                     : words::format_text(w, "mistake.take_back",
+                                          {{"control", key_name(active.input.keys, Action::restart_step)}}),
+                 pale});
     }
     if (active.guidance.hints.shown) {
         lines.push_back({lesson::hint_text(w, *active.guidance.hints.shown), white});

@@ -10,9 +10,10 @@ namespace bolt::trainer {
 namespace {
 
 view::StreamedModels streamed(const scene::GpuLessonModels& models) {
-    view::StreamedModels streamed{{&models.workpiece, &models.workshop, &models.hand, &models.arrows},
-                                  &models.light};
+    view::StreamedModels streamed{
+        {&models.workpiece, &models.workshop, &models.hand, &models.arrows, &models.dial}, &models.light};
     for (const render::GpuModel& tool : models.tools) streamed.models.push_back(&tool);
+    for (const auto& [size, wrench] : models.second_wrenches) streamed.models.push_back(&wrench);
     return streamed;
 }
 

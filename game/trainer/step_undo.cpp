@@ -25,11 +25,13 @@ void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t step
     undo = {step - steps, undo.by_mistake};
 }
 
+bool is_undone(lesson::MistakeKind mistake) {
+    return mistake != lesson::MistakeKind::none && mistake != lesson::MistakeKind::turned_together;
+}
+
 void observe(StepUndo& undo, const lesson::Lesson& lesson, const lesson::LessonEvent& event) {
     if (event.kind == lesson::EventKind::undo) undo = {};
-    if (event.mistake == lesson::MistakeKind::none || lesson.mode != lesson::Mode::guided) return;
-    // A bolt that turned along has changed nothing that an undo would mend.
-    if (event.mistake == lesson::MistakeKind::turned_together) return;
+    if (!is_undone(event.mistake) || lesson.mode != lesson::Mode::guided) return;
     undo = {std::min(undo.target.value_or(lesson.current), lesson.current), true};
 }
 

@@ -23,8 +23,12 @@ const lesson::LessonStep* due(const StepUndo& undo, const lesson::Lesson& lesson
 // assessment and if there are not so many steps.
 void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t steps);
 
-// Call with every event of the lesson. A mistake in a guided lesson requests an undo; the undo itself clears
-// the request.
+// True if an undo mends the mistake. It does not if nut and bolt turned together: that has changed no clamp
+// force.
+bool is_undone(lesson::MistakeKind mistake);
+
+// Call with every event of the lesson. A mistake that is undone requests the undo in a guided lesson; the
+// undo itself clears the request.
 void observe(StepUndo& undo, const lesson::Lesson& lesson, const lesson::LessonEvent& event);
 
 // Call once a frame. A key's request expires after a few seconds, so that the lesson does not jump back

@@ -88,6 +88,16 @@ TEST_CASE("Hint arrows: a straight arrow points to the nut or away from it and s
         CHECK((arrow->color == backward_color) == away);
     }
     CHECK_FALSE(arrow_of(HintMotion::none, place));
+    // To the other end of the bolt, from outside.
+    MotionGeometry held = place;
+    held.nut.held_distance = 0.04;
+    const auto hold = arrow_of(HintMotion::hold, held);
+    REQUIRE(hold);
+    const Vec3 other_end = nut.seat - 0.04 * nut.axis;
+    const double tail_outside = glm::dot(other_end - at(*hold, Vec3(0.0)), nut.axis),
+                 tip_outside = glm::dot(other_end - at(*hold, Vec3(0, 0, 1)), nut.axis);
+    CHECK(tip_outside > 0.0);
+    CHECK(tail_outside > tip_outside);
     const auto take = arrow_of(HintMotion::take, place);
     CHECK(at(*take, Vec3(0, 0, 1)).x == doctest::Approx(1.15));  // the middle of the handle
 }

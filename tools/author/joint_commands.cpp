@@ -236,6 +236,12 @@ std::vector<AnswerValue> torque_values(const TorqueOptions& options, const joint
                                                       .least() /
                                                   1e3});
     }
+    if (!design.is_tapped()) {
+        const joint::HeldPartTorques held = joint::held_part_torques(design, preload.force);
+        values.push_back({"thread_on_held_part_Nm", held.thread});
+        values.push_back({"friction_on_held_part_Nm", held.friction});
+        values.push_back({"second_wrench_bears_Nm", held.second_wrench()});
+    }
     if (options.locking) {
         const joint::LockingNut& nut = *joint::locking_nut(design.thread.size.name);
         values.push_back({"prevailing_on_most_Nm", nut.most_on});
