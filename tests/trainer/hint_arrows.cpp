@@ -74,7 +74,8 @@ TEST_CASE(
 
 TEST_CASE("Hint arrows: a straight arrow points to the nut or away from it and stays above it") {
     Random random(8, 1);
-    const servo::NutGeometry nut = some_nut(random);
+    servo::NutGeometry nut = some_nut(random);
+    nut.held_distance = 0.04;
     const MotionGeometry place{nut, nut.seat, {}, {{1.0, 2.0, 3.0}, {}}, 0.3, false};
     for (const HintMotion motion : {HintMotion::approach, HintMotion::reach, HintMotion::set_on,
                                     HintMotion::grip_nut, HintMotion::lift, HintMotion::let_go}) {
@@ -89,9 +90,7 @@ TEST_CASE("Hint arrows: a straight arrow points to the nut or away from it and s
     }
     CHECK_FALSE(arrow_of(HintMotion::none, place));
     // To the other end of the bolt, from outside.
-    MotionGeometry held = place;
-    held.nut.held_distance = 0.04;
-    const auto hold = arrow_of(HintMotion::hold, held);
+    const auto hold = arrow_of(HintMotion::hold, place);
     REQUIRE(hold);
     const Vec3 other_end = nut.seat - 0.04 * nut.axis;
     const double tail_outside = glm::dot(other_end - at(*hold, Vec3(0.0)), nut.axis),

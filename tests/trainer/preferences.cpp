@@ -46,13 +46,13 @@ TEST_CASE("Key names: each key has a unique name that parses back to the key") {
 
 TEST_CASE("Key binding: a free key is bound; a key of another action is swapped") {
     KeyMap keys;
-    CHECK(bind(keys, Action::tool, Key::g).outcome == BindOutcome::done);
-    CHECK(keys.of(Action::tool) == Key::g);
+    CHECK(bind(keys, Action::tool, Key::k).outcome == BindOutcome::done);
+    CHECK(keys.of(Action::tool) == Key::k);
     const BindResult swapped = bind(keys, Action::tool, Key::h);
     CHECK(swapped.outcome == BindOutcome::swapped);
     CHECK(swapped.other == Action::hint);
     CHECK(keys.of(Action::tool) == Key::h);
-    CHECK(keys.of(Action::hint) == Key::g);
+    CHECK(keys.of(Action::hint) == Key::k);
     CHECK(bind(keys, Action::tool, Key::h).outcome == BindOutcome::done);  // no change
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("Preferences: each trainee's settings are saved when changed and loade
     CHECK_FALSE(fs::exists(folder / "new"));  // nothing was changed
     p.settings.left_handed = true;
     p.settings.language = "de";
-    (void)bind(p.keys, Action::tool, Key::g);
+    (void)bind(p.keys, Action::tool, Key::k);
     CHECK(save_preferences(p));
     CHECK(fs::exists(settings_file(p)));
     load_preferences(p, "Bea");
@@ -118,7 +118,7 @@ TEST_CASE("Preferences: each trainee's settings are saved when changed and loade
     CHECK(p.keys.of(Action::tool) == Key::t);
     load_preferences(p, "Ada");
     CHECK(p.settings.left_handed);
-    CHECK(p.keys.of(Action::tool) == Key::g);
+    CHECK(p.keys.of(Action::tool) == Key::k);
     Preferences later = in(folder / "new");
     load_preferences(later, "Ada");
     CHECK(later.settings.language == "de");

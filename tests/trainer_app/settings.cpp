@@ -89,7 +89,7 @@ TEST_CASE(
         driver.press_button("menu.vibration", -0.8F);
         driver.press_button("menu.force_scale", -0.8F);
         driver.press_button("action.tool");
-        driver.key(Key::g);
+        driver.key(Key::k);
         driver.press_button("menu.back");
         CHECK_FALSE(driver.app().shows_settings());
         CHECK(driver.app().screen() == ShownScreen::menu);
@@ -106,7 +106,7 @@ TEST_CASE(
     CHECK(s.vibration < 0.4);
     CHECK(s.force_scale < 0.4);
     CHECK(s.force_scale >= content::min_force_scale);
-    CHECK(later.keys().of(Action::tool) == Key::g);
+    CHECK(later.keys().of(Action::tool) == Key::k);
     const SettingsTrainer another(options(true, "Bea"));
     CHECK_FALSE(another.settings().left_handed);
 }
