@@ -151,6 +151,8 @@ inline constexpr KeyRow key_rows[] = {
     {"mistake.over_turned.do", "fastener"},
     {"mistake.turned_together", "held fastener"},
     {"mistake.turned_together.do", ""},
+    {"mistake.tool_bent", "held bent_at"},
+    {"mistake.tool_bent.do", ""},
     {"mistake.slipped", "held rounded fastener"},
     {"mistake.slipped.do", ""},
     {"mistake.stripped", "held"},
@@ -182,6 +184,8 @@ inline constexpr KeyRow key_rows[] = {
     {"reason.slipped.many", "count fasteners"},
     {"reason.turned_together.one", "fasteners"},
     {"reason.turned_together.many", "count fasteners"},
+    {"reason.tool_bent.one", ""},
+    {"reason.tool_bent.many", "count"},
     {"reason.unfinished", "step of"},
     // Advice for the next time.
     {"advice.broken", ""},

@@ -24,6 +24,7 @@ constexpr MistakeRow mistake_rows[] = {
     {MistakeKind::over_torque, "mistake.over_torque", "mistake.over_torque.do"},
     {MistakeKind::over_turned, "mistake.over_turned", "mistake.over_turned.do"},
     {MistakeKind::turned_together, "mistake.turned_together", "mistake.turned_together.do"},
+    {MistakeKind::tool_bent, "mistake.tool_bent", "mistake.tool_bent.do"},
     {MistakeKind::slipped, "mistake.slipped", "mistake.slipped.do"},
     {MistakeKind::stripped, "mistake.stripped", "mistake.stripped.do"},
     {MistakeKind::broken, "mistake.broken", "mistake.broken.do"},
@@ -56,7 +57,8 @@ std::optional<Mistake> mistake_of(const Lesson& lesson, const LessonEvent& event
                              thread_argument(joint.design),
                              {"most", words::torque_number(joint.spec.torque.high)},
                              {"most_angle", words::Number{to_degrees(joint.spec.angle.high), 0}},
-                             {"rounded", words::Number{1e3 * event.value, 2}}};
+                             {"rounded", words::Number{1e3 * event.value, 2}},
+                             {"bent_at", words::torque_number(event.value)}};
         const LessonStep* due = lesson.due();
         if (due != nullptr) {
             mistake.arguments.push_back({"joint", joints[due->joint].design.id});
@@ -209,6 +211,10 @@ Review review(const content::Assembly& assembly, const LessonResult& result) {
                 deduction.key =
                     once ? TextKey("reason.turned_together.one") : TextKey("reason.turned_together.many");
                 advice = TextKey("mistake.turned_together.do");
+                break;
+            case DeductionKind::tool_bent:
+                deduction.key = once ? TextKey("reason.tool_bent.one") : TextKey("reason.tool_bent.many");
+                advice = TextKey("mistake.tool_bent.do");
                 break;
             case DeductionKind::unfinished:
                 deduction.key = TextKey("reason.unfinished");

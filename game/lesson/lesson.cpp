@@ -15,6 +15,7 @@ constexpr double recheck_turn = to_radians(0.2);  // nut angle by which a re-che
 constexpr double turning_speed = 0.01;            // rad/s
 constexpr double wrong_way = to_radians(5.0);     // nut angle; more than play and the wrench's elasticity
 constexpr double turn_excess = to_radians(1.0);   // nut angle beyond the window that is reported
+constexpr double visible_bend = to_radians(1.0);  // of a tool, that is reported
 constexpr std::uint64_t assessment_end_ticks = 3000;
 constexpr std::uint64_t regrip_ticks = 1000;   // gap within which a grip by fingers continues the hold
 constexpr double working_torque = 0.5;         // N·m; less is only a touch
@@ -110,7 +111,8 @@ void engage(Lesson& lesson, int joint, servo::Grip grip, const world::ReadHaptic
     lesson.grip = grip;
     JointTrack& track = lesson.joints[static_cast<std::size_t>(joint)];
     track.worked = again && track.worked;
-    track.turned_back = track.seated = track.let_turn = false;
+    track.turned_back = track.seated = track.let_turn = track.bends_tool = false;
+    track.bent = world.only<world::ToolState>().bent;
     track.furthest = joint_at(world, static_cast<std::size_t>(joint)).angle;
     track.turned_with_bolt = joint_at(world, static_cast<std::size_t>(joint)).common_turn;
     add_event(lesson, tick_of(world), EventKind::engage, joint, 0.0,
@@ -220,6 +222,17 @@ void report_common_turn(Lesson& lesson, std::size_t joint, const world::ReadHapt
         fmt::format("nut and bolt of {} turned together: nothing held the other end", track.result.id));
 }
 
+// Reports a tool that bends, once a hold.
+void report_bent_tool(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
+    JointTrack& track = lesson.joints[joint];
+    if (track.bends_tool || world.only<world::ToolState>().bent - track.bent < visible_bend) return;
+    track.bends_tool = true;
+    ++track.bent_count;
+    const double torque = std::abs(joint_at(world, joint).torque);
+    add_mistake(lesson, tick_of(world), MistakeKind::tool_bent, joint, torque,
+                fmt::format("the tool on {} bends at {:.0f} N·m", track.result.id, torque));
+}
+
 void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[joint];
     const world::Joint& nut = joint_at(world, joint);
@@ -240,6 +253,7 @@ void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& w
     report_excess_angle(lesson, joint, world);
     if (!fingers) report_wrong_way(lesson, joint, world);
     if (!fingers) report_common_turn(lesson, joint, world);
+    if (!fingers) report_bent_tool(lesson, joint, world);
     // A nut that came off its seat during a step of kind `turn` has lost its mark; it gets a new one.
     const bool marks =
         !lesson.turns_by_angle || (due != nullptr && due->joint == joint && due->kind == StepKind::turn);
@@ -417,6 +431,7 @@ bool undo_steps(Lesson& lesson, const world::ReadHaptics& world, std::size_t ste
         tracks[i].over_turn_count = lesson.joints[i].over_turn_count;
         tracks[i].slip_count = lesson.joints[i].slip_count;
         tracks[i].let_turn_count = lesson.joints[i].let_turn_count;
+        tracks[i].bent_count = lesson.joints[i].bent_count;
         tracks[i].result.condition = joint_at(world, i).condition;
     }
     lesson.joints = std::move(tracks);

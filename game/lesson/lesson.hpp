@@ -94,6 +94,9 @@ struct JointTrack {
     double turned_with_bolt = 0.0;  // rad, world::Joint::common_turn when this hold began
     bool let_turn = false;          // that nut and bolt turned together was reported in this hold
     int let_turn_count = 0;
+    double bent = 0.0;        // rad, world::ToolState::bent when this hold began
+    bool bends_tool = false;  // that it bent was reported in this hold
+    int bent_count = 0;
     int done_in_pass = -1;  // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;
 };

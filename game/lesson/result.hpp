@@ -59,6 +59,7 @@ enum class DeductionKind : std::uint8_t {
     over_turned,  // the same of an excess angle
     slipped,
     turned_together,
+    tool_bent,
     unfinished
 };
 
@@ -91,6 +92,7 @@ enum class MistakeKind : std::uint8_t {
     over_torque,
     over_turned,      // turned further than its angle window
     turned_together,  // nut and bolt turned together: nothing held the other part
+    tool_bent,
     slipped,
     stripped,
     broken

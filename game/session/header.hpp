@@ -35,8 +35,9 @@ struct Header {
     std::string assembly_text;  // the file's exact text, so that a session replays without the folder
     std::string variant;
     joint::Law law = joint::Law::mechanistic;
-    // Follows from the format of the file.
+    // These two follow from the format of the file.
     lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;
+    bool tools_bend = true;  // since format 8
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     // "person", or the simulated trainee's profile: "expert", … The key in the file is "operator".

@@ -19,6 +19,7 @@ servo::ToolDescription describe(const content::WrenchDesign& design) {
     tool.head = gripping.head;
     tool.head_angle = gripping.head_angle;
     tool.twist_stiffness = gripping.twist_stiffness;
+    tool.yield_torque = tool_models::yield_torque(design);
     tool.handle_length = design.handle_length;
     tool.click_swing = design.click_swing;
     tool.click_accuracy = design.click_accuracy;
@@ -167,6 +168,7 @@ namespace {
 servo::Setup make_lesson_setup(const content::Assembly& assembly, const LessonOptions& options) {
     servo::Setup setup = make_setup(assembly, options.law, options.device_limits, options.seed, options.dt);
     servo::set_ratchets(setup, options.task == lesson::Task::loosen);
+    if (!options.tools_bend) servo::make_tools_rigid(setup);
     return setup;
 }
 

@@ -298,6 +298,44 @@ GrippingHead gripping_head(const content::WrenchDesign& design) {
             design.head_angle, 0.0};
 }
 
+ToolStrength strength_of(const content::WrenchDesign& design) {
+    const ToolParameters p = parameters_of(design);
+    const auto kind_of_head = [&] {
+        switch (design.head) {
+            case content::ToolHead::ring:
+                return ModelKind::ring_wrench;
+            case content::ToolHead::socket:
+                return ModelKind::ratchet;
+            case content::ToolHead::hex_key:
+                return ModelKind::hex_key;
+            case content::ToolHead::hex_bit:
+                return ModelKind::hex_bit;
+            default:
+                return ModelKind::open_end_wrench;
+        }
+    };
+    ToolStrength strength{test_torque(kind_of_head(), p.size), false, 0.0};
+    if (!has_ratchet(p)) return strength;
+    const ToolParameters whole = completed(p).value_or(p);
+    const TestTorque drive = test_torque(ModelKind::extension_bar, whole.drive);
+    const bool is_weaker =
+        strength.limit.source == TorqueSource::none || drive.torque < strength.limit.torque;
+    if (drive.source != TorqueSource::none && is_weaker) strength = {drive, true, whole.drive};
+    return strength;
+}
+
+double yield_torque(const content::WrenchDesign& design) {
+    constexpr double surplus = 1.2, shear_strength = 750e6, section = 0.188;
+    const ToolStrength strength = strength_of(design);
+    double torque = strength.limit.source == TorqueSource::none ? 0.0 : surplus * strength.limit.torque;
+    if (design.head == content::ToolHead::hex_key || design.head == content::ToolHead::hex_bit) {
+        const double key =
+            section * parameters_of(design).size * square(parameters_of(design).size) * shear_strength;
+        torque = torque > 0.0 ? std::min(torque, key) : key;
+    }
+    return torque;
+}
+
 Result<std::string> identity_of(const ToolParameters& completed) {
     BOLT_TRY_ASSIGN(const auto bytes, assets::encode_glb(contact_model(completed)));
     Fnv1a hash;

@@ -36,6 +36,19 @@ Result<GrippingHead> gripping_head(const ToolParameters& completed);
 // The same for the tool of an assembly, whose model may be an author's.
 GrippingHead gripping_head(const content::WrenchDesign& design);
 
+// The test torque of a tool, or that of its square drive if the drive bears less.
+struct ToolStrength {
+    TestTorque limit;
+    bool of_drive = false;  // `limit` is that of the drive
+    double drive = 0.0;     // m, width of that drive
+};
+ToolStrength strength_of(const content::WrenchDesign& design);
+
+// N·m at which a tool begins to bend for good; 0: unknown. A tool bears its test torque without that (ISO
+// 1711-1). The surplus of a fifth is ours, and the torque of a key too: that of a hexagonal bar in torsion,
+// W_t τ with W_t = 0.188 s³ (Dubbel) and τ = 750 MPa, for steel of 45 HRC.
+double yield_torque(const content::WrenchDesign& design);
+
 // Names a generated contact model in the session file: the description of the tool, and size and checksum
 // (FNV-1a, 64 bits) of the model's bytes.
 Result<std::string> identity_of(const ToolParameters& completed);

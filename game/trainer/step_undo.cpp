@@ -26,7 +26,8 @@ void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t step
 }
 
 bool is_undone(lesson::MistakeKind mistake) {
-    return mistake != lesson::MistakeKind::none && mistake != lesson::MistakeKind::turned_together;
+    return mistake != lesson::MistakeKind::none && mistake != lesson::MistakeKind::turned_together &&
+           mistake != lesson::MistakeKind::tool_bent;
 }
 
 void observe(StepUndo& undo, const lesson::Lesson& lesson, const lesson::LessonEvent& event) {

@@ -23,8 +23,8 @@ const lesson::LessonStep* due(const StepUndo& undo, const lesson::Lesson& lesson
 // assessment and if there are not so many steps.
 void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t steps);
 
-// True if an undo mends the mistake. It does not if nut and bolt turned together: that has changed no clamp
-// force.
+// True if an undo mends the mistake. It does not if nut and bolt turned together, which changed no clamp
+// force, or if the tool was bent.
 bool is_undone(lesson::MistakeKind mistake);
 
 // Call with every event of the lesson. A mistake that is undone requests the undo in a guided lesson; the

@@ -55,7 +55,8 @@ void write_haptics(const WriteHaptics& world, const Snapshot& servo) {
                                output.contacts,
                                output.clicked,
                                servo.state.engagement.ratchet_slack,
-                               servo.input.second_wrench};
+                               servo.input.second_wrench,
+                               servo.state.bent};
     world.only<GuidingForce>() = {servo.input.guide, servo.state.guiding_command.force,
                                   servo.state.guiding_command.torque};
     world.only<DeviceForce>() = {output.force, output.torque, output.fault};

@@ -54,6 +54,7 @@ struct ToolState {
     bool clicked = false;                  // the torque wrench clicked in this tick
     double ratchet_slack = 0.0;            // as servo::Engagement::ratchet_slack
     std::int16_t second_wrench = -1;       // as servo::TickInput::second_wrench
+    double bent = 0.0;                     // rad, as servo::State::bent
 };
 
 // The force that guides the tool to a nut, before the limits of the output stage.

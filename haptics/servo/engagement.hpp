@@ -105,6 +105,11 @@ void update_contact_engagement(const Setup& setup, std::span<const joint::JointS
 joint::NutDrive contact_drive(const Setup& setup, const NutGeometry& nut, double rounded,
                               const Engagement& engagement);
 
+// Call before the joint's step. A tool with Wrench::yield_torque transmits no more than that: the rotation of
+// the hand beyond it bends the tool for good. Returns that rotation, rad, at least 0. If the corners of the
+// nut bear less, they yield instead (round_corners).
+double bend_tool(const Wrench& wrench, double rotation, joint::NutDrive& drive, Engagement& engagement);
+
 // Call after the joint's step. A head that turns beyond the corners' torque removes material in proportion to
 // the work, and transmits less torque the further it turns. Returns true in the tick in which the head slips
 // over the corners.

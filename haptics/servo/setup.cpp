@@ -94,6 +94,7 @@ Wrench make_wrench(const SetupDescription& d, const ToolDescription& tool, std::
     wrench.stiffness = std::max(d.max_torque, 1.0) / to_radians(2.5);
     if (tool.twist_stiffness > 0.0)  // in series
         wrench.stiffness = 1.0 / (1.0 / wrench.stiffness + 1.0 / tool.twist_stiffness);
+    wrench.yield_torque = tool.yield_torque;
     wrench.click.swing = tool.click_swing;
     Random random(d.seed, tool_stream + number);
     wrench.deviation = random.uniform(-tool.click_accuracy, tool.click_accuracy);
@@ -119,6 +120,11 @@ void use_tool(Setup& setup, std::size_t tool) {
     setup.wrench = setup.tools[tool].wrench;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i)
         setup.nuts[i].grip_height = setup.tools[tool].grip_heights[i];
+}
+
+void make_tools_rigid(Setup& setup) {
+    setup.wrench.yield_torque = 0.0;
+    for (LessonTool& tool : setup.tools) tool.wrench.yield_torque = 0.0;
 }
 
 void set_ratchets(Setup& setup, bool loosen) {

@@ -80,9 +80,10 @@ struct Wrench {
     double handle_length = 0.0;  // m
     double half_play = 0.0;      // rad of free rotation of the head on the hexagon, to either side
     Ratchet ratchet;
-    double stiffness = 0.0;  // N·m/rad, wrench and hand in series
-    joint::Click click;      // without its set torque, which is an input
-    double deviation = 0.0;  // relative deviation of the click torque from the set torque
+    double stiffness = 0.0;     // N·m/rad, wrench and hand in series
+    double yield_torque = 0.0;  // N·m at which the tool bends for good; 0: never
+    joint::Click click;         // without its set torque, which is an input
+    double deviation = 0.0;     // relative deviation of the click torque from the set torque
 };
 
 // rad of free rotation of the head on a hexagon or in a socket of this size (m) to either side, if its
@@ -125,6 +126,7 @@ struct ToolDescription {
     collision::ToolHead head;
     double head_angle = 0.0;       // rad, see Wrench
     double twist_stiffness = 0.0;  // N·m/rad, of an extension bar; 0: none
+    double yield_torque = 0.0;     // N·m, as Wrench::yield_torque
     double handle_length = 0.0;    // m
     double click_swing = 0.0;  // rad that a click-type torque wrench swings at its click; 0: a plain wrench
     double click_accuracy = 0.0;  // relative bound of Wrench::deviation, which is drawn from the seed
@@ -148,6 +150,9 @@ Setup make_setup(const SetupDescription& description);
 
 // Makes a tool of the lesson the one in use. Does not allocate.
 void use_tool(Setup& setup, std::size_t tool);
+
+// Sets Wrench::yield_torque of all tools to 0.
+void make_tools_rigid(Setup& setup);
 
 // Sets the levers of all ratchets.
 void set_ratchets(Setup& setup, bool loosen);

@@ -212,7 +212,10 @@ bool step_joints(const Setup& setup, State& state, const TickInput& input) {
     joint::NutDrive drive = drive_of(setup, state, input.second_wrench);
     const bool turns = e.joint >= 0 && e.grip == Grip::wrench;
     const auto rotation = [&] { return state.joints[static_cast<std::size_t>(e.joint)].rotation(); };
-    if (turns) limit_to_pawl(setup.wrench, rotation(), e, drive);
+    if (turns) {
+        state.bent += bend_tool(setup.wrench, rotation(), drive, e);
+        limit_to_pawl(setup.wrench, rotation(), e, drive);
+    }
     const joint::ClickStep click = step_group(setup.group, state.joints, e.joint, drive, setup.dt);
     e.swung = click.swung;
     if (turns) settle_ratchet(setup.wrench, rotation(), drive.half_play, e);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "game/tool_models/parameters.hpp"
+#include "game/tool_models/tool_model.hpp"
 #include "support.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
@@ -256,21 +256,22 @@ TEST_CASE("Tools: the strength of a ratchet is that of its weaker part") {
     content::WrenchDesign design{.kind = content::ToolKind::ratchet, .head = content::ToolHead::socket};
     design.size = 32.0 * mm;
     design.handle_length = 300.0 * mm;
-    const geometry::ToolStrength socket = geometry::strength_of(design);
+    const tool_models::ToolStrength socket = tool_models::strength_of(design);
     CHECK(socket.of_drive);
     CHECK(socket.limit.torque == 340.0);
     CHECK(socket.drive == 12.5 * mm);
     design.size = 13.0 * mm;
-    CHECK_FALSE(geometry::strength_of(design).of_drive);
-    CHECK(geometry::strength_of(design).limit.torque == 107.0);
+    CHECK_FALSE(tool_models::strength_of(design).of_drive);
+    CHECK(tool_models::strength_of(design).limit.torque == 107.0);
     // No test torque of keys is known; that of a bit is the drive's.
     design = {.kind = content::ToolKind::hex_key, .head = content::ToolHead::hex_key};
     design.size = 6.0 * mm;
-    CHECK(geometry::strength_of(design).limit.source == tool_models::TorqueSource::none);
+    CHECK(tool_models::strength_of(design).limit.source == tool_models::TorqueSource::none);
+    CHECK(tool_models::yield_torque(design) == doctest::Approx(0.188 * 6e-3 * 6e-3 * 6e-3 * 750e6));
     design = {.kind = content::ToolKind::ratchet, .head = content::ToolHead::hex_bit};
     design.size = 6.0 * mm;
     design.handle_length = 300.0 * mm;
-    CHECK(geometry::strength_of(design).of_drive);
+    CHECK(tool_models::strength_of(design).of_drive);
 }
 
 }  // namespace geometry_tools_test

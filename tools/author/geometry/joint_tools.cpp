@@ -119,33 +119,6 @@ bool suits(const content::WrenchDesign& design, const joint::JointDesign& joint)
            over < play + size_tolerance;
 }
 
-ToolStrength strength_of(const content::WrenchDesign& design) {
-    using namespace tool_models;
-    const ToolParameters p = parameters_of(design);
-    const auto kind_of_head = [&] {
-        switch (design.head) {
-            case content::ToolHead::ring:
-                return ModelKind::ring_wrench;
-            case content::ToolHead::socket:
-                return ModelKind::ratchet;
-            case content::ToolHead::hex_key:
-                return ModelKind::hex_key;
-            case content::ToolHead::hex_bit:
-                return ModelKind::hex_bit;
-            default:
-                return ModelKind::open_end_wrench;
-        }
-    };
-    ToolStrength strength{test_torque(kind_of_head(), p.size), false, 0.0};
-    if (!has_ratchet(p)) return strength;
-    const ToolParameters whole = completed(p).value_or(p);
-    const TestTorque drive = test_torque(ModelKind::extension_bar, whole.drive);
-    const bool is_weaker =
-        strength.limit.source == TorqueSource::none || drive.torque < strength.limit.torque;
-    if (drive.source != TorqueSource::none && is_weaker) strength = {drive, true, whole.drive};
-    return strength;
-}
-
 namespace {
 
 // The tools that can turn a joint, for messages: those of the file, otherwise kinds and sizes.
@@ -164,14 +137,14 @@ std::string suitable_tools(const content::Assembly& assembly, const joint::Joint
 std::string strong_tools(const joint::JointDesign& design, double torque) {
     std::string names;
     for (const content::WrenchDesign& usual : usual_tools(design)) {
-        const tool_models::TestTorque limit = strength_of(usual).limit;
+        const tool_models::TestTorque limit = tool_models::strength_of(usual).limit;
         if (limit.source == tool_models::TorqueSource::none || limit.torque < torque) continue;
         names += fmt::format("{}{} ({:.0f} N·m)", names.empty() ? "" : " or ", title_of(usual), limit.torque);
     }
     return names.empty() ? "a lower target torque: no tool of this size bears it" : names;
 }
 
-std::string origin_of(const ToolStrength& strength) {
+std::string origin_of(const tool_models::ToolStrength& strength) {
     switch (strength.limit.source) {
         case tool_models::TorqueSource::tabulated:
             return "ISO 1711-1, from a catalogue";
@@ -185,7 +158,7 @@ std::string origin_of(const ToolStrength& strength) {
 
 void check_torque(const content::AssemblyJoint& joint, const content::WrenchDesign& design,
                   const std::string& name, const std::string& pointer, const Messages& messages) {
-    const ToolStrength strength = strength_of(design);
+    const tool_models::ToolStrength strength = tool_models::strength_of(design);
     const double torque = joint.spec.torque.high, limit = strength.limit.torque;
     if (strength.limit.source == tool_models::TorqueSource::none || torque <= much_torque * limit) return;
     const std::string part =

@@ -33,14 +33,6 @@ std::string name_of_tool(const content::Assembly& assembly, std::size_t tool);
 // Designs of common tools, with common lengths, of the kinds that can turn the part of a joint.
 std::vector<content::WrenchDesign> usual_tools(const joint::JointDesign& design);
 
-// The test torque of a tool, or that of its square drive if the drive bears less.
-struct ToolStrength {
-    tool_models::TestTorque limit;
-    bool of_drive = false;  // `limit` is that of the drive
-    double drive = 0.0;     // m, width of that drive
-};
-ToolStrength strength_of(const content::WrenchDesign& design);
-
 // Reports each tool that cannot grip the part of a joint, has another size, or bears less than the joint's
 // target torque. Reports each pair of joint type and tool once.
 void check_tools(const content::Assembly& assembly, const Messages& messages);
