@@ -166,8 +166,8 @@ ordered_json json_of(const Registration& one) {
 }  // namespace
 
 const std::vector<std::string>& coordinate_frame_names() {
-    static const std::vector<std::string> names{"arm",       "wheel", "tracker", "wall",
-                                                "workpiece", "room",  "hand",    "controller"};
+    static const std::vector<std::string> names{"arm",  "wheel", "tracker",    "wall",         "workpiece",
+                                                "room", "hand",  "controller", "wrist_tracker"};
     return names;
 }
 

@@ -27,14 +27,15 @@ struct MemberReader;
 
 // Right-handed frames of a station, in m.
 enum class CoordinateFrame : std::uint8_t {
-    arm,         // of the arm's samples (haptics/device/device.hpp), before its mounting is applied
-    wheel,       // of the wheel
-    tracker,     // of a tracking system
-    wall,        // of a projection wall
-    workpiece,   // of the assembly
-    room,        // fixed in the room; the STAGE space of OpenXR
-    hand,        // the wrist of a gloved hand (hand::wrist)
-    controller,  // the grip pose of a controller that is fixed to that hand
+    arm,            // of the arm's samples (haptics/device/device.hpp), before its mounting is applied
+    wheel,          // of the wheel
+    tracker,        // of a tracking system
+    wall,           // of a projection wall
+    workpiece,      // of the assembly
+    room,           // fixed in the room; the STAGE space of OpenXR
+    hand,           // the wrist of a gloved hand (hand::wrist)
+    controller,     // the grip pose of a controller that is fixed to that hand
+    wrist_tracker,  // the grip pose of a Vive tracker that is fixed to that hand
 };
 const std::vector<std::string>& coordinate_frame_names();  // in the order of the enumerators
 std::string_view name(CoordinateFrame frame);

@@ -192,11 +192,21 @@ void read_wheel(MemberReader& members, const json& root, std::optional<StationWh
     read_buttons(members, *object, "/wheel", wheel.buttons);
 }
 
-void read_glove(MemberReader& members, const json& root, std::string& port) {
+constexpr const char* glove_tracker_key = "wrist_tracker";
+
+void read_glove(MemberReader& members, const json& root, StationFile& station) {
     const json* object = object_member(members, root, "", "glove");
     if (object == nullptr) return;
-    members.check_known(*object, "/glove", {"port"});
-    port = read_text(members, *object, "/glove", port_member);
+    members.check_known(*object, "/glove", {"port", glove_tracker_key});
+    station.glove_port = read_text(members, *object, "/glove", port_member);
+    if (!object->contains(glove_tracker_key)) return;
+    const std::string role = members.text(*object, "/glove", glove_tracker_key);
+    station.glove_tracker = parse_tracker_role(role);
+    if (!station.glove_tracker)
+        members.report(
+            fmt::format("/glove/{}", glove_tracker_key), JsonPart::value,
+            fmt::format("{} is not a role of a Vive tracker", in_quotes(role)),
+            suggest(role, std::vector<std::string>(tracker_role_names.begin(), tracker_role_names.end())));
 }
 
 }  // namespace
@@ -215,7 +225,7 @@ Result<StationFile> parse_station(std::string_view text, const std::string& file
         if (root.contains("name")) station.name = members.text(root, "", "name");
         read_arm(members, root, station.arm);
         read_wheel(members, root, station.wheel);
-        read_glove(members, root, station.glove_port);
+        read_glove(members, root, station);
         station.registrations = read_registrations(members, root);
         return station;
     });
@@ -274,6 +284,8 @@ std::string station_json(const StationFile& station) {
     if (station.arm) root["arm"] = json_of(*station.arm);
     if (station.wheel) root["wheel"] = json_of(*station.wheel);
     if (!station.glove_port.empty()) root["glove"]["port"] = station.glove_port;
+    if (!station.glove_port.empty() && station.glove_tracker)
+        root["glove"][glove_tracker_key] = name(*station.glove_tracker);
     write_registrations(root, station.registrations);
     // Bytes that are not UTF-8 are replaced, because they would make the file unreadable.
     return root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -19,6 +19,7 @@
 #include "content/station/registration.hpp"
 #include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
+#include "engine/base/tracker_role.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/force/output_limits.hpp"
 #include "haptics/station/station_tick.hpp"
@@ -63,7 +64,9 @@ struct StationFile {
     std::string name;    // for people; may be empty
     std::optional<StationMover> arm;
     std::optional<StationWheel> wheel;
-    std::string glove_port;                   // empty: no glove
+    std::string glove_port;  // empty: no glove
+    // Of the Vive tracker that is fixed to the gloved hand; none: no tracker measures the wrist.
+    std::optional<TrackerRole> glove_tracker;
     std::vector<Registration> registrations;  // at most one between two frames
     bool operator==(const StationFile&) const = default;
 };

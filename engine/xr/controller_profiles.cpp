@@ -59,16 +59,25 @@ Result<XrPath> path_of(XrInstance instance, const std::string& text) {
     return path;
 }
 
-Result<bool> suggest_bindings_of(const ControllerProfile& profile,
-                                 std::span<const XrActionSuggestedBinding> bindings, XrInstance instance) {
-    BOLT_TRY_ASSIGN(const auto path, path_of(instance, profile.path));
+Result<std::string> text_of(XrInstance instance, XrPath path) {
+    std::array<char, XR_MAX_PATH_LENGTH> text{};
+    std::uint32_t length = 0;
+    BOLT_TRY(
+        check(xrPathToString(instance, path, static_cast<std::uint32_t>(text.size()), &length, text.data()),
+              "xrPathToString"));
+    return std::string(text.data());
+}
+
+Result<bool> suggest_bindings_of(const char* profile, std::span<const XrActionSuggestedBinding> bindings,
+                                 XrInstance instance) {
+    BOLT_TRY_ASSIGN(const auto path, path_of(instance, profile));
     XrInteractionProfileSuggestedBinding suggested{XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING};
     suggested.interactionProfile = path;
     suggested.countSuggestedBindings = static_cast<std::uint32_t>(bindings.size());
     suggested.suggestedBindings = bindings.data();
     const XrResult result = xrSuggestInteractionProfileBindings(instance, &suggested);
     if (result == XR_ERROR_PATH_UNSUPPORTED) return false;
-    BOLT_TRY(check(result, fmt::format("xrSuggestInteractionProfileBindings(\"{}\")", profile.path)));
+    BOLT_TRY(check(result, fmt::format("xrSuggestInteractionProfileBindings(\"{}\")", profile)));
     // Any other success, such as XR_SESSION_LOSS_PENDING, does not mean that the controller can be used.
     return result == XR_SUCCESS;
 }

@@ -25,10 +25,11 @@ struct ControllerProfile {
 std::span<const ControllerProfile> controller_profiles();
 
 Result<XrPath> path_of(XrInstance instance, const std::string& text);
+Result<std::string> text_of(XrInstance instance, XrPath path);
 
-// Suggests bindings for a controller. Returns false if the runtime does not know the controller; others still
-// work.
-Result<bool> suggest_bindings_of(const ControllerProfile& profile,
-                                 std::span<const XrActionSuggestedBinding> bindings, XrInstance instance);
+// Suggests bindings for an interaction profile. Returns false if the runtime does not know the profile or one
+// of the paths; other profiles still work.
+Result<bool> suggest_bindings_of(const char* profile, std::span<const XrActionSuggestedBinding> bindings,
+                                 XrInstance instance);
 
 }  // namespace bolt::xr

@@ -146,6 +146,9 @@ std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
     finish_retired();
     if (pending_error_) (void)drop_on_error(fail(*std::exchange(pending_error_, std::nullopt)));
     if (!session_ || !drop_on_error(session_->poll(events_))) return std::nullopt;
+    for (const SessionEvent& event : events_)
+        if (std::holds_alternative<TrackersChanged>(event) || std::holds_alternative<EventsLost>(event))
+            input_->trackers_changed();
     if (session_->ended()) {
         exit_requested_ = true;
         drop();

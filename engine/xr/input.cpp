@@ -70,7 +70,10 @@ Status XrInput::create_actions(const ActionNames& names) {
     BOLT_TRY(make(stick_, "stick", names.stick, XR_ACTION_TYPE_VECTOR2F_INPUT));
     BOLT_TRY(make(menu_, "menu", names.menu, XR_ACTION_TYPE_BOOLEAN_INPUT));
     BOLT_TRY(make(secondary_, "secondary", names.secondary, XR_ACTION_TYPE_BOOLEAN_INPUT));
-    return make(vibrate_, "vibrate", names.vibrate, XR_ACTION_TYPE_VIBRATION_OUTPUT);
+    BOLT_TRY(make(vibrate_, "vibrate", names.vibrate, XR_ACTION_TYPE_VIBRATION_OUTPUT));
+    if (!session_->runtime().extensions().vive_trackers) return {};
+    BOLT_TRY_ASSIGN(trackers_of_roles_, make_tracker_actions(instance, raw));
+    return {};
 }
 
 Status XrInput::suggest_bindings() {
@@ -95,7 +98,7 @@ Status XrInput::suggest_bindings() {
             BOLT_TRY(bind(secondary_, profile.secondary[side]));
             BOLT_TRY(bind(vibrate_, profile.vibrates ? "output/haptic" : nullptr));
         }
-        BOLT_TRY_ASSIGN(const bool accepted, suggest_bindings_of(profile, bindings, instance));
+        BOLT_TRY_ASSIGN(const bool accepted, suggest_bindings_of(profile.path, bindings, instance));
         if (accepted) profiles_.emplace_back(profile.path);
     }
     return {};
@@ -108,19 +111,21 @@ Status XrInput::attach() {
     info.actionSets = &raw;
     BOLT_TRY(check(xrAttachSessionActionSets(session_->get(), &info), "xrAttachSessionActionSets"));
     const ExtensionFunctions& functions = session_->runtime().functions();
+    const auto make_space = [&](XrAction action, XrPath path, SpaceHandle& space) -> Status {
+        XrActionSpaceCreateInfo create{XR_TYPE_ACTION_SPACE_CREATE_INFO};
+        create.action = action;
+        create.subactionPath = path;
+        create.poseInActionSpace = {{0, 0, 0, 1}, {0, 0, 0}};
+        XrSpace created = XR_NULL_HANDLE;
+        BOLT_TRY(check(xrCreateActionSpace(session_->get(), &create, &created), "xrCreateActionSpace"));
+        space = SpaceHandle(created);
+        return {};
+    };
+    for (const TrackerAction& tracker : trackers_of_roles_)
+        BOLT_TRY(make_space(tracker.action, tracker.path, tracker_spaces_.emplace_back()));
     for (std::size_t side = 0; side < 2; ++side) {
-        const auto make_space = [&](XrAction action, SpaceHandle& space) -> Status {
-            XrActionSpaceCreateInfo create{XR_TYPE_ACTION_SPACE_CREATE_INFO};
-            create.action = action;
-            create.subactionPath = hands_[side];
-            create.poseInActionSpace = {{0, 0, 0, 1}, {0, 0, 0}};
-            XrSpace created = XR_NULL_HANDLE;
-            BOLT_TRY(check(xrCreateActionSpace(session_->get(), &create, &created), "xrCreateActionSpace"));
-            space = SpaceHandle(created);
-            return {};
-        };
-        BOLT_TRY(make_space(grip_, grip_spaces_[side]));
-        BOLT_TRY(make_space(aim_, aim_spaces_[side]));
+        BOLT_TRY(make_space(grip_, hands_[side], grip_spaces_[side]));
+        BOLT_TRY(make_space(aim_, hands_[side], aim_spaces_[side]));
         if (functions.create_hand_tracker == nullptr) continue;
         XrHandTrackerCreateInfoEXT tracker{XR_TYPE_HAND_TRACKER_CREATE_INFO_EXT};
         tracker.hand = side == 0 ? XR_HAND_LEFT_EXT : XR_HAND_RIGHT_EXT;
@@ -222,6 +227,32 @@ Status XrInput::read_controllers() {
     return {};
 }
 
+Status XrInput::read_vive_trackers(const FrameTiming& frame, ViveTrackers& trackers) {
+    const Runtime& runtime = session_->runtime();
+    trackers.read = true;
+    trackers.available = runtime.extensions().vive_trackers;
+    if (!trackers.available) return {};
+    // The event of a change may be lost.
+    constexpr std::uint32_t enumeration_interval = 90;  // frames
+    if (roles_are_old_ || reads_ % enumeration_interval == 0) {
+        BOLT_TRY_ASSIGN(connected_roles_,
+                        connected_roles(runtime.instance(), runtime.functions().enumerate_vive_trackers));
+        roles_are_old_ = false;
+    }
+    trackers.connected = connected_roles_;
+    for (std::size_t i = 0; i < trackers_of_roles_.size(); ++i) {
+        XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
+        info.action = trackers_of_roles_[i].action;
+        info.subactionPath = trackers_of_roles_[i].path;
+        XrActionStatePose state{XR_TYPE_ACTION_STATE_POSE};
+        BOLT_TRY(check(xrGetActionStatePose(session_->get(), &info, &state), "xrGetActionStatePose"));
+        if (state.isActive != XR_TRUE) continue;
+        BOLT_TRY_ASSIGN(trackers.poses[static_cast<std::size_t>(trackers_of_roles_[i].role)],
+                        locate(tracker_spaces_[i].get(), frame.display_time));
+    }
+    return {};
+}
+
 Result<Hands> XrInput::read(const FrameTiming& frame) {
     Hands hands;
     const XrActiveActionSet active{set_.get(), XR_NULL_PATH};
@@ -231,6 +262,7 @@ Result<Hands> XrInput::read(const FrameTiming& frame) {
     const XrResult synced = xrSyncActions(session_->get(), &sync);
     BOLT_TRY(check(synced, "xrSyncActions"));
     if (synced == XR_SESSION_NOT_FOCUSED) return hands;
+    BOLT_TRY(read_vive_trackers(frame, hands.trackers));
     // The event of a change may be lost, so the controllers are queried now and then.
     constexpr std::uint32_t query_interval = 32;  // frames
     if (reads_++ % query_interval == 0) BOLT_TRY(read_controllers());
@@ -263,12 +295,7 @@ Result<std::string> XrInput::profile(Side side) const {
         check(xrGetCurrentInteractionProfile(session_->get(), hands_[static_cast<std::size_t>(side)], &state),
               "xrGetCurrentInteractionProfile"));
     if (state.interactionProfile == XR_NULL_PATH) return std::string();
-    std::array<char, XR_MAX_PATH_LENGTH> text{};
-    std::uint32_t length = 0;
-    BOLT_TRY(check(xrPathToString(session_->runtime().instance(), state.interactionProfile,
-                                  static_cast<std::uint32_t>(text.size()), &length, text.data()),
-                   "xrPathToString"));
-    return std::string(text.data());
+    return text_of(session_->runtime().instance(), state.interactionProfile);
 }
 
 }  // namespace bolt::xr

@@ -1,5 +1,5 @@
-// The trainee's hands in a headset's session: controllers as OpenXR actions, tracked hands, and the
-// vibration of controllers.
+// The trainee's hands in a headset's session: controllers as OpenXR actions, tracked hands, Vive trackers,
+// and the vibration of controllers.
 #pragma once
 
 #include <array>
@@ -11,15 +11,11 @@
 
 #include "engine/base/side.hpp"
 #include "engine/xr/session.hpp"
+#include "engine/xr/vive_trackers.hpp"
 
 namespace bolt::xr {
 
 using bolt::Side;
-
-struct LocatedPose {
-    Pose pose;             // in the session's base space
-    bool tracked = false;  // false: estimated, for example because the controller is hidden from the cameras
-};
 
 // Joint i of XR_EXT_hand_tracking, in the order of its specification.
 inline constexpr std::size_t hand_joint_count = 26;
@@ -48,6 +44,7 @@ struct HandInput {
 };
 struct Hands {
     std::array<HandInput, 2> sides;  // by Side
+    ViveTrackers trackers;           // one of them may be fixed to a gloved hand
     [[nodiscard]] const HandInput& operator[](Side side) const {
         return sides[static_cast<std::size_t>(side)];
     }
@@ -80,6 +77,8 @@ class XrInput {
     // The hands at the time of a frame.
     Result<Hands> read(const FrameTiming& frame);
     Status vibrate(Side side, const Vibration& vibration);
+    // Queries the roles of the Vive trackers again in the next frame. Call it after TrackersChanged.
+    void trackers_changed() { roles_are_old_ = true; }
 
     // Controllers whose bindings the runtime accepted, as paths; for the report of `doctor`.
     [[nodiscard]] const std::vector<std::string>& profiles() const { return profiles_; }
@@ -93,6 +92,7 @@ class XrInput {
     Status attach();
     Status read_hand(const FrameTiming& frame, Side side, HandInput& hand);
     Status read_controllers();
+    Status read_vive_trackers(const FrameTiming& frame, ViveTrackers& trackers);
     Status read_joints(const FrameTiming& frame, Side side, HandInput& hand);
     Result<std::optional<LocatedPose>> locate(XrSpace space, XrTime time) const;
     Result<float> value(XrAction action, Side side) const;
@@ -105,7 +105,11 @@ class XrInput {
              vibrate_ = XR_NULL_HANDLE;  // owned by the set
     std::array<XrPath, 2> hands_{};
     std::array<SpaceHandle, 2> grip_spaces_, aim_spaces_;
-    std::array<XrHandTrackerEXT, 2> trackers_{};  // null without hand tracking
+    std::array<XrHandTrackerEXT, 2> trackers_{};    // null without hand tracking
+    std::vector<TrackerAction> trackers_of_roles_;  // the roles that the runtime knows
+    std::vector<SpaceHandle> tracker_spaces_;       // of the same
+    TrackerRoles connected_roles_;                  // at the last query
+    bool roles_are_old_ = true;
     std::vector<std::string> profiles_;
     std::array<const ControllerProfile*, 2> controllers_{};  // by Side; null: HandInput::controller
     std::uint32_t reads_ = 0;                                // number of calls of read()

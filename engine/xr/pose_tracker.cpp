@@ -9,6 +9,7 @@
 
 #include "engine/xr/controller_profiles.hpp"
 #include "engine/xr/openxr.hpp"
+#include "engine/xr/vive_trackers.hpp"
 
 namespace bolt::xr {
 
@@ -29,7 +30,10 @@ struct PoseTracker::Objects {
     ActionSetHandle actions;
     SpaceHandle base, device;
     XrPath side = XR_NULL_PATH;       // of the controller
-    XrAction press = XR_NULL_HANDLE;  // its button
+    XrAction press = XR_NULL_HANDLE;  // its button; null: it has none
+    std::optional<TrackerRole> role;  // of the Vive tracker that is tracked
+    PFN_xrEnumerateViveTrackerPathsHTCX enumerate_trackers = nullptr;
+    std::string fault;
     bool stage = false, pressed = false;
     PFN_xrConvertTimespecTimeToTimeKHR to_time = nullptr;
     XrViewConfigurationType views = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
@@ -41,14 +45,20 @@ struct PoseTracker::Objects {
     }
     Status create_instance();
     Status create_session();
-    Status create_spaces(TrackedDevice tracked);
+    Status create_base();
+    Status create_device(TrackedDevice tracked);
+    Status create_vive_tracker();
     Result<SpaceHandle> reference_space(XrReferenceSpaceType type) const;
     Result<XrAction> make_action(const char* name, const char* shown, XrActionType type);
     Status suggest_bindings(const std::string& hand, XrAction grip);
+    Status create_actions();
+    Result<SpaceHandle> attach(XrAction pose, XrPath path);
     Result<SpaceHandle> grip_space(const char* hand);
+    Result<std::optional<LocatedPose>> locate() const;
+    Status explain(const std::optional<LocatedPose>& pose);
     Status follow_events();
+    Status sync_actions();
     Status read_button();
-    Result<std::optional<Pose>> locate() const;
 };
 
 Status PoseTracker::Objects::create_instance() {
@@ -63,7 +73,15 @@ Status PoseTracker::Objects::create_instance() {
             "a runtime with these extensions, such as Monado");
     }
     XrInstanceCreateInfo info = instance_info();
-    const std::array<const char*, 2> enabled{headless_extension, clock_extension};
+    std::vector<const char*> enabled{headless_extension, clock_extension};
+    const char* const trackers = XR_HTCX_VIVE_TRACKER_INTERACTION_EXTENSION_NAME;
+    if (role && std::find(offered.begin(), offered.end(), trackers) == offered.end()) {
+        unload_runtime();
+        ViveTrackers none;
+        none.read = true;
+        return fail(*tracker_fault(none, *role));
+    }
+    if (role) enabled.push_back(trackers);
     info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
     info.enabledExtensionNames = enabled.data();
     XrInstance raw = XR_NULL_HANDLE;
@@ -77,6 +95,10 @@ Status PoseTracker::Objects::create_instance() {
     BOLT_TRY(check(xrGetInstanceProcAddr(raw, "xrConvertTimespecTimeToTimeKHR", &function),
                    "xrConvertTimespecTimeToTimeKHR"));
     to_time = reinterpret_cast<PFN_xrConvertTimespecTimeToTimeKHR>(function);
+    if (!role) return {};
+    BOLT_TRY(check(xrGetInstanceProcAddr(raw, "xrEnumerateViveTrackerPathsHTCX", &function),
+                   "xrEnumerateViveTrackerPathsHTCX"));
+    enumerate_trackers = reinterpret_cast<PFN_xrEnumerateViveTrackerPathsHTCX>(function);
     return {};
 }
 
@@ -128,36 +150,47 @@ Status PoseTracker::Objects::suggest_bindings(const std::string& hand, XrAction 
         if (profile.needs_hand_interaction) continue;  // a hand is no tracker of the head
         BOLT_TRY_ASSIGN(const auto button, path_of(instance.get(), hand + "/" + profile.select));
         const std::array<XrActionSuggestedBinding, 2> bindings{{{grip, pose}, {press, button}}};
-        BOLT_TRY(suggest_bindings_of(profile, bindings, instance.get()));
+        BOLT_TRY(suggest_bindings_of(profile.path, bindings, instance.get()));
     }
     return {};
 }
 
-Result<SpaceHandle> PoseTracker::Objects::grip_space(const char* hand) {
+Status PoseTracker::Objects::create_actions() {
     XrActionSetCreateInfo set{XR_TYPE_ACTION_SET_CREATE_INFO};
     fmt::format_to_n(set.actionSetName, sizeof set.actionSetName - 1, "tracker");
     fmt::format_to_n(set.localizedActionSetName, sizeof set.localizedActionSetName - 1, "Tracker");
     XrActionSet raw_set = XR_NULL_HANDLE;
     BOLT_TRY(check(xrCreateActionSet(instance.get(), &set, &raw_set), "xrCreateActionSet"));
     actions = ActionSetHandle(raw_set);
-    BOLT_TRY_ASSIGN(side, path_of(instance.get(), hand));
-    BOLT_TRY_ASSIGN(const XrAction grip, make_action("pose", "Pose", XR_ACTION_TYPE_POSE_INPUT));
-    BOLT_TRY_ASSIGN(press, make_action("press", "Press", XR_ACTION_TYPE_BOOLEAN_INPUT));
-    BOLT_TRY(suggest_bindings(hand, grip));
+    return {};
+}
+
+// Attaches the actions, and makes the space of a pose.
+Result<SpaceHandle> PoseTracker::Objects::attach(XrAction pose, XrPath path) {
+    const XrActionSet raw_set = actions.get();
     XrSessionActionSetsAttachInfo attach{XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO};
     attach.countActionSets = 1;
     attach.actionSets = &raw_set;
     BOLT_TRY(check(xrAttachSessionActionSets(session.get(), &attach), "xrAttachSessionActionSets"));
     XrActionSpaceCreateInfo create{XR_TYPE_ACTION_SPACE_CREATE_INFO};
-    create.action = grip;
-    create.subactionPath = side;
+    create.action = pose;
+    create.subactionPath = path;
     create.poseInActionSpace = {{0, 0, 0, 1}, {0, 0, 0}};
     XrSpace raw = XR_NULL_HANDLE;
     BOLT_TRY(check(xrCreateActionSpace(session.get(), &create, &raw), "xrCreateActionSpace"));
     return SpaceHandle(raw);
 }
 
-Status PoseTracker::Objects::create_spaces(TrackedDevice tracked) {
+Result<SpaceHandle> PoseTracker::Objects::grip_space(const char* hand) {
+    BOLT_TRY(create_actions());
+    BOLT_TRY_ASSIGN(side, path_of(instance.get(), hand));
+    BOLT_TRY_ASSIGN(const XrAction grip, make_action("pose", "Pose", XR_ACTION_TYPE_POSE_INPUT));
+    BOLT_TRY_ASSIGN(press, make_action("press", "Press", XR_ACTION_TYPE_BOOLEAN_INPUT));
+    BOLT_TRY(suggest_bindings(hand, grip));
+    return attach(grip, side);
+}
+
+Status PoseTracker::Objects::create_base() {
     std::vector<XrReferenceSpaceType> types;
     BOLT_TRY(check(enumerate(types, XR_REFERENCE_SPACE_TYPE_VIEW,
                              [&](std::uint32_t capacity, std::uint32_t* count, XrReferenceSpaceType* values) {
@@ -166,11 +199,29 @@ Status PoseTracker::Objects::create_spaces(TrackedDevice tracked) {
                    "xrEnumerateReferenceSpaces"));
     stage = std::find(types.begin(), types.end(), XR_REFERENCE_SPACE_TYPE_STAGE) != types.end();
     BOLT_TRY_ASSIGN(base, reference_space(base_type()));
+    return {};
+}
+
+Status PoseTracker::Objects::create_device(TrackedDevice tracked) {
     if (tracked == TrackedDevice::headset) {
         BOLT_TRY_ASSIGN(device, reference_space(XR_REFERENCE_SPACE_TYPE_VIEW));
     } else {
         BOLT_TRY_ASSIGN(device, grip_space(hand_paths[tracked == TrackedDevice::left_controller ? 0 : 1]));
     }
+    return {};
+}
+
+Status PoseTracker::Objects::create_vive_tracker() {
+    BOLT_TRY(create_actions());
+    BOLT_TRY_ASSIGN(const auto known, make_tracker_actions(instance.get(), actions.get()));
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const TrackerAction& one) { return one.role == *role; });
+    if (found == known.end())
+        return fail(
+            ErrorCode::no_device,
+            fmt::format("the OpenXR runtime does not know the role {} of a Vive tracker", name(*role)),
+            "another role, such as handheld_object");
+    BOLT_TRY_ASSIGN(device, attach(found->action, found->path));
     return {};
 }
 
@@ -205,15 +256,19 @@ Status PoseTracker::Objects::follow_events() {
     return {};
 }
 
-// Also updates the poses of controllers: xrSyncActions determines them.
-Status PoseTracker::Objects::read_button() {
-    pressed = false;
+// Updates the poses of controllers and Vive trackers.
+Status PoseTracker::Objects::sync_actions() {
     if (!actions || !focused) return {};
     const XrActiveActionSet active{actions.get(), XR_NULL_PATH};
     XrActionsSyncInfo sync{XR_TYPE_ACTIONS_SYNC_INFO};
     sync.countActiveActionSets = 1;
     sync.activeActionSets = &active;
-    BOLT_TRY(check(xrSyncActions(session.get(), &sync), "xrSyncActions"));
+    return check(xrSyncActions(session.get(), &sync), "xrSyncActions");
+}
+
+Status PoseTracker::Objects::read_button() {
+    pressed = false;
+    if (press == XR_NULL_HANDLE || !focused) return {};
     XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
     info.action = press;
     info.subactionPath = side;
@@ -223,24 +278,50 @@ Status PoseTracker::Objects::read_button() {
     return {};
 }
 
-Result<std::optional<Pose>> PoseTracker::Objects::locate() const {
+// A pose that is not tracked is estimated. None: the pose is not valid.
+Result<std::optional<LocatedPose>> PoseTracker::Objects::locate() const {
     timespec now{};
     (void)clock_gettime(CLOCK_MONOTONIC, &now);
     XrTime time = 0;
     BOLT_TRY(check(to_time(instance.get(), &now, &time), "xrConvertTimespecTimeToTimeKHR"));
     XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
     BOLT_TRY(check(xrLocateSpace(device.get(), base.get(), time, &location), "xrLocateSpace"));
-    if ((location.locationFlags & fully_tracked) != fully_tracked) return std::optional<Pose>();
+    constexpr XrSpaceLocationFlags valid =
+        XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
+    if ((location.locationFlags & valid) != valid) return std::optional<LocatedPose>();
     const Pose pose = to_pose(location.pose);
-    if (!finite(pose.position) || !std::isfinite(pose.orientation.w)) return std::optional<Pose>();
-    return std::optional(pose);
+    if (!finite(pose.position) || !std::isfinite(pose.orientation.w)) return std::optional<LocatedPose>();
+    return LocatedPose{pose, (location.locationFlags & fully_tracked) == fully_tracked};
+}
+
+// Sets `fault` of a Vive tracker.
+Status PoseTracker::Objects::explain(const std::optional<LocatedPose>& pose) {
+    fault.clear();
+    if (!role || (pose && pose->tracked)) return {};
+    ViveTrackers trackers;
+    trackers.read = trackers.available = true;
+    trackers.poses[static_cast<std::size_t>(*role)] = pose;
+    BOLT_TRY_ASSIGN(trackers.connected, connected_roles(instance.get(), enumerate_trackers));
+    if (const std::optional<Error> error = tracker_fault(trackers, *role)) fault = error->message();
+    return {};
 }
 
 Result<std::unique_ptr<PoseTracker>> PoseTracker::open(TrackedDevice device) {
     auto objects = std::make_unique<Objects>();
     BOLT_TRY(objects->create_instance());
     BOLT_TRY(objects->create_session());
-    BOLT_TRY(objects->create_spaces(device));
+    BOLT_TRY(objects->create_base());
+    BOLT_TRY(objects->create_device(device));
+    return std::unique_ptr<PoseTracker>(new PoseTracker(std::move(objects)));
+}
+
+Result<std::unique_ptr<PoseTracker>> PoseTracker::open(TrackerRole role) {
+    auto objects = std::make_unique<Objects>();
+    objects->role = role;
+    BOLT_TRY(objects->create_instance());
+    BOLT_TRY(objects->create_session());
+    BOLT_TRY(objects->create_base());
+    BOLT_TRY(objects->create_vive_tracker());
     return std::unique_ptr<PoseTracker>(new PoseTracker(std::move(objects)));
 }
 
@@ -256,9 +337,15 @@ Result<std::optional<Pose>> PoseTracker::read() {
     }
     objects_->pressed = false;
     if (!objects_->running) return std::optional<Pose>();
+    BOLT_TRY(objects_->sync_actions());
     BOLT_TRY(objects_->read_button());
-    return objects_->locate();
+    BOLT_TRY_ASSIGN(const auto located, objects_->locate());
+    BOLT_TRY(objects_->explain(located));
+    if (!located || !located->tracked) return std::optional<Pose>();
+    return std::optional(located->pose);
 }
+
+const std::string& PoseTracker::fault() const { return objects_->fault; }
 
 bool PoseTracker::pressed() const { return objects_->pressed; }
 

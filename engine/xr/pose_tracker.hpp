@@ -1,12 +1,14 @@
-// The pose of a headset or a controller, without pictures in a headset (XR_MND_headless): the head of a
-// viewer of projection walls, or the controller that touches the points of a registration.
+// The pose of a headset, a controller or a Vive tracker, without pictures in a headset (XR_MND_headless): the
+// head of a viewer of projection walls, or the device that measures the points of a registration.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
+#include "engine/base/tracker_role.hpp"
 
 namespace bolt::xr {
 
@@ -18,6 +20,9 @@ class PoseTracker {
     // Fails with ErrorCode::no_device if there is no runtime, it cannot track without pictures, or nothing is
     // connected; trying again later may then succeed.
     static Result<std::unique_ptr<PoseTracker>> open(TrackedDevice device);
+    // The same for the Vive tracker with this role. Fails too if the runtime does not know trackers or the
+    // role. A tracker that is switched off, or gets the role later, is no error.
+    static Result<std::unique_ptr<PoseTracker>> open(TrackerRole role);
     PoseTracker(const PoseTracker&) = delete;
     PoseTracker& operator=(const PoseTracker&) = delete;
     ~PoseTracker();
@@ -27,7 +32,11 @@ class PoseTracker {
     // destroyed.
     Result<std::optional<Pose>> read();
 
-    // True if the trigger of the controller, or its button that selects, was pressed at the last read().
+    // Why the last read() returned no pose, in words; for a Vive tracker only, else empty.
+    [[nodiscard]] const std::string& fault() const;
+
+    // True if the trigger of the controller, or its button that selects, was pressed at the last read(). A
+    // Vive tracker has no button.
     [[nodiscard]] bool pressed() const;
 
     // True if the poses are those in the stage, which is fixed in the room.

@@ -130,6 +130,7 @@ Status Runtime::create_xr_instance() {
     extensions_.local_floor = enable(local_floor_extension);
     extensions_.hand_interaction = enable(hand_interaction_extension);
     extensions_.user_presence = enable(user_presence_extension);
+    extensions_.vive_trackers = enable(XR_HTCX_VIVE_TRACKER_INTERACTION_EXTENSION_NAME);
 
     XrInstanceCreateInfo info = instance_info();
     info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
@@ -183,6 +184,8 @@ Status Runtime::load_functions() {
     BOLT_TRY(load(xr, "xrGetVulkanGraphicsDevice2KHR", f.graphics_device));
     BOLT_TRY(load(xr, "xrCreateVulkanDeviceKHR", f.create_vulkan_device));
     if (extensions_.visibility_mask) BOLT_TRY(load(xr, "xrGetVisibilityMaskKHR", f.visibility_mask));
+    if (extensions_.vive_trackers)
+        BOLT_TRY(load(xr, "xrEnumerateViveTrackerPathsHTCX", f.enumerate_vive_trackers));
     if (!extensions_.hand_tracking) return {};
     BOLT_TRY(load(xr, "xrCreateHandTrackerEXT", f.create_hand_tracker));
     BOLT_TRY(load(xr, "xrDestroyHandTrackerEXT", f.destroy_hand_tracker));

@@ -19,6 +19,7 @@ struct Extensions {
     bool local_floor = false;       // XR_EXT_local_floor
     bool hand_interaction = false;  // XR_EXT_hand_interaction: pinch and grasp as actions
     bool user_presence = false;     // XR_EXT_user_presence, and the headset senses whether it is worn
+    bool vive_trackers = false;     // XR_HTCX_vive_tracker_interaction
 };
 
 // The functions of extensions, which the loader does not export. Null if the runtime lacks the extension.
@@ -31,6 +32,7 @@ struct ExtensionFunctions {
     PFN_xrCreateHandTrackerEXT create_hand_tracker = nullptr;
     PFN_xrDestroyHandTrackerEXT destroy_hand_tracker = nullptr;
     PFN_xrLocateHandJointsEXT locate_hand_joints = nullptr;
+    PFN_xrEnumerateViveTrackerPathsHTCX enumerate_vive_trackers = nullptr;
 };
 
 // An OpenXR instance with its headset. Creates the Vulkan instance and device for this headset.

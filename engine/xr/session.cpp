@@ -268,6 +268,9 @@ Status Session::poll(std::vector<SessionEvent>& events) {
             case XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED:
                 events.emplace_back(BindingsChanged{});
                 break;
+            case XR_TYPE_EVENT_DATA_VIVE_TRACKER_CONNECTED_HTCX:
+                events.emplace_back(TrackersChanged{});
+                break;
             case XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR:
                 hidden_known_ = false;
                 events.emplace_back(VisibilityMaskChanged{});

@@ -105,10 +105,11 @@ struct UserPresence {
     bool worn = false;
 };
 struct BindingsChanged {};  // other controllers: their names and buttons differ
+struct TrackersChanged {};  // a Vive tracker was connected, or has another role
 struct VisibilityMaskChanged {};
 struct EventsLost {};  // the runtime's queue was full; query everything again
-using SessionEvent =
-    std::variant<StateChanged, Recentred, UserPresence, BindingsChanged, VisibilityMaskChanged, EventsLost>;
+using SessionEvent = std::variant<StateChanged, Recentred, UserPresence, BindingsChanged, TrackersChanged,
+                                  VisibilityMaskChanged, EventsLost>;
 
 // The picture of one eye. Both images must be in gpu::ResourceUse::transfer_from; `depth` may be null. The
 // picture may be smaller than Session::extent(); the headset then magnifies it.

@@ -24,7 +24,7 @@ namespace bolt::cli {
 namespace {
 
 struct RegisterArguments {
-    std::string file, points, device, targets, controller, hand, trainee, from, to = "room";
+    std::string file, points, device, targets, controller, hand, trainee, tracker, from, to = "room";
     std::vector<double> tip{};  // empty: with --check the stored tip, else the handle's origin
     std::vector<double> controller_tip{0.0, 0.0, 0.0};
     std::size_t count = 7;
@@ -35,9 +35,16 @@ struct FramePair {
     content::CoordinateFrame from, to;
 };
 
-Result<FramePair> frames_of(const RegisterArguments& options) {
+// The role of the Vive tracker that is fixed to the gloved hand; none: a controller is.
+std::optional<TrackerRole> wrist_tracker(const RegisterArguments& options,
+                                         const content::StationFile& station) {
+    return options.tracker.empty() ? station.glove_tracker : parse_tracker_role(options.tracker);
+}
+
+Result<FramePair> frames_of(const RegisterArguments& options, const content::StationFile& station) {
     if (!options.hand.empty())
-        return FramePair{content::CoordinateFrame::hand, content::CoordinateFrame::controller};
+        return FramePair{content::CoordinateFrame::hand,
+                         station_setup::wrist_frame(wrist_tracker(options, station))};
     const std::string from = !options.from.empty()    ? options.from
                              : options.points.empty() ? "arm"
                                                       : "tracker";
@@ -149,11 +156,14 @@ Result<station_setup::WornGlove> open_glove(const RegisterArguments& options,
     return station_setup::WornGlove::start(station.glove_port, station_setup::wearer_of(calibration));
 }
 
-// Opens the tracker of the controller. Fails without a stage, because only the stage is fixed in the room.
-Result<std::unique_ptr<xr::PoseTracker>> open_controller(const std::string& side) {
-    BOLT_TRY_ASSIGN(auto tracker,
-                    xr::PoseTracker::open(side == "left" ? xr::TrackedDevice::left_controller
-                                                         : xr::TrackedDevice::right_controller));
+// Opens the tracker of the controller, or of the Vive tracker. Fails without a stage, because only the stage
+// is fixed in the room.
+Result<std::unique_ptr<xr::PoseTracker>> open_controller(const std::string& side,
+                                                         const std::optional<TrackerRole>& role = {}) {
+    BOLT_TRY_ASSIGN(auto tracker, role ? xr::PoseTracker::open(*role)
+                                  : side == "left"
+                                      ? xr::PoseTracker::open(xr::TrackedDevice::left_controller)
+                                      : xr::PoseTracker::open(xr::TrackedDevice::right_controller));
     if (!tracker->in_stage())
         return fail(ErrorCode::no_device, "the headset has no stage, so its poses are not fixed in the room",
                     "one whose room is set up");
@@ -165,7 +175,8 @@ Result<std::unique_ptr<xr::PoseTracker>> open_controller(const std::string& side
 station_setup::ControllerIo controller_io(xr::PoseTracker& tracker, EnterKey& enter) {
     const auto read = [&tracker]() -> Result<station_setup::ControllerSample> {
         BOLT_TRY_ASSIGN(const std::optional<Pose> pose, tracker.read());
-        return station_setup::ControllerSample{pose, tracker.pressed(), tracker.origin_moves()};
+        return station_setup::ControllerSample{pose, tracker.pressed(), tracker.origin_moves(),
+                                               tracker.fault()};
     };
     return {read, [&enter] { return enter.pressed(); }, [] { return interrupted(); }, show_line,
             device::steady_timer()};
@@ -185,14 +196,17 @@ Result<std::vector<PointPair>> touch_with_both(const RegisterArguments& options,
     return station_setup::measure_pairs(arm, controller, count);
 }
 
-// Measures the fingertips of a gloved hand in the frame of the controller that is fixed to it.
+// Measures the fingertips of a gloved hand in the frame of the controller or tracker that is fixed to it.
 Result<std::vector<PointPair>> turn_about_fingertips(const RegisterArguments& options,
                                                      const content::StationFile& station) {
     BOLT_TRY_ASSIGN(auto glove, open_glove(options, station));
-    BOLT_TRY_ASSIGN(const auto tracker, open_controller(options.hand));
+    const std::optional<TrackerRole> role = wrist_tracker(options, station);
+    BOLT_TRY_ASSIGN(const auto tracker, open_controller(options.hand, role));
     catch_interruption();
     EnterKey enter;
-    station_setup::ControllerTip controller(controller_io(*tracker, enter), Vec3(0.0));
+    station_setup::ControllerIo io = controller_io(*tracker, enter);
+    if (role) io.device = station_setup::vive_tracker;
+    station_setup::ControllerTip controller(std::move(io), Vec3(0.0));
     return station_setup::measure_fingertips(controller, [&]() -> Result<hand::Skeleton> {
         glove.update();
         const station_setup::WornFingers& fingers = glove.fingers();
@@ -221,15 +235,16 @@ Result<std::vector<PointPair>> measured_pairs(const RegisterArguments& options,
 }
 
 // Reads the file again before it stores the registration, because the user may have edited it meanwhile.
-Status store(const std::string& file, const content::Registration& registration) {
-    BOLT_TRY_ASSIGN(content::StationFile station, content::load_station(file));
+Status store(const RegisterArguments& options, const content::Registration& registration) {
+    BOLT_TRY_ASSIGN(content::StationFile station, content::load_station(options.file));
     content::set_registration(station.registrations, registration);
-    return content::save_station(file, station);
+    if (!options.tracker.empty()) station.glove_tracker = wrist_tracker(options, station);
+    return content::save_station(options.file, station);
 }
 
 Status register_station(const RegisterArguments& options) {
-    BOLT_TRY_ASSIGN(const FramePair frames, frames_of(options));
     BOLT_TRY_ASSIGN(const content::StationFile station, content::load_station(options.file));
+    BOLT_TRY_ASSIGN(const FramePair frames, frames_of(options, station));
     BOLT_TRY_ASSIGN(const std::vector<PointPair> pairs, measured_pairs(options, station));
     const std::string date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
     BOLT_TRY_ASSIGN(auto measured, station_setup::register_frames(frames.from, frames.to, pairs, date));
@@ -245,15 +260,15 @@ Status register_station(const RegisterArguments& options) {
         }
         BOLT_TRY(print(fmt::format("  warning: {}\n", good.error().message())));
     }
-    BOLT_TRY(store(options.file, measured.registration));
+    BOLT_TRY(store(options, measured.registration));
     return print(fmt::format("{}: stored\n", options.file));
 }
 
 // Compares the stored registration with a touch of its check point, with a point that the arm and a
 // controller touch, or with the points of a file. Fails if a point is off by more than the limit.
 Status check_registration(RegisterArguments options) {
-    BOLT_TRY_ASSIGN(const FramePair frames, frames_of(options));
     BOLT_TRY_ASSIGN(const content::StationFile station, content::load_station(options.file));
+    BOLT_TRY_ASSIGN(const FramePair frames, frames_of(options, station));
     auto found = station_setup::registration_from(station.registrations, frames.from, frames.to);
     if (!found) {
         found.error().file = options.file;
@@ -309,14 +324,21 @@ void add_touch_options(CLI::App& command, RegisterArguments& options, CLI::Optio
         "does; no file of points is needed");
     controller->check(CLI::IsMember({"left", "right"}))->excludes(points)->excludes(targets);
     CLI::Option* hand = command.add_option("--hand", options.hand,
-                                           "left or right: the gloved hand with the headset's controller "
-                                           "fixed to it, which the wearer turns about each "
-                                           "fingertip; measures where the wrist is at the controller");
+                                           "left or right: the gloved hand with the headset's controller or "
+                                           "a Vive tracker fixed to it, which the wearer turns about each "
+                                           "fingertip; measures where the wrist is at that device");
     hand->check(CLI::IsMember({"left", "right"}))->excludes(points)->excludes(targets)->excludes(controller);
     CLI::Option* trainee =
         command.add_option("--trainee", options.trainee, "Name or code of the wearer of the glove");
     trainee->needs(hand);
     hand->needs(trainee);
+    command
+        .add_option(
+            "--tracker", options.tracker,
+            "Role of the Vive tracker that is fixed to the gloved hand, such as right_wrist; stored as "
+            "the glove's wrist_tracker. Default: that of the station file, else a controller")
+        ->check(CLI::IsMember(std::vector<std::string>(tracker_role_names.begin(), tracker_role_names.end())))
+        ->needs(hand);
     CLI::Option* controller_tip =
         add_tip("--controller-tip", options.controller_tip,
                 "Position x,y,z of the controller's tip in the frame of its grip, m");
@@ -347,8 +369,8 @@ void add_station_register(CLI::App& station, int& exit_code) {
     add_touch_options(*command, *options, points);
     command->add_option(
         "--from", options->from,
-        "The first frame: arm, wheel, tracker, wall, workpiece, room, hand or controller; default: arm, with "
-        "--points tracker");
+        "The first frame: arm, wheel, tracker, wall, workpiece, room, hand, controller or wrist_tracker; "
+        "default: arm, with --points tracker");
     command->add_option("--to", options->to, "The second frame")->capture_default_str();
     command->add_flag(
         "--check", options->check,

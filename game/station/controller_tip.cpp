@@ -38,11 +38,14 @@ Status ControllerTip::wait_for_press() {
         const bool was_held = std::exchange(held, sample.pressed);
         const bool pressed = (sample.pressed && !was_held) || io_.confirmed();
         if (sample.pose) {
-            if (std::exchange(shown, false)) io_.show("The controller is tracked again.");
+            if (std::exchange(shown, false))
+                io_.show(fmt::format("The {} is tracked again.", io_.device.name));
             tracked_time = io_.timer.now();
             if (pressed) return {};
         } else if (pressed || (!shown && io_.timer.now() - tracked_time > options_.max_silence)) {
-            io_.show("The controller is not tracked: switch it on, and hold it where the headset sees it.");
+            io_.show(sample.fault.empty()
+                         ? fmt::format("The {} is not tracked: {}.", io_.device.name, io_.device.remedy)
+                         : fmt::format("The {} is not tracked: {}.", io_.device.name, sample.fault));
             shown = true;
         }
     }
@@ -64,10 +67,9 @@ Result<std::vector<Pose>> ControllerTip::tracked_poses(double seconds) {
 Result<PivotFit> ControllerTip::find_tip(const Pivot& pivot) {
     while (true) {
         io_.show(
-            fmt::format("Hold {} on a fixed point, press the trigger of the controller or Enter, and turn {} "
-                        "about the tip "
-                        "in all directions for {:.0f} s; the tip must not slip.",
-                        pivot.tip, pivot.turned, pivot_time));
+            fmt::format("Hold {} on a fixed point, {}, and turn {} about the tip in all directions for "
+                        "{:.0f} s; the tip must not slip.",
+                        pivot.tip, io_.device.press, pivot.turned, pivot_time));
         BOLT_TRY(wait_for_press());
         BOLT_TRY_ASSIGN(const std::vector<Pose> poses, tracked_poses(pivot_time));
         const Result<PivotFit> fit = fit_pivot(poses);
@@ -80,7 +82,7 @@ Result<PivotFit> ControllerTip::find_tip(const Pivot& pivot) {
         }
         io_.show(fmt::format(
             "{}. Once more.",
-            poses.empty() ? "The controller was not tracked all the time"
+            poses.empty() ? fmt::format("The {} was not tracked all the time", io_.device.name)
             : fit         ? fmt::format("The tip has slipped: its rms is {:.1f} mm; expected at most {:.1f}",
                                         fit->rms / mm, pivot.max_rms / mm)
                           : fit.error().message()));

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,7 +18,17 @@ struct ControllerSample {
     std::optional<Pose> pose;        // of its grip, in the tracker's frame; none: it is not tracked
     bool pressed = false;            // its button
     std::uint32_t origin_moves = 0;  // times that the origin of the tracker's frame was moved
+    std::string fault;               // why there is no pose; empty: not known
 };
+
+// The device in the user's hand, as requests name it.
+struct TouchingDevice {
+    std::string_view name = "controller";
+    std::string_view press = "press the trigger of the controller or Enter";
+    std::string_view remedy = "switch it on, and hold it where the headset sees it";
+};
+inline constexpr TouchingDevice vive_tracker{"Vive tracker", "press Enter",
+                                             "switch it on, and hold it where its base stations see it"};
 
 // The functions of the program that a touch with a controller calls. Tests replace them, as they do TouchIo.
 struct ControllerIo {
@@ -26,6 +37,7 @@ struct ControllerIo {
     std::function<bool()> stop;                      // the user ends the program
     std::function<void(std::string_view)> show;      // a line for the user
     device::Timer timer;
+    TouchingDevice device{};
 };
 
 // Permits more motion than for an arm, because optical trackers have a noise of about a millimetre, which the

@@ -9,6 +9,7 @@
 #include "content/station/registration.hpp"
 #include "engine/base/result.hpp"
 #include "engine/base/rigid_alignment.hpp"
+#include "engine/base/tracker_role.hpp"
 
 namespace bolt::station_setup {
 
@@ -47,6 +48,11 @@ struct MeasuredRegistration {
 // align_points() fails, with the same AlignmentFaultDetail. `date`: valid for content::is_utc_date().
 Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, content::CoordinateFrame to,
                                              std::span<const PointPair> pairs, const std::string& date);
+
+// The frame of the device that is fixed to a gloved hand: a Vive tracker, or a controller.
+constexpr content::CoordinateFrame wrist_frame(const std::optional<TrackerRole>& tracker) {
+    return tracker ? content::CoordinateFrame::wrist_tracker : content::CoordinateFrame::controller;
+}
 
 // A table of the points, and the values that assess the registration.
 std::string describe(const MeasuredRegistration& measured);

@@ -8,6 +8,7 @@
 
 #include "content/format/folders.hpp"
 #include "engine/base/nearest.hpp"
+#include "game/station/frame_registration.hpp"
 #include "haptics/device/device_thread.hpp"
 
 namespace bolt::station_setup {
@@ -90,6 +91,13 @@ std::vector<StationFinding> compare(const content::StationFile& station, const S
     add(station.arm, facts.arm, "arm");
     add(station.wheel, facts.wheel, "wheel");
     if (!facts.glove) findings.push_back({true, "glove: " + facts.glove.error().message()});
+    if (station.glove_tracker && !registration_from(station.registrations, content::CoordinateFrame::hand,
+                                                    content::CoordinateFrame::wrist_tracker))
+        findings.push_back(
+            {false, fmt::format("glove: the wrist is not registered with the Vive tracker {}, so "
+                                "it does not move the hand; expected a registration by "
+                                "`boltwright station register --hand SIDE --trainee NAME`",
+                                name(*station.glove_tracker))});
     if (station.arm && !station.arm->tool.empty()) {
         const std::string& tool = station.arm->tool;
         const std::string near = nearest(tool, facts.tools);

@@ -112,9 +112,12 @@ void enter_room(ActiveLesson& active, const std::optional<RoomInput>& room) {
     const xr::HandInput& measured = seen ? (*room->hands)[client.tracked->side] : no_hand;
     const station_setup::WornFingers* glove = client.link->worn_fingers();
     const bool gloved = glove != nullptr && glove->measured;
-    track_hand(*client.tracked, {gloved ? with_glove(measured, *glove, client.wrist_at_controller) : measured,
-                                 room ? room->room_in_assembly : Pose{}, hand_of(active).wrench,
-                                 client.latest.output.joint >= 0});
+    client.wrist_fault =
+        seen && glove != nullptr ? wrist_fault(room->hands->trackers, client.wrist_mount) : "";
+    track_hand(
+        *client.tracked,
+        {gloved && seen ? with_glove(*room->hands, *glove, client.wrist_mount) : measured,
+         room ? room->room_in_assembly : Pose{}, hand_of(active).wrench, client.latest.output.joint >= 0});
 }
 
 }  // namespace

@@ -247,6 +247,10 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
                         hand_of(active).wrench ? "in the hand" : "laid down"));
     for (const lesson::LessonEvent& event : active.events) log(describe_event(context_->assembly, event, dt));
     active.events.clear();
+    if (active.station && std::exchange(active.station->logged_fault, active.station->wrist_fault) !=
+                              active.station->wrist_fault)
+        log(active.station->wrist_fault.empty() ? "glove: the wrist is tracked"
+                                                : active.station->wrist_fault);
     if (active.sound.live)
         if (const auto news = active.sound.live->status_change()) log(*news);
     BOLT_TRY(frame.status);

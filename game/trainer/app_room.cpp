@@ -247,7 +247,7 @@ xr::Hands App::gloved_hands(xr::Hands hands) const {
     if (!active_ || !active_->station) return hands;
     const StationClient& client = *active_->station;
     if (const station_setup::WornFingers* glove = client.link->worn_fingers())
-        hands[glove->side] = with_glove(hands[glove->side], *glove, client.wrist_at_controller);
+        hands[glove->side] = with_glove(hands, *glove, client.wrist_mount);
     return hands;
 }
 

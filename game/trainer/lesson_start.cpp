@@ -89,12 +89,12 @@ hand::Side working_side(const ActiveLesson& active, const content::TraineeSettin
     return settings.left_handed ? hand::Side::left : hand::Side::right;
 }
 
-// The registration of a glove and the controller that is fixed to it.
-std::optional<Pose> wrist_at_controller(const content::StationFile& station) {
-    using content::CoordinateFrame;
-    const Result<content::Registration> found = station_setup::registration_from(
-        station.registrations, CoordinateFrame::hand, CoordinateFrame::controller);
-    return found ? std::optional(found->pose) : std::nullopt;
+// The registration of a glove and of what is fixed to it.
+WristMount wrist_mount(const content::StationFile& station) {
+    const Result<content::Registration> found =
+        station_setup::registration_from(station.registrations, content::CoordinateFrame::hand,
+                                         station_setup::wrist_frame(station.glove_tracker));
+    return {station.glove_tracker, found ? std::optional(found->pose) : std::nullopt};
 }
 
 // A view of the workpiece and the resting wrench, no higher than the eyes of a seated trainee.
@@ -256,7 +256,7 @@ void place_trainee(ActiveLesson& active, const LessonContext& context, float asp
         station.rest = hand_of(active).rest;
         station.home = hand_of(active).pose;
         if (station.tracked) station.tracked->side = worker.side;
-        station.wrist_at_controller = wrist_at_controller(context.choice.equipment.station);
+        station.wrist_mount = wrist_mount(context.choice.equipment.station);
         const hand::Skeleton& open = active.postures.front().open;
         const Pose fingers = scene::frame_towards(station.home, active.shoulder, 0.0);
         station.empty_hand_wrist =

@@ -107,6 +107,7 @@ servo::Grip grip_of(const StationClient& client, bool closes, const UserActions&
 void update_client(StationClient& client, const session::LessonSession& session) {
     client.latest = client.link->latest_tick();
     client.fault_messages = client.link->fault_messages();
+    if (!client.wrist_fault.empty()) client.fault_messages.push_back(client.wrist_fault);
     client.needs = client.link->needs();
     client.health = client.link->health();
     const station::DisplayedHand* hand = client.link->hand();

@@ -51,13 +51,12 @@ struct StationClient {
     KeyboardPuck keyboard;
     std::optional<DraggedHand> dragged;  // the mouse moves a simulated arm
     std::optional<TrackedHand> tracked;  // a headset's hand moves it
-    // The wrist of a gloved hand in the frame of the grip pose of the controller that is fixed to it; none:
-    // not registered.
-    std::optional<Pose> wrist_at_controller;
+    WristMount wrist_mount;              // of a gloved hand
 
     // Received from the station.
     station::StationTick latest;
     std::vector<std::string> fault_messages;  // of devices and glove
+    std::string wrist_fault;                  // of the Vive tracker of a gloved hand; empty: none
     device::DeviceHealth health;              // of the device that moves the tool
     device::ArmNeeds needs;                   // of the device that moves the tool, after it was lost
     hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench (held or at rest)
@@ -79,6 +78,7 @@ struct StationClient {
 
     // Kept from frame to frame.
     bool hand_closed = false;      // in the previous frame
+    std::string logged_fault;      // wrist_fault of the previous frame
     bool waits_for_arm = false;    // the lesson is paused until the arm has what it needs
     bool user_had_paused = false;  // the user had paused the lesson before the arm did
 };

@@ -1,5 +1,7 @@
 #include "game/trainer/tracked_hand.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -60,11 +62,15 @@ Pose palm_joint_at_fingertips(xr::Side side) {
     return inverse(fingertips_at_palm(side)) * palm;
 }
 
-xr::HandInput with_glove(const xr::HandInput& hand, const station_setup::WornFingers& fingers,
-                         const std::optional<Pose>& wrist_at_controller) {
+xr::HandInput with_glove(const xr::Hands& hands, const station_setup::WornFingers& fingers,
+                         const WristMount& mount) {
+    const xr::HandInput& hand = hands[fingers.side];
     std::optional<Pose> wrist;
-    if (hand.active && hand.grip && wrist_at_controller)
-        wrist = hand.grip->pose * *wrist_at_controller;
+    if (mount.tracker && mount.wrist) {
+        if (const std::optional<xr::LocatedPose>& tracker = hands.trackers[*mount.tracker])
+            wrist = tracker->pose * *mount.wrist;
+    } else if (hand.active && hand.grip && mount.wrist)
+        wrist = hand.grip->pose * *mount.wrist;
     else if (hand.active && hand.joints && (*hand.joints)[hand::wrist].valid)
         wrist = (*hand.joints)[hand::wrist].pose;
     else if (const auto palm = palm_of(hand, fingers.side)) {
@@ -80,6 +86,17 @@ xr::HandInput with_glove(const xr::HandInput& hand, const station_setup::WornFin
     for (std::size_t i = 0; i < hand::joint_count; ++i)
         joints[i] = {*wrist * Pose{fingers.joints.position[i], fingers.joints.rotation[i]}, 0.0, true};
     return gloved;
+}
+
+std::string wrist_fault(const xr::ViveTrackers& trackers, const WristMount& mount) {
+    if (!mount.tracker) return {};
+    if (!mount.wrist)
+        return fmt::format(
+            "glove: the wrist is not registered with the Vive tracker {}; expected a "
+            "registration by boltwright station register --hand SIDE --trainee NAME",
+            name(*mount.tracker));
+    const std::optional<Error> fault = xr::tracker_fault(trackers, *mount.tracker);
+    return fault ? "glove: " + fault->message() : std::string();
 }
 
 namespace {

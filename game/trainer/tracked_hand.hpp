@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "engine/base/math.hpp"
 #include "engine/xr/input.hpp"
@@ -43,12 +44,24 @@ Pose fingertips_at_palm(xr::Side side);
 // The pose of the joint hand::palm in the frame of the fingertips.
 Pose palm_joint_at_fingertips(xr::Side side);
 
-// The hand with the fingers of a glove instead of those that the headset sees. It closes as the glove does;
-// the buttons of a controller that is fixed to it do nothing, and it does not point. Its wrist is, in this
-// order: at the controller where it is registered, where the cameras see it, or that of a hand that holds the
+// The device that is fixed to a gloved hand, and the registered pose of the wrist in its frame.
+struct WristMount {
+    std::optional<TrackerRole> tracker;  // none: the hand's controller
+    std::optional<Pose> wrist;           // in the frame of the device's grip pose; none: not registered
+};
+
+// The hand of `hands` with the fingers of a glove instead of those that the headset sees. It closes as the
+// glove does; the buttons of a controller that is fixed to it do nothing, and it does not point. Its wrist is
+// at a registered Vive tracker. While that is lost, the hand is not tracked, because a controller or a hand
+// that the cameras see may then be another one. Without a registered tracker the wrist is, in this order: at
+// the controller where it is registered, where the cameras see it, or that of a hand that holds the
 // controller.
-xr::HandInput with_glove(const xr::HandInput& hand, const station_setup::WornFingers& fingers,
-                         const std::optional<Pose>& wrist_at_controller);
+xr::HandInput with_glove(const xr::Hands& hands, const station_setup::WornFingers& fingers,
+                         const WristMount& mount);
+
+// Why the Vive tracker of a gloved hand does not measure its wrist, for the user; empty: it does, or there is
+// none.
+std::string wrist_fault(const xr::ViveTrackers& trackers, const WristMount& mount);
 
 // Call once a frame. A hand that is not tracked keeps its pose and opens.
 void track_hand(TrackedHand& tracked, const TrackedHandInput& input);

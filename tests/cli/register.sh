@@ -295,6 +295,52 @@ assert all(abs(a - b) < 5e-4 for a, b in zip(one["position_m"], (0.02, -0.05, 0.
 assert abs(one["orientation_wxyz"][0] - 0.5 ** 0.5) < 5e-3 and abs(one["orientation_wxyz"][2] - 0.5 ** 0.5) < 5e-3, one
 END
 
+
+# The same with a Vive tracker, which the station file then names, and a wearer who presses Enter.
+"$bin/bolt-emulate" glove --period 0 --link "$work/worn" > /dev/null &
+emulated=$!
+expect 2 'not in \{handheld_object' "${run[@]}" s.json --hand right --trainee T-7K3M9Q --tracker wrist
+expect 2 'requires --hand' "${run[@]}" s.json --tracker right_wrist --controller right
+check 'the glove is there' eventually test -L worn
+expect 4 'it lacks XR_HTCX_vive_tracker_interaction; expected a runtime' "${run[@]}" s.json --hand right --trainee T-7K3M9Q --tracker right_wrist
+sed -i '1i 0 config with XR_HTCX_vive_tracker_interaction' script.txt
+sed -i -e 's/hand right active 1.nhand right grip/tracker LHR-1 role right_wrist\\ntracker LHR-1 pose/' -e '/hand right trigger/d' turn_hand.py
+rm turned
+control 'hand right active 0' 'tracker LHR-1 role waist'
+: > log
+mkfifo enter
+"${run[@]}" s.json --hand right --trainee T-7K3M9Q --tracker right_wrist < enter > out.txt 2> log &
+player=$!
+exec 3> enter
+check 'Enter is asked for, because the tracker has no trigger' eventually grep -q 'Hold the tip of the thumb on a fixed point, press Enter, and turn the stiff hand' log
+check 'a tracker with another role is reported' eventually grep -q 'The Vive tracker is not tracked: no Vive tracker that is switched on has the role right_wrist; there are waist; expected' log
+python3 turn_hand.py &
+turner=$!
+check 'and waited for' eventually grep -q 'The Vive tracker is tracked again' log
+for finger in thumb index middle little ring; do
+    check "the tip of the $finger is asked for" eventually grep -q "^Hold the tip of the $finger" log
+    found=$(grep -c 'The tip is at' log)
+    sleep 0.5
+    echo >&3
+    next() { [[ $(grep -c 'The tip is at' log) -gt $found ]]; }
+    check 'and found' eventually next
+done
+check 'the wrist is registered with the tracker' wait $player
+player=
+exec 3>&-
+touch turned
+wait $turner
+kill $emulated
+check 'its fingertips fit too' grep -q 'hand -> wrist_tracker, 4 points' out.txt
+check 'the tracker is stored, and the registration with the controller stays' python3 - s.json <<'END'
+import json, sys
+station = json.load(open(sys.argv[1]))
+assert station["glove"]["wrist_tracker"] == "right_wrist", station
+assert [one["to"] for one in station["registrations"]] == ["controller", "wrist_tracker"], station
+one = station["registrations"][1]
+assert all(abs(a - b) < 5e-4 for a, b in zip(one["position_m"], (0.02, -0.05, 0.07))), one
+END
+sed -i 1d script.txt
 cp old.json s.json
 
 # An interruption, or the end of the runtime, ends the registration, also while a controller is not tracked.

@@ -113,6 +113,17 @@ TEST_CASE("Station check: a map that the device cannot follow is a warning") {
     CHECK(bench.text() == "  warning: arm: scale and power have no effect: the device senses a velocity\n");
 }
 
+TEST_CASE("Station check: a Vive tracker without its registration does not move the gloved hand") {
+    Bench bench;
+    bench.station.glove_tracker = TrackerRole::right_wrist;
+    CHECK(contains(bench.text(),
+                   "warning: glove: the wrist is not registered with the Vive tracker right_wrist, so"));
+    content::Registration& registered = bench.station.registrations.emplace_back();
+    registered.from = content::CoordinateFrame::wrist_tracker;
+    registered.to = content::CoordinateFrame::hand;
+    CHECK(bench.text().empty());
+}
+
 TEST_CASE("Station check: the shipped assemblies have the tools that a station can name") {
     const std::vector<std::string> tools = find_facts({}).tools;
     CHECK(std::find(tools.begin(), tools.end(), "torque_wrench") != tools.end());

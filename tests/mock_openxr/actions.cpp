@@ -51,6 +51,14 @@ XrResult XRAPI_CALL destroy_set(XrActionSet handle) {
     return remove(s, name, s.instance->sets, handle, Kind::action_set) ? success : XR_ERROR_HANDLE_INVALID;
 }
 
+// A role of a Vive tracker that this runtime does not know, such as an older one the wrists.
+bool has_unknown_role(const Config& config, const std::string& path) {
+    return std::any_of(config.unknown_roles.begin(), config.unknown_roles.end(),
+                       [&](const std::string& role) {
+                           return path == role_folder + role || path.rfind(role_folder + role + "/", 0) == 0;
+                       });
+}
+
 XrResult XRAPI_CALL create_action(XrActionSet handle, const XrActionCreateInfo* info, XrAction* action) {
     constexpr const char* name = "xrCreateAction";
     return call(name, Level::instance, [&](State& s, auto&) {
@@ -65,6 +73,10 @@ XrResult XRAPI_CALL create_action(XrActionSet handle, const XrActionCreateInfo* 
         for (const auto& [id, other] : s.instance->actions)
             if (other.set == id_of(handle) && other.name == info->actionName)
                 return refuse(s, name, XR_ERROR_NAME_DUPLICATED, "is given a name that another action has");
+        const Config& config = s.instance->config;
+        for (std::uint32_t i = 0; config.refuses_unknown_roles && i < info->countSubactionPaths; ++i)
+            if (has_unknown_role(config, s.instance->paths[info->subactionPaths[i] - 1]))
+                return XR_ERROR_PATH_UNSUPPORTED;
         Action created;
         created.set = id_of(handle);
         created.name = info->actionName;
@@ -94,9 +106,12 @@ const std::string* text_of(const State& s, XrPath path) {
 bool knows(const State& s, const std::string& profile) {
     const std::vector<std::string>& unknown = s.instance->config.unknown_profiles;
     const bool excluded = std::find(unknown.begin(), unknown.end(), profile) != unknown.end();
-    const bool needs_extension = profile == "/interaction_profiles/ext/hand_interaction_ext";
-    const bool enabled = s.instance->extensions.count("XR_EXT_hand_interaction") != 0;
-    return is_known_profile(profile) && !excluded && (!needs_extension || enabled);
+    const auto enabled = [&](const char* extension) { return s.instance->extensions.count(extension) != 0; };
+    const bool known =
+        profile == "/interaction_profiles/ext/hand_interaction_ext" ? enabled("XR_EXT_hand_interaction")
+        : profile == "/interaction_profiles/htc/vive_tracker_htcx"  ? enabled(vive_tracker_extension)
+                                                                    : is_known_profile(profile);
+    return known && !excluded;
 }
 
 // The components that an action of this type can be bound to.
@@ -118,6 +133,7 @@ XrResult suggest_one(State& s, const std::string& profile, const XrActionSuggest
     if (action == nullptr) return XR_ERROR_HANDLE_INVALID;
     const std::string* path = text_of(s, binding.binding);
     if (path == nullptr) return refuse(s, name, XR_ERROR_PATH_INVALID, "is given a path that does not exist");
+    if (has_unknown_role(s.instance->config, *path)) return XR_ERROR_PATH_UNSUPPORTED;  // a client may try
     if (!has_input(profile, *path))
         return refuse(s, name, XR_ERROR_PATH_UNSUPPORTED,
                       fmt::format("binds {}, which {} lacks", *path, profile));

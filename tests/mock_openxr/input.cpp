@@ -30,6 +30,14 @@ const Binding* bound(const State& s, std::uint64_t action, std::size_t side, con
     return nullptr;
 }
 
+// True if the action is bound to an input of the Vive tracker with this path of a role.
+bool bound_to_role(const State& s, std::uint64_t action, const std::string& role) {
+    const std::vector<Binding>& bindings = s.instance->bindings;
+    return std::any_of(bindings.begin(), bindings.end(), [&](const Binding& binding) {
+        return binding.action == action && binding.path.rfind(role + "/", 0) == 0;
+    });
+}
+
 // The value of an input with one dimension.
 float value_at(const Hand& hand, const std::string& path) {
     const auto has = [&](std::string_view part) { return path.find(part) != std::string::npos; };
@@ -63,9 +71,16 @@ XrResult read(State& s, std::string_view name, const XrActionStateGetInfo& info,
     if (action->type != type)
         return refuse(s, name, XR_ERROR_ACTION_TYPE_MISMATCH, "is given an action of another type");
     const std::optional<std::size_t> side = side_of(s, info.subactionPath);
-    if (!side ||
-        std::find(action->sides.begin(), action->sides.end(), info.subactionPath) == action->sides.end())
+    const bool has_path =
+        std::find(action->sides.begin(), action->sides.end(), info.subactionPath) != action->sides.end();
+    const std::string role = has_path && !side ? s.instance->paths[info.subactionPath - 1] : std::string();
+    if (!has_path || (!side && role.rfind(role_folder, 0) != 0))
         return refuse(s, name, XR_ERROR_PATH_UNSUPPORTED, "is given a subaction path that the action lacks");
+    if (!side) {
+        out.active = session.has_synced && focused(s) && bound_to_role(s, id_of(info.action), role) &&
+                     tracker_with_role(session.synced_trackers, role) != nullptr;
+        return XR_SUCCESS;
+    }
     const Hand& hand = session.synced[*side];
     const Binding* binding = bound(s, id_of(info.action), *side, hand);
     out.active = session.has_synced && focused(s) && binding != nullptr;
@@ -151,6 +166,7 @@ XrResult XRAPI_CALL sync(XrSession, const XrActionsSyncInfo* info) {
         run_followed(s);
         session.synced_before = session.synced;
         session.synced = s.hands;
+        session.synced_trackers = s.vive_trackers;
         session.has_synced = true;
         return focused(s) ? XR_SUCCESS : XR_SESSION_NOT_FOCUSED;
     });
@@ -268,6 +284,12 @@ XrResult XRAPI_CALL locate_joints(XrHandTrackerEXT handle, const XrHandJointsLoc
 }  // namespace
 
 Tracked locate_action(const State& s, const Space& space) {
+    if (!space.role.empty()) {
+        const ViveTracker* tracker = tracker_with_role(s.vive_trackers, space.role);
+        Tracked at = tracker != nullptr ? tracker->at : Tracked{{}, false, false};
+        at.valid = at.valid && bound_to_role(s, space.action, space.role) && focused(s);
+        return at;
+    }
     const Hand& hand = s.hands[space.side];
     const Binding* binding = bound(s, space.action, space.side, hand);
     Tracked at =

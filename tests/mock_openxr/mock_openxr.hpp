@@ -6,37 +6,7 @@
 // function of type `const Control*()`. All its functions lock the mock, so any thread may call them. Poses
 // are relative to the stage: metres, y up.
 //
-// A program in another process is driven by a script: the file that MOCK_OPENXR_SCRIPT names. Time then is
-// real. A line is a frame number, a command and its arguments; an empty line or one that begins with # is
-// skipped. Frames are counted from 0 over the whole process. A frame's commands run when the client waits for
-// that frame; while no session runs, each xrGetSystem and each xrPollEvent without an event counts as a
-// frame. Commands of frame 0 run before the first instance is created.
-//
-//   0 config eyes|width|height|period|ipd|cant VALUE  properties of the headset (Config); width and height of
-//                                                     the recommended picture; period, ipd and cant in SI
-//   0 config with|without EXTENSION      the runtime offers the extension, or does not
-//   0 config format VK_FORMAT_NUMBER     the only colour format; depth stays
-//   0 config separate|foreign_gpu 1      no swapchains with several layers; a GPU that Vulkan does not list
-//   0 config passthrough 1               the blend mode ALPHA_BLEND is offered
-//   0 config realtime 0|1                xrWaitFrame waits in real time
-//   0 report FILE          writes a summary at each xrDestroyInstance and at exit: "frames N", "drawn N",
-//                          "blended N", "vibrations N", then "violation TEXT" for each violation
-//   F head POSE            POSE: x y z qx qy qz qw
-//   F head valid|tracked 0|1
-//   F hand left|right grip|aim POSE
-//   F hand SIDE trigger|squeeze VALUE
-//   F hand SIDE stick X Y, or profile /interaction_profiles/...
-//   F hand SIDE active|menu|secondary|valid|tracked|joints|pinch 0|1   joints: a flat hand around the grip;
-//                                                                      pinch: of the joints
-//   F event ready|stopping|visible|focused|session_loss|instance_loss|exit|profile|mask|events_lost
-//   F event worn|not_worn   sensed by XR_EXT_user_presence; the session keeps its state
-//   F event recentre stage|floor|seated [POSE]     the origin moves to POSE in the old space
-//   F headset 0|1          disconnected or connected, as the next xrGetSystem reports it
-//   F render 0|1           whether xrWaitFrame asks for pictures
-//   F fail FUNCTION RESULT COUNT                   RESULT: a number, for example -17
-//   F follow FILE          each xrSyncActions runs the commands of FILE, which have no frame numbers
-//   F picture FILE         writes the frame's pictures, side by side, as PPM, when the frame ends
-//   F exit                 the user ends the program in the headset's menu: `event exit`
+// A program in another process is driven by a script (script.hpp).
 #pragma once
 
 #include <openxr/openxr.h>
@@ -88,6 +58,8 @@ struct Config {
     bool refuse_arrays = false;                 // xrCreateSwapchain fails for more than one layer
     bool tracks_hands = true;                   // the system property, if XR_EXT_hand_tracking is enabled
     std::vector<std::string> unknown_profiles;  // interaction profiles that the runtime does not know
+    std::vector<std::string> unknown_roles;     // of Vive trackers: the runtime accepts no binding of them
+    bool refuses_unknown_roles = false;         // and no action
     std::array<ViewAngles, 2> fov{ViewAngles{}, ViewAngles{-0.7F, 0.8F, 0.75F, -0.85F}};
     double ipd = 0.064;                   // m between the eyes
     double cant = 0.0;                    // rad by which each eye is turned outwards
@@ -124,6 +96,14 @@ struct Hand {
     std::array<Joint, joint_count> joints{};
 };
 enum class Side : std::uint8_t { left, right };
+
+inline constexpr const char* vive_tracker_extension = XR_HTCX_VIVE_TRACKER_INTERACTION_EXTENSION_NAME;
+struct ViveTracker {
+    std::string serial;  // part of its persistent path
+    std::string role;    // the end of its role path; empty: none
+    bool connected = true;
+    Tracked at;
+};
 
 // An action of the user or the runtime.
 enum class Event : std::uint8_t {
@@ -185,6 +165,9 @@ struct Control {
     void (*connect)(bool connected);
     void (*set_head)(const Tracked& head);
     void (*set_hand)(Side side, const Hand& hand);
+    // Adds the tracker with this serial number, or changes it. The runtime reports one that was connected or
+    // got another role, but not one that was switched off.
+    void (*set_vive_tracker)(const ViveTracker& tracker);
     void (*send)(Event event);
     // The origin of the space moves to `shift`, in the old space, `delay` ns after the last display time.
     // Without `shift` the runtime does not know where to.

@@ -47,6 +47,16 @@ constexpr Profile profiles[] = {
      "", ""},
 };
 
+// XR_HTCX_vive_tracker_interaction, of each role.
+constexpr std::string_view tracker_profile = "/interaction_profiles/htc/vive_tracker_htcx";
+constexpr std::string_view tracker_inputs =
+    "input/system/click input/menu/click input/trigger/click input/trigger/value input/squeeze/click "
+    "input/trackpad/x input/trackpad/y input/trackpad/click input/trackpad/touch input/grip/pose "
+    "output/haptic";
+constexpr std::string_view roles =
+    "handheld_object left_foot right_foot left_shoulder right_shoulder left_elbow right_elbow left_knee "
+    "right_knee waist chest camera keyboard left_wrist right_wrist left_ankle right_ankle";
+
 // The list names the input, or a component of it: "input/thumbstick" stands for "input/thumbstick/x" and y.
 bool lists(std::string_view list, std::string_view input) {
     for (std::size_t at = list.find(input); at != std::string_view::npos; at = list.find(input, at + 1)) {
@@ -60,12 +70,20 @@ bool lists(std::string_view list, std::string_view input) {
 }  // namespace
 
 bool is_known_profile(const std::string& profile) {
+    if (profile == tracker_profile) return true;
     for (const Profile& known : profiles)
         if (known.path == profile) return true;
     return false;
 }
 
 bool has_input(const std::string& profile, const std::string& path) {
+    if (profile == tracker_profile) {
+        if (path.rfind(role_folder, 0) != 0) return false;
+        const std::string_view rest = std::string_view(path).substr(role_folder.size());
+        const std::size_t slash = rest.find('/');
+        return slash != std::string_view::npos && lists(roles, rest.substr(0, slash)) &&
+               lists(tracker_inputs, rest.substr(slash + 1));
+    }
     constexpr std::string_view left = "/user/hand/left/", right = "/user/hand/right/";
     const bool is_left = path.rfind(left, 0) == 0, is_right = path.rfind(right, 0) == 0;
     if (!is_left && !is_right) return false;

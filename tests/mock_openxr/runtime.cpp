@@ -16,6 +16,7 @@ const char* extension_of(std::string_view function) {
     if (contains("Vulkan")) return XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME;
     if (contains("VisibilityMask")) return XR_KHR_VISIBILITY_MASK_EXTENSION_NAME;
     if (contains("HandTracker") || contains("HandJoints")) return XR_EXT_HAND_TRACKING_EXTENSION_NAME;
+    if (contains("ViveTracker")) return vive_tracker_extension;
     if (contains("ConvertTimespec")) return XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME;
     return nullptr;
 }
@@ -29,6 +30,7 @@ XrResult XRAPI_CALL get_proc(XrInstance instance, const char* name, PFN_xrVoidFu
         add_swapchain_functions(made);
         add_action_functions(made);
         add_input_functions(made);
+        add_tracker_functions(made);
         add(made, "xrGetInstanceProcAddr", &get_proc);
         return made;
     }();
@@ -60,6 +62,7 @@ void reset() {
         s.config = {};
         s.head = State().head;
         s.hands = {};
+        s.vive_trackers.clear();
         s.sensed = s.worn = s.focus = s.should_render = true;
         s.blocked = s.capture = false;
         s.blocked_call.clear();
@@ -85,6 +88,7 @@ const Control control{
     [](Side side, const Hand& hand) {
         locked([&](State& s) { s.hands[static_cast<std::size_t>(side)] = hand; });
     },
+    [](const ViveTracker& tracker) { locked([&](State& s) { set_vive_tracker(s, tracker); }); },
     [](Event event) { locked([&](State& s) { play(s, event); }); },
     [](XrReferenceSpaceType space, XrDuration delay, const std::optional<Pose>& shift) {
         locked([&](State& s) { play_recentre(s, space, delay, shift); });

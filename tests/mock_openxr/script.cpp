@@ -189,6 +189,27 @@ void set_config(State& s, Arguments& arguments) {
     }
 }
 
+void run_tracker(State& s, Arguments& arguments) {
+    const std::string& serial = arguments.text();
+    const std::string& what = arguments.text();
+    const auto found = std::find_if(s.vive_trackers.begin(), s.vive_trackers.end(),
+                                    [&](const ViveTracker& tracker) { return tracker.serial == serial; });
+    ViveTracker tracker = found != s.vive_trackers.end() ? *found : ViveTracker{serial, {}, true, {}};
+    if (what == "role") {
+        const std::string& role = arguments.text();
+        tracker.role = role == "none" ? std::string() : role;
+    } else if (what == "pose") {
+        tracker.at.pose = arguments.pose();
+    } else if (what == "connected") {
+        tracker.connected = arguments.flag();
+    } else if (what == "valid" || what == "tracked") {
+        set_tracked(tracker.at, what, arguments);
+    } else {
+        unknown(what);
+    }
+    set_vive_tracker(s, tracker);
+}
+
 void run_command(State& s, const Words& words) {
     Arguments arguments(words);
     const std::string& command = arguments.text();
@@ -207,6 +228,8 @@ void run_command(State& s, const Words& words) {
         const std::size_t side = side_index(arguments.text());
         const std::string& what = arguments.text();
         set_hand_value(s.hands[side], static_cast<Side>(side), what, arguments);
+    } else if (command == "tracker") {
+        run_tracker(s, arguments);
     } else if (command == "event") {
         run_event(s, arguments);
     } else if (command == "headset") {

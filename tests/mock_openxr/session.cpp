@@ -185,7 +185,9 @@ XrResult XRAPI_CALL create_action_space(XrSession handle, const XrActionSpaceCre
         Space created;
         created.session = id_of(handle);
         created.action = id_of(info->action);
-        created.side = s.instance->paths[info->subactionPath - 1] == "/user/hand/left" ? 0 : 1;
+        const std::string& path = s.instance->paths[info->subactionPath - 1];
+        created.side = path == "/user/hand/left" ? 0 : 1;
+        if (path.rfind(role_folder, 0) == 0) created.role = path;
         created.offset = from_xr(info->poseInActionSpace);
         s.instance->spaces[++s.last_id] = created;
         *space = handle_of<XrSpace>(s.last_id);

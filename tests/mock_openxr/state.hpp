@@ -28,6 +28,7 @@ struct Space {
     std::optional<XrReferenceSpaceType> reference;  // none: of an action
     std::uint64_t action = 0;
     std::size_t side = 0;
+    std::string role;  // path of a Vive tracker's role; empty: of a hand
     Pose offset;
 };
 
@@ -75,6 +76,7 @@ struct Session {
     bool waited_render = false, begun_render = false;
     XrTime last_display = 0;
     std::array<Hand, 2> synced{}, synced_before{};
+    std::vector<ViveTracker> synced_trackers;
     bool has_synced = false;
     std::map<XrReferenceSpaceType, std::vector<Origin>> origins;
     std::map<XrTime, std::vector<XrView>> located;
@@ -97,6 +99,7 @@ struct Instance {
     std::map<std::uint64_t, Action> actions;
     std::map<std::uint64_t, HandTracker> trackers;
     std::vector<Binding> bindings;
+    std::deque<XrViveTrackerPathsHTCX> sent_paths;  // by events
 };
 
 struct InjectedResult {
@@ -111,6 +114,7 @@ struct State {
     Config config;
     Tracked head{{{0.0, 1.6, 0.0}}};
     std::array<Hand, 2> hands{};
+    std::vector<ViveTracker> vive_trackers;
     std::string blocked_call;  // the function that does not return
     int delayed_periods = 0;   // of the next frame
     int reported_periods = 1;  // in a reported period
@@ -236,6 +240,13 @@ void add_frame_functions(FunctionTable& table);
 void add_swapchain_functions(FunctionTable& table);
 void add_action_functions(FunctionTable& table);
 void add_input_functions(FunctionTable& table);
+void add_tracker_functions(FunctionTable& table);
+
+inline const std::string role_folder = "/user/vive_tracker_htcx/role/";
+// The connected tracker with this path of a role; null: none.
+const ViveTracker* tracker_with_role(const std::vector<ViveTracker>& trackers, const std::string& path);
+void set_vive_tracker(State& s, const ViveTracker& tracker);
+
 // Interaction profiles of the specification, and their inputs and outputs as "/user/hand/...".
 bool is_known_profile(const std::string& profile);
 bool has_input(const std::string& profile, const std::string& path);

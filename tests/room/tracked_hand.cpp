@@ -216,7 +216,13 @@ TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras th
         worn.menu = worn.secondary = true;
         worn.grip = xr::LocatedPose{wrist * inverse(mount), true};
         worn.aim = worn.grip;
-        const xr::HandInput without_buttons = with_glove(worn, fingers, mount);
+        const auto gloved = [&](const xr::HandInput& hand, const WristMount& at) {
+            xr::Hands hands;
+            hands[side] = hand;
+            return with_glove(hands, fingers, at);
+        };
+        const WristMount on_controller{{}, mount};
+        const xr::HandInput without_buttons = gloved(worn, on_controller);
         is_at_wrist(without_buttons, 1e-6);
         CHECK_FALSE((without_buttons.menu || without_buttons.secondary || without_buttons.aim));
         CHECK(without_buttons.select == 0.0F);
@@ -225,8 +231,8 @@ TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras th
         seen.active = true;
         seen.joints.emplace();
         (*seen.joints)[hand::wrist] = {wrist, 0.02, true};
-        is_at_wrist(with_glove(seen, fingers, mount), 1e-6);
-        is_at_wrist(with_glove(seen, fingers, {}), 1e-6);
+        is_at_wrist(gloved(seen, on_controller), 1e-6);
+        is_at_wrist(gloved(seen, {}), 1e-6);
         // A controller in the hand: the palm of the glove's hand is at its grip pose.
         xr::HandInput held;
         held.active = true;
@@ -235,8 +241,29 @@ TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras th
         held.grip = xr::LocatedPose{
             {palm_joint.position, glm::normalize(palm_joint.orientation * glm::quat_cast(grip_at_palm))},
             true};
-        is_at_wrist(with_glove(held, fingers, {}), 1e-6);
+        is_at_wrist(gloved(held, {}), 1e-6);
         // A hand that is not tracked is not drawn, whatever the glove measures.
-        CHECK_FALSE(with_glove({}, fingers, mount).active);
+        CHECK_FALSE(gloved({}, on_controller).active);
+        // A Vive tracker whose place on the hand is registered. While it is lost, no other device replaces
+        // it: a controller on the table may be active.
+        const WristMount on_tracker{TrackerRole::left_elbow, mount};
+        xr::Hands hands;
+        hands[side] = held;
+        hands[side].joints = seen.joints;
+        hands.trackers.read = hands.trackers.available = true;
+        CHECK_FALSE(with_glove(hands, fingers, on_tracker).active);
+        std::optional<xr::LocatedPose>& tracker =
+            hands.trackers.poses[static_cast<std::size_t>(TrackerRole::left_elbow)];
+        tracker = xr::LocatedPose{wrist * inverse(mount), true};
+        is_at_wrist(with_glove(hands, fingers, on_tracker), 1e-6);
+        CHECK(wrist_fault(hands.trackers, on_tracker).empty());
+        CHECK(wrist_fault(hands.trackers, {}).empty());
+        CHECK(wrist_fault(hands.trackers, {TrackerRole::waist, mount}).find("has the role waist") !=
+              std::string::npos);
+        // A tracker that is not registered moves nothing, and the user reads why.
+        hands[side] = held;
+        is_at_wrist(with_glove(hands, fingers, {TrackerRole::left_elbow, {}}), 1e-6);
+        CHECK(wrist_fault(hands.trackers, {TrackerRole::left_elbow, {}})
+                  .find("not registered with the Vive tracker left_elbow; expected") != std::string::npos);
     }
 }

@@ -31,7 +31,7 @@ const char* const everything = R"({
   },
   "wheel": {"device": "1209:ffb0", "full_torque_Nm": 8, "most_torque_Nm": 4, "counts_per_turn": 65536,
             "range_deg": 540, "reversed": true, "buttons": {"clutch": 7}},
-  "glove": {"port": "/dev/ttyUSB0"},
+  "glove": {"port": "/dev/ttyUSB0", "wrist_tracker": "right_elbow"},
   "registrations": [
     {"from": "arm", "to": "room", "date": "2026-03-02T09:15:00Z", "position_m": [0.4, 0.7, -0.3],
      "orientation_wxyz": [0.6, 0, 0.8, 0], "points": 7, "rms_m": 0.001, "largest_left_out_m": 0.003,
@@ -115,6 +115,9 @@ StationFile any_station(Random& random) {
     };
     if (random.chance(0.5)) station.name = "Lab „2“";
     if (random.chance(0.5)) station.glove_port = "/dev/ttyUSB0";
+    if (!station.glove_port.empty() && random.chance(0.5))
+        station.glove_tracker =
+            static_cast<TrackerRole>(static_cast<std::size_t>(random.uniform(0.0, tracker_role_count)));
     if (random.chance(0.8)) {
         StationMover& arm = station.arm.emplace();
         arm.device = "haply:0";
@@ -172,6 +175,7 @@ TEST_CASE("Station file: every member is read, and absent ones keep their defaul
     CHECK(station->wheel->config.reversed);
     CHECK(station->wheel->buttons == station::Buttons{1, 64, 0, 0});
     CHECK(station->glove_port == "/dev/ttyUSB0");
+    CHECK(station->glove_tracker == TrackerRole::right_elbow);
     REQUIRE(station->registrations.size() == 1);
     const Registration& one = station->registrations[0];
     CHECK(one.from == CoordinateFrame::arm);
@@ -227,6 +231,10 @@ TEST_CASE("Station file: errors name file, line and column, and what is expected
     starts(R"("wheel": {"full_torque_Nm": 1})", "s.json:3:10: ");
     starts(R"("glove": {})", "s.json:3:10: /glove: \"port\" is missing; expected a serial port");
     starts(R"("glove": {"port": "p", "hand": "left"})", "s.json:3:24: ");
+    starts(
+        R"("glove": {"port": "p", "wrist_tracker": "right_wirst"})",
+        "s.json:3:41: /glove/wrist_tracker: \"right_wirst\" is not a role of a Vive tracker; did you mean");
+    starts(R"("glove": {"port": "p", "wrist_tracker": 3})", "s.json:3:41: ");
     starts(R"("name": 5)", "s.json:3:9: ");
     CHECK(parse_station("[]", "s").error().message().find("s:1:1") == 0);
     CHECK(parse_station("", "s").error().code == ErrorCode::bad_content);
@@ -302,7 +310,10 @@ TEST_CASE("Station file: the schema has exactly the members and bounds of the re
                           CHECK(!reads(other));
                       }
                   });
-    CHECK(count == 52);
+    CHECK(count == 53);
+    const std::vector<std::string> roles(tracker_role_names.begin(), tracker_role_names.end());
+    CHECK(rules["properties"]["glove"]["properties"]["wrist_tracker"]["enum"] == roles);
+    CHECK(rules["definitions"]["frame"]["enum"] == coordinate_frame_names());
     // No member of the reader is missing in the schema: the file with every member has no others.
     const std::function<void(const json&, const json&)> check = [&](const json& value, const json& node) {
         const json& rule = node.contains("$ref")
