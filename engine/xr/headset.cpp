@@ -209,6 +209,8 @@ void Headset::end_frame(const HeadsetFrame& frame, bool drawn, const DepthRange&
     if (session_)
         (void)drop_on_error(
             session_->end_frame(frame.timing, {drawn ? &frame.view : nullptr, depth, frame.passthrough}));
+    if (session_)
+        for (const std::string& line : session_->take_passthrough_news()) log(line);
 }
 
 void Headset::vibrate(Side side, const Vibration& vibration) {

@@ -130,6 +130,7 @@ Status Runtime::create_xr_instance() {
     extensions_.local_floor = enable(local_floor_extension);
     extensions_.hand_interaction = enable(hand_interaction_extension);
     extensions_.user_presence = enable(user_presence_extension);
+    extensions_.passthrough = enable(XR_FB_PASSTHROUGH_EXTENSION_NAME);
     extensions_.vive_trackers = enable(XR_HTCX_VIVE_TRACKER_INTERACTION_EXTENSION_NAME);
 
     XrInstanceCreateInfo info = instance_info();
@@ -163,15 +164,20 @@ Status Runtime::query_system() {
     BOLT_TRY(check(found, "xrGetSystem"));
     XrSystemHandTrackingPropertiesEXT hands{XR_TYPE_SYSTEM_HAND_TRACKING_PROPERTIES_EXT};
     UserPresenceProperties presence;
-    if (extensions_.hand_tracking) properties_.next = &hands;
-    if (extensions_.user_presence) {
-        presence.next = properties_.next;
-        properties_.next = &presence;
-    }
+    XrSystemPassthroughPropertiesFB passthrough{XR_TYPE_SYSTEM_PASSTHROUGH_PROPERTIES_FB};
+    const auto query = [&](bool enabled, auto& structure) {
+        if (!enabled) return;
+        structure.next = properties_.next;
+        properties_.next = &structure;
+    };
+    query(extensions_.hand_tracking, hands);
+    query(extensions_.user_presence, presence);
+    query(extensions_.passthrough, passthrough);
     BOLT_TRY(check(xrGetSystemProperties(instance_.get(), system_, &properties_), "xrGetSystemProperties"));
     properties_.next = nullptr;
     extensions_.hand_tracking = extensions_.hand_tracking && hands.supportsHandTracking == XR_TRUE;
     extensions_.user_presence = extensions_.user_presence && presence.supported == XR_TRUE;
+    extensions_.passthrough = extensions_.passthrough && passthrough.supportsPassthrough == XR_TRUE;
     headset_ = properties_.systemName;
     return {};
 }
@@ -184,12 +190,26 @@ Status Runtime::load_functions() {
     BOLT_TRY(load(xr, "xrGetVulkanGraphicsDevice2KHR", f.graphics_device));
     BOLT_TRY(load(xr, "xrCreateVulkanDeviceKHR", f.create_vulkan_device));
     if (extensions_.visibility_mask) BOLT_TRY(load(xr, "xrGetVisibilityMaskKHR", f.visibility_mask));
+    if (extensions_.passthrough) BOLT_TRY(load_passthrough());
     if (extensions_.vive_trackers)
         BOLT_TRY(load(xr, "xrEnumerateViveTrackerPathsHTCX", f.enumerate_vive_trackers));
     if (!extensions_.hand_tracking) return {};
     BOLT_TRY(load(xr, "xrCreateHandTrackerEXT", f.create_hand_tracker));
     BOLT_TRY(load(xr, "xrDestroyHandTrackerEXT", f.destroy_hand_tracker));
     return load(xr, "xrLocateHandJointsEXT", f.locate_hand_joints);
+}
+
+Status Runtime::load_passthrough() {
+    const XrInstance xr = instance_.get();
+    ExtensionFunctions& f = functions_;
+    BOLT_TRY(load(xr, "xrCreatePassthroughFB", f.create_passthrough));
+    BOLT_TRY(load(xr, "xrDestroyPassthroughFB", f.destroy_passthrough));
+    BOLT_TRY(load(xr, "xrPassthroughStartFB", f.start_passthrough));
+    BOLT_TRY(load(xr, "xrPassthroughPauseFB", f.pause_passthrough));
+    BOLT_TRY(load(xr, "xrCreatePassthroughLayerFB", f.create_passthrough_layer));
+    BOLT_TRY(load(xr, "xrDestroyPassthroughLayerFB", f.destroy_passthrough_layer));
+    BOLT_TRY(load(xr, "xrPassthroughLayerPauseFB", f.pause_passthrough_layer));
+    return load(xr, "xrPassthroughLayerResumeFB", f.resume_passthrough_layer);
 }
 
 Status Runtime::choose_views() {

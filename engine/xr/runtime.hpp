@@ -20,6 +20,7 @@ struct Extensions {
     bool hand_interaction = false;  // XR_EXT_hand_interaction: pinch and grasp as actions
     bool user_presence = false;     // XR_EXT_user_presence, and the headset senses whether it is worn
     bool vive_trackers = false;     // XR_HTCX_vive_tracker_interaction
+    bool passthrough = false;       // XR_FB_passthrough, and the headset has cameras for it
 };
 
 // The functions of extensions, which the loader does not export. Null if the runtime lacks the extension.
@@ -33,6 +34,14 @@ struct ExtensionFunctions {
     PFN_xrDestroyHandTrackerEXT destroy_hand_tracker = nullptr;
     PFN_xrLocateHandJointsEXT locate_hand_joints = nullptr;
     PFN_xrEnumerateViveTrackerPathsHTCX enumerate_vive_trackers = nullptr;
+    PFN_xrCreatePassthroughFB create_passthrough = nullptr;
+    PFN_xrDestroyPassthroughFB destroy_passthrough = nullptr;
+    PFN_xrPassthroughStartFB start_passthrough = nullptr;
+    PFN_xrPassthroughPauseFB pause_passthrough = nullptr;
+    PFN_xrCreatePassthroughLayerFB create_passthrough_layer = nullptr;
+    PFN_xrDestroyPassthroughLayerFB destroy_passthrough_layer = nullptr;
+    PFN_xrPassthroughLayerPauseFB pause_passthrough_layer = nullptr;
+    PFN_xrPassthroughLayerResumeFB resume_passthrough_layer = nullptr;
 };
 
 // An OpenXR instance with its headset. Creates the Vulkan instance and device for this headset.
@@ -62,7 +71,8 @@ class Runtime final : public gpu::VulkanCreator {
     [[nodiscard]] const std::string& name() const { return name_; }        // of the runtime, with version
     [[nodiscard]] const std::string& headset() const { return headset_; }  // as the runtime calls it
     [[nodiscard]] const XrSystemProperties& properties() const { return properties_; }
-    // The blend mode that shows the real room behind what is drawn; none: the headset cannot show it.
+    // The blend mode that shows the real room behind what is drawn; none: the headset cannot show it, or only
+    // as a layer (Extensions::passthrough).
     [[nodiscard]] std::optional<XrEnvironmentBlendMode> passthrough() const { return passthrough_; }
     [[nodiscard]] XrEnvironmentBlendMode opaque() const { return opaque_; }
     [[nodiscard]] XrViewConfigurationType view_configuration() const { return view_configuration_; }
@@ -77,6 +87,7 @@ class Runtime final : public gpu::VulkanCreator {
     Status create_xr_instance();
     Status query_system();
     Status load_functions();
+    Status load_passthrough();
     Status choose_views();
 
     InstanceHandle instance_;

@@ -52,6 +52,7 @@ Result<std::unique_ptr<Session>> Session::create(Runtime& runtime, gpu::Device& 
     BOLT_TRY(session->create_session());
     BOLT_TRY(session->create_spaces());
     BOLT_TRY(session->create_swapchains());
+    session->passthrough_ = PassthroughLayer(runtime, session->session_.get());
     session->waiter_ = FrameWaiter::start(session->session_.get());
     return session;
 }
@@ -76,6 +77,7 @@ void Session::abandon() {
     (void)new auto(std::move(color_));
     (void)new auto(std::move(depth_));
     (void)new std::array{std::move(head_), std::move(space_)};
+    (void)new PassthroughLayer(std::move(passthrough_));
     (void)new SessionHandle(std::move(session_));
 }
 
@@ -267,6 +269,9 @@ Status Session::poll(std::vector<SessionEvent>& events) {
             }
             case XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED:
                 events.emplace_back(BindingsChanged{});
+                break;
+            case XR_TYPE_EVENT_DATA_PASSTHROUGH_STATE_CHANGED_FB:
+                passthrough_.handle(reinterpret_cast<const XrEventDataPassthroughStateChangedFB&>(buffer));
                 break;
             case XR_TYPE_EVENT_DATA_VIVE_TRACKER_CONNECTED_HTCX:
                 events.emplace_back(TrackersChanged{});

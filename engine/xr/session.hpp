@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "engine/gpu/resources.hpp"
+#include "engine/xr/passthrough.hpp"
 #include "engine/xr/runtime.hpp"
 
 namespace bolt::xr {
@@ -172,6 +173,13 @@ class Session {
 
     // Largest size of an eye's picture.
     [[nodiscard]] VkExtent2D extent() const { return extent_; }
+    // True if the headset can show the real room behind the pictures; false also after the runtime has
+    // refused to.
+    [[nodiscard]] bool has_passthrough() const {
+        return runtime_->passthrough().has_value() || passthrough_.available();
+    }
+    // Lines for the user about the real room, since the last call.
+    std::vector<std::string> take_passthrough_news() { return passthrough_.take_news(); }
     [[nodiscard]] bool uses_depth() const { return !depth_.empty(); }
     [[nodiscard]] BaseSpace base_space() const { return base_; }
     [[nodiscard]] XrSpace space() const { return space_.get(); }
@@ -218,6 +226,7 @@ class Session {
     SessionOptions options_;
     SessionHandle session_;
     SpaceHandle space_, head_;
+    PassthroughLayer passthrough_;
     BaseSpace base_ = BaseSpace::stage;
     VkExtent2D extent_{};
     std::vector<Swapchain> color_, depth_;  // one with a layer per eye, or one per eye; depth may be empty

@@ -279,19 +279,27 @@ Status Session::end_frame(const FrameTiming& frame, const Drawn& drawn) {
         views[eye].next = &depths[eye];
     }
     const bool blends = drawn.passthrough && runtime_->passthrough().has_value();
+    const bool draws = eyes > 0 && eyes == runtime_->views().size();
+    if (draws) BOLT_TRY(passthrough_.show(drawn.passthrough && !blends));
+    const bool transparent = blends || passthrough_.shown();
+    const XrCompositionLayerPassthroughFB room = passthrough_.composition_layer();
     XrCompositionLayerProjection projection{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
-    projection.layerFlags = blends ? XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT : 0;
+    projection.layerFlags = transparent ? XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT : 0;
     projection.space = space_.get();
     projection.viewCount = static_cast<std::uint32_t>(eyes);
     projection.views = views.data();
-    const XrCompositionLayerBaseHeader* layers[] = {
-        reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection)};
+    // From the bottom to the top.
+    std::array<const XrCompositionLayerBaseHeader*, 2> layers{};
+    std::uint32_t count = 0;
+    if (draws && passthrough_.shown())
+        layers[count++] = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&room);
+    if (draws) layers[count++] = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection);
     XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
     info.displayTime = frame.display_time;
     info.environmentBlendMode = blends ? *runtime_->passthrough() : runtime_->opaque();
-    info.layerCount = eyes > 0 && eyes == runtime_->views().size() ? 1 : 0;
-    info.layers = layers;
-    counts_.drawn += info.layerCount;
+    info.layerCount = count;
+    info.layers = layers.data();
+    counts_.drawn += draws ? 1 : 0;
     drawn_.clear();
     return check(xrEndFrame(session_.get(), &info), "xrEndFrame");
 }

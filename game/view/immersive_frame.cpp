@@ -80,7 +80,7 @@ ImmersiveFrame immersive_frame(xr::Headset& headset, const xr::HeadsetFrame& fra
     }
     immersive.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
     immersive.fixed_in_room = headset.session().base_space() == xr::BaseSpace::stage;
-    immersive.has_passthrough = headset.runtime().passthrough().has_value();
+    immersive.has_passthrough = headset.session().has_passthrough();
     immersive.hands = frame.hands;
     immersive.tracks_hands = true;
     immersive.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {

@@ -77,14 +77,16 @@ worn, turned, recentred = [shows_panel(name) for name in sys.argv[1:]]
 assert worn > 100 and recentred > 100 and turned < 50, (worn, turned, recentred)
 END
 
-# The user wants to see the real room, with a headset that can show it and with one that cannot.
+# The user wants to see the real room, with headsets that can show it by blending or as a layer, and with one that cannot.
 echo '{"format": "boltwright settings 1", "trainee": "Ada", "language": "en", "volume": 1, "captions": false, "palette": "usual",
  "left_handed": false, "force_scale": 1, "surroundings": true, "seated_height_m": null, "keys": {}}' >settings.json
-for passthrough in 1 0; do
+for passthrough in 1 layer 0; do
+    kind="passthrough $passthrough"
+    [[ $passthrough != layer ]] || kind='with XR_FB_passthrough'
     cat >script <<END
 0 config width 64
 0 config height 60
-0 config passthrough $passthrough
+0 config $kind
 0 report $work/report
 1 head 0 1.65 0 -0.2164 0 0 0.9763
 12 picture $work/room-$passthrough.ppm
@@ -96,12 +98,12 @@ END
     [[ $passthrough = 0 ]] || check 'the room is requested from a headset that can show it' grep -q '^blended [1-9]' report
 done
 check 'a headset that cannot show the room shows the workshop' grep -q '^blended 0$' report
-check 'in one that can, most of the picture is the real room' python3 - room-1.ppm room-0.ppm <<'END'
+check 'in one that can, most of the picture is the real room' python3 - room-1.ppm room-layer.ppm room-0.ppm <<'END'
 import sys
 def black(name):
     data = open(name, 'rb').read()[-3 * 128 * 60:]
     return sum(data[i:i + 3] == b'\0\0\0' for i in range(0, len(data), 3)) / (128 * 60)
-assert black(sys.argv[1]) > 0.4 and black(sys.argv[2]) < 0.05, [black(name) for name in sys.argv[1:]]
+assert black(sys.argv[1]) > 0.4 and black(sys.argv[2]) > 0.4 and black(sys.argv[3]) < 0.05, [black(name) for name in sys.argv[1:]]
 END
 
 # The headset's session ends in the middle of a lesson: the lesson goes on in the window, and the headset is found again.

@@ -202,6 +202,9 @@ XrResult check_view(State& s, const XrCompositionLayerProjectionView& view, Fram
 }
 
 XrResult check_layer(State& s, const XrCompositionLayerBaseHeader* layer, Frame& frame) {
+    if (layer != nullptr) frame.layers.push_back(layer->type);
+    if (layer != nullptr && layer->type == XR_TYPE_COMPOSITION_LAYER_PASSTHROUGH_FB)
+        return check_passthrough(s, *reinterpret_cast<const XrCompositionLayerPassthroughFB*>(layer), frame);
     if (layer == nullptr || layer->type != XR_TYPE_COMPOSITION_LAYER_PROJECTION)
         return refuse_end(s, XR_ERROR_LAYER_INVALID, "submits a layer of a type that is not offered");
     const auto& projection = *reinterpret_cast<const XrCompositionLayerProjection*>(layer);

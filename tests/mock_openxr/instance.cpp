@@ -142,6 +142,9 @@ XrResult XRAPI_CALL get_system_properties(XrInstance, XrSystemId system, XrSyste
             if (next->type == XR_TYPE_SYSTEM_HAND_TRACKING_PROPERTIES_EXT)
                 reinterpret_cast<XrSystemHandTrackingPropertiesEXT*>(next)->supportsHandTracking =
                     config.tracks_hands ? XR_TRUE : XR_FALSE;
+            if (next->type == XR_TYPE_SYSTEM_PASSTHROUGH_PROPERTIES_FB)
+                reinterpret_cast<XrSystemPassthroughPropertiesFB*>(next)->supportsPassthrough =
+                    config.has_cameras ? XR_TRUE : XR_FALSE;
             if (next->type == UserPresenceProperties().type)
                 reinterpret_cast<UserPresenceProperties*>(next)->supported = XR_TRUE;
         }

@@ -56,6 +56,7 @@ struct Config {
                                              XR_REFERENCE_SPACE_TYPE_STAGE};
     bool foreign_gpu = false;                   // the headset is on a GPU that Vulkan does not list
     bool refuse_arrays = false;                 // xrCreateSwapchain fails for more than one layer
+    bool has_cameras = true;                    // the system property, if XR_FB_passthrough is enabled
     bool tracks_hands = true;                   // the system property, if XR_EXT_hand_tracking is enabled
     std::vector<std::string> unknown_profiles;  // interaction profiles that the runtime does not know
     std::vector<std::string> unknown_roles;     // of Vive trackers: the runtime accepts no binding of them
@@ -119,6 +120,10 @@ enum class Event : std::uint8_t {
     events_lost,      // EVENTS_LOST
     user_present,     // with XR_EXT_user_presence: the user is sensed; the session's state stays
     user_absent,
+    room_reinit,       // PASSTHROUGH_STATE_CHANGED of XR_FB_passthrough: create it again
+    room_failed,       // not recoverable
+    room_interrupted,  // recoverable
+    room_restored,
 };
 
 // A picture of one eye, read back. Row 0 is at the top.
@@ -140,7 +145,9 @@ struct SubmittedView {
 struct Frame {
     XrTime time = 0;
     bool should_render = false;
-    bool has_layer = false;
+    bool has_layer = false;                                    // of pictures
+    std::vector<XrStructureType> layers;                       // from the bottom to the top
+    std::optional<XrCompositionLayerFlags> passthrough_flags;  // of its layer; none: there is none
     XrEnvironmentBlendMode blend_mode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
     XrCompositionLayerFlags flags = 0;
     std::vector<SubmittedView> views;

@@ -16,6 +16,7 @@ const char* extension_of(std::string_view function) {
     if (contains("Vulkan")) return XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME;
     if (contains("VisibilityMask")) return XR_KHR_VISIBILITY_MASK_EXTENSION_NAME;
     if (contains("HandTracker") || contains("HandJoints")) return XR_EXT_HAND_TRACKING_EXTENSION_NAME;
+    if (contains("Passthrough")) return XR_FB_PASSTHROUGH_EXTENSION_NAME;
     if (contains("ViveTracker")) return vive_tracker_extension;
     if (contains("ConvertTimespec")) return XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME;
     return nullptr;
@@ -31,6 +32,7 @@ XrResult XRAPI_CALL get_proc(XrInstance instance, const char* name, PFN_xrVoidFu
         add_action_functions(made);
         add_input_functions(made);
         add_tracker_functions(made);
+        add_passthrough_functions(made);
         add(made, "xrGetInstanceProcAddr", &get_proc);
         return made;
     }();

@@ -131,6 +131,10 @@ void run_event(State& s, Arguments& arguments) {
                                                      {"events_lost", Event::events_lost},
                                                      {"worn", Event::user_present},
                                                      {"not_worn", Event::user_absent},
+                                                     {"room_reinit", Event::room_reinit},
+                                                     {"room_failed", Event::room_failed},
+                                                     {"room_interrupted", Event::room_interrupted},
+                                                     {"room_restored", Event::room_restored},
                                                      {"profile", Event::profile_changed}};
     const std::string& word = arguments.text();
     if (word != "recentre") {

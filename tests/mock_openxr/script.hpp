@@ -11,10 +11,12 @@
 //   0 config with|without EXTENSION      the runtime offers the extension, or does not
 //   0 config format VK_FORMAT_NUMBER     the only colour format; depth stays
 //   0 config separate|foreign_gpu 1      no swapchains with several layers; a GPU that Vulkan does not list
-//   0 config passthrough 1               the blend mode ALPHA_BLEND is offered
+//   0 config passthrough 1               the blend mode ALPHA_BLEND is offered; for a layer of its own:
+//                                        config with XR_FB_passthrough
 //   0 config realtime 0|1                xrWaitFrame waits in real time
 //   0 report FILE          writes a summary at each xrDestroyInstance and at exit: "frames N", "drawn N",
-//                          "blended N", "vibrations N", then "violation TEXT" for each violation
+//                          "blended N" (with the real room, by blend mode or layer), "vibrations N", then
+//                          "violation TEXT" for each violation
 //   F head POSE            POSE: x y z qx qy qz qw
 //   F head valid|tracked 0|1
 //   F hand left|right grip|aim POSE
@@ -25,6 +27,7 @@
 //   F tracker SERIAL role ROLE|none                a Vive tracker; it is connected by its first command
 //   F tracker SERIAL pose POSE, or connected|valid|tracked 0|1
 //   F event ready|stopping|visible|focused|session_loss|instance_loss|exit|profile|mask|events_lost
+//   F event room_reinit|room_failed|room_interrupted|room_restored   of XR_FB_passthrough
 //   F event worn|not_worn   sensed by XR_EXT_user_presence; the session keeps its state
 //   F event recentre stage|floor|seated [POSE]     the origin moves to POSE in the old space
 //   F headset 0|1          disconnected or connected, as the next xrGetSystem reports it

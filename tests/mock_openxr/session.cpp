@@ -69,6 +69,7 @@ XrResult XRAPI_CALL destroy_session(XrSession handle) {
                       s.ended.count(id_of(handle)) != 0 ? "destroys an object twice"
                                                         : "destroys a handle of no object");
     if (s.instance->session->waiting) violate(s, name, "is called while a thread is inside xrWaitFrame");
+    if (!s.instance->passthroughs.empty()) violate(s, name, "is called while a passthrough exists");
     drop_session(s, true);
     for (auto& [id, set] : s.instance->sets) set.attached = false;
     return success;

@@ -197,6 +197,17 @@ void play(State& s, Event event) {
         case Event::taken_off:
             if (session) stop_session(s);
             break;
+        case Event::room_reinit:
+        case Event::room_failed:
+        case Event::room_interrupted:
+        case Event::room_restored: {
+            if (s.instance->extensions.count(XR_FB_PASSTHROUGH_EXTENSION_NAME) == 0) break;
+            const auto bit = static_cast<unsigned>(event) - static_cast<unsigned>(Event::room_reinit);
+            queue_plain(
+                s, XrEventDataPassthroughStateChangedFB{XR_TYPE_EVENT_DATA_PASSTHROUGH_STATE_CHANGED_FB,
+                                                        nullptr, XrPassthroughStateChangedFlagsFB{1} << bit});
+            break;
+        }
         case Event::user_present:
         case Event::user_absent:
             report_presence(s);
@@ -239,7 +250,7 @@ void write_report(const State& s) {
     const auto drawn =
         std::count_if(s.frames.begin(), s.frames.end(), [](const Frame& frame) { return frame.has_layer; });
     const auto blended = std::count_if(s.frames.begin(), s.frames.end(), [](const Frame& frame) {
-        return frame.blend_mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
+        return frame.blend_mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND || frame.passthrough_flags;
     });
     file << fmt::format("frames {}\ndrawn {}\nblended {}\nvibrations {}\n", s.frames.size(), drawn, blended,
                         s.vibrations.size());
@@ -260,6 +271,10 @@ void drop_session(State& s, bool vulkan) {
     instance.swapchains.clear();
     instance.spaces.clear();
     instance.trackers.clear();
+    for (const auto& [id, layer] : instance.passthrough_layers) s.ended[id] = Kind::passthrough_layer;
+    for (const auto& [id, passthrough] : instance.passthroughs) s.ended[id] = Kind::passthrough;
+    instance.passthrough_layers.clear();
+    instance.passthroughs.clear();
     s.ended[instance.session->id] = Kind::session;
     instance.session.reset();
     if (!instance.lost) s.told_lost.clear();

@@ -15,7 +15,17 @@
 
 namespace bolt::mock {
 
-enum class Kind : std::uint8_t { instance, session, space, swapchain, action_set, action, hand_tracker };
+enum class Kind : std::uint8_t {
+    instance,
+    session,
+    space,
+    swapchain,
+    action_set,
+    action,
+    hand_tracker,
+    passthrough,
+    passthrough_layer,
+};
 
 // The origin of a reference space from a time on, relative to the stage.
 struct Origin {
@@ -61,6 +71,15 @@ struct HandTracker {
     std::size_t side = 0;
 };
 
+// Of XR_FB_passthrough: the feature and its layers are paused or run, each by itself.
+struct Passthrough {
+    bool running = false;
+};
+struct PassthroughLayer {
+    std::uint64_t passthrough = 0;
+    bool running = false;
+};
+
 struct Session {
     std::uint64_t id = 0;
     XrSessionState state = XR_SESSION_STATE_UNKNOWN;
@@ -98,6 +117,8 @@ struct Instance {
     std::map<std::uint64_t, ActionSet> sets;
     std::map<std::uint64_t, Action> actions;
     std::map<std::uint64_t, HandTracker> trackers;
+    std::map<std::uint64_t, Passthrough> passthroughs;
+    std::map<std::uint64_t, PassthroughLayer> passthrough_layers;
     std::vector<Binding> bindings;
     std::deque<XrViveTrackerPathsHTCX> sent_paths;  // by events
 };
@@ -241,6 +262,9 @@ void add_swapchain_functions(FunctionTable& table);
 void add_action_functions(FunctionTable& table);
 void add_input_functions(FunctionTable& table);
 void add_tracker_functions(FunctionTable& table);
+void add_passthrough_functions(FunctionTable& table);
+// Checks a layer that is submitted, and records it.
+XrResult check_passthrough(State& s, const XrCompositionLayerPassthroughFB& layer, Frame& frame);
 
 inline const std::string role_folder = "/user/vive_tracker_htcx/role/";
 // The connected tracker with this path of a role; null: none.
