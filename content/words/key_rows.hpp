@@ -299,6 +299,8 @@ inline constexpr KeyRow key_rows[] = {
     {"arm.warm", ""},
     {"arm.rests", ""},
     {"touch.ask", ""},
+    {"touch.mark", ""},
+    {"touch.tip", ""},
     {"touch.moved", ""},
     {"touch.keys", "measure skip"},
     {"touch.skip", ""},

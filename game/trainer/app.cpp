@@ -238,8 +238,7 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
         trainer::update(active.guidance.instruction, active.session->lesson(), active.clock.paused))
         begin_instruction();
     if (tour_ && in_lesson) trainer::update(*tour_, frame);
-    if (room_ && room_->touch && waits_for_touch(*room_->touch))
-        show_touch_marker(active.scene, gpu_->models->arrows, scene_in_room(), room_->touch->marker);
+    if (awaits_touch()) show_touch();
 
     const double dt = active.session->setup().dt;
     if (hand_of(active).wrench != had_wrench)

@@ -89,7 +89,10 @@ class App : public view::WindowContent {
 
     [[nodiscard]] bool closed() const override { return closed_; }
     [[nodiscard]] bool scales_scene() const override { return active_.has_value() && !in_room(); }
-    [[nodiscard]] bool wants_passthrough() const override { return preferences_.settings.passthrough; }
+    // Also while the touch of a mark in the real room is awaited.
+    [[nodiscard]] bool wants_passthrough() const override {
+        return preferences_.settings.passthrough || awaits_touch();
+    }
     [[nodiscard]] render::ImageLayer window_picture(const render::Renderer& renderer) const override {
         if (in_room()) return gpu_->panel->layer();
         return gpu_->shows_enlarged ? gpu_->enlarged->layer() : renderer.picture(0);
@@ -167,6 +170,10 @@ class App : public view::WindowContent {
     void start_registered_arm(const view::ImmersiveFrame& immersive);
     void follow_touch_check(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);
     void end_touch_check();
+    [[nodiscard]] bool awaits_touch() const {
+        return active_ && room_ && room_->touch && waits_for_touch(*room_->touch);
+    }
+    void show_touch();
     [[nodiscard]] RoomInput room_input(const view::ImmersiveFrame& immersive) const;
     [[nodiscard]] std::optional<xr::Side> working_hand() const;
     void follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events);

@@ -25,6 +25,9 @@ constexpr double default_seated_eyes = 1.2;  // m above the floor, about the mea
 // The pose of the assembly's frame in the room; the identity without a lesson.
 Pose App::scene_in_room() const {
     if (!active_ || !room_->workpiece) return {};
+    if (awaits_touch())
+        return touch_scene(*room_->touch, *room_->workpiece, room_->workpiece_registered,
+                           active_->workplace.workpiece);
     if (room_->arm && active_->station)
         return registered_scene(*room_->arm, active_->station->latest.mover_in_assembly);
     if (room_->workpiece_registered) return *room_->workpiece;
@@ -174,6 +177,13 @@ void App::follow_touch_check(std::span<const platform::InputEvent> events, doubl
         log(fmt::format("a touch of the registration's check point is off by {:.1f} mm{}", touch.error / mm,
                         touch.phase == TouchPhase::failed ? "; register the arm again" : ""));
     if (started || answer.ended) end_touch_check();
+}
+
+void App::show_touch() {
+    TouchView view{words_, scene_in_room(), std::nullopt, room_->workpiece_registered};
+    if (active_->station && active_->station->latest.mover)
+        view.handle = active_->station->latest.mover->pose;
+    show_touch_marker(active_->scene, *gpu_->models, *room_->touch, view);
 }
 
 // Ends the touch check and starts the lesson, unless its user does not see it.

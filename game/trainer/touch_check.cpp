@@ -17,7 +17,12 @@ using station_setup::max_check_error;
 
 constexpr double marker_length = 0.06;  // m, of its arrows
 constexpr glm::vec4 marker_color{1.0F, 0.75F, 0.2F, 1.0F};
-constexpr float marker_outline = 0.8F;  // opacity
+constexpr float marker_outline = 0.8F;       // opacity
+constexpr double marker_above_plate = 0.02;  // m, of a clamping plate that is not registered
+constexpr double tip_length = 0.09;          // m, of the arrow
+constexpr glm::vec4 tip_color{0.3F, 0.7F, 1.0F, 1.0F};
+constexpr float touch_label_height = 0.014F;  // m
+constexpr double touch_label_gap = 0.02;      // m, from the arrow
 
 void show_phase(TouchCheck& check, TouchPhase phase) {
     check.phase = phase;
@@ -110,24 +115,71 @@ ScreenAction draw_touch_check(const ScreenContext& context, const TouchCheck& ch
     return pressed ? ScreenAction::end_touch_check : ScreenAction::none;
 }
 
-void show_touch_marker(render::Scene& scene, const render::GpuModel& arrows, const Pose& scene_in_room,
-                       const Vec3& marker) {
-    scene.objects.clear();
+Pose touch_scene(const TouchCheck& check, const Pose& workpiece, bool registered,
+                 const render::BoundingBox& box) {
+    if (registered) return workpiece;
+    const Vec3 low(box.low), high(box.high);
+    const Vec3 below_marker(0.5 * (low.x + high.x), low.y + marker_above_plate, 0.5 * (low.z + high.z));
+    return {check.marker - workpiece.orientation * below_marker, workpiece.orientation};
+}
+
+namespace {
+
+void add_arrow(render::Scene& scene, const render::GpuModel& arrows, const scene::MotionArrow& arrow,
+               const glm::vec4& color) {
+    render::Object object;
+    object.model = &arrows;
+    object.mesh = static_cast<std::uint32_t>(arrow.shape);
+    object.world = glm::mat4(arrow.world);
+    object.tint = color;
+    object.moves = true;
+    object.outline = glm::vec4(glm::vec3(color), marker_outline);
+    scene.objects.push_back(object);
+}
+
+void add_label(render::Scene& scene, const Vec3& at, const std::string& text, const glm::vec4& color) {
+    render::Label label;
+    label.text = text;
+    label.position = glm::vec3(at);
+    label.placement = render::LabelPlacement::facing;
+    label.height = touch_label_height;
+    label.color = color;
+    label.plate = {0.08F, 0.09F, 0.1F, 0.85F};
+    label.occluded_visibility = 1.0F;
+    scene.labels.push_back(std::move(label));
+}
+
+}  // namespace
+
+void show_touch_marker(render::Scene& scene, const scene::GpuLessonModels& models, const TouchCheck& check,
+                       const TouchView& view) {
+    std::erase_if(scene.objects, [&](const render::Object& object) {
+        return object.model != &models.workshop &&
+               !(view.shows_workpiece && object.model == &models.workpiece);
+    });
     scene.labels.clear();
-    const Pose room_in_scene = inverse(scene_in_room);
-    const Vec3 at = room_in_scene * marker;
-    for (const Vec3& side : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, -1)}) {
-        const scene::MotionArrow arrow =
-            scene::straight_arrow(room_in_scene * (marker + marker_length * side), at, marker_color);
-        render::Object object;
-        object.model = &arrows;
-        object.mesh = static_cast<std::uint32_t>(arrow.shape);
-        object.world = glm::mat4(arrow.world);
-        object.tint = marker_color;
-        object.moves = true;
-        object.outline = glm::vec4(glm::vec3(marker_color), marker_outline);
-        scene.objects.push_back(object);
-    }
+    const Pose room_in_scene = inverse(view.scene_in_room);
+    const Vec3 at = room_in_scene * check.marker;
+    for (const Vec3& side : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, -1)})
+        add_arrow(
+            scene, models.arrows,
+            scene::straight_arrow(room_in_scene * (check.marker + marker_length * side), at, marker_color),
+            marker_color);
+    add_label(scene, room_in_scene * (check.marker + Vec3(0.0, marker_length + touch_label_gap, 0.0)),
+              view.words["touch.mark"], marker_color);
+    if (!view.handle) return;
+    const Pose handle = check.room_from_arm * *view.handle;
+    const Vec3 tip = handle * check.tip;
+    if (glm::distance(tip, check.marker) < hidden_tip_distance) return;
+    // From the handle to the tip; from above if the tip is the handle's own point.
+    const double length = glm::length(check.tip);
+    const Vec3 back = length > 1e-3 ? handle.orientation * (-check.tip / length) : Vec3(0.0, 1.0, 0.0);
+    add_arrow(
+        scene, models.arrows,
+        scene::straight_arrow(room_in_scene * (tip + tip_length * back), room_in_scene * tip, tip_color),
+        tip_color);
+    add_label(scene, room_in_scene * (tip + (tip_length + touch_label_gap) * back), view.words["touch.tip"],
+              tip_color);
 }
 
 }  // namespace bolt::trainer

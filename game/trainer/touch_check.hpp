@@ -10,6 +10,7 @@
 #include "content/station/registration.hpp"
 #include "engine/platform/input.hpp"
 #include "engine/render/scene.hpp"
+#include "game/scene/workplace.hpp"
 #include "game/trainer/screens.hpp"
 #include "haptics/station/station_tick.hpp"
 
@@ -57,10 +58,27 @@ TouchAnswer answer_of(const TouchCheck& check, std::span<const platform::InputEv
 
 ScreenAction draw_touch_check(const ScreenContext& context, const TouchCheck& check);
 
-// Shows arrows whose tips meet at the marker, and no workpiece and no hand: the drawn hand follows the arm,
-// so the user could bring it to the marker even with a wrong registration. `arrows`:
-// scene::GpuLessonModels::arrows.
-void show_touch_marker(render::Scene& scene, const render::GpuModel& arrows, const Pose& scene_in_room,
-                       const Vec3& marker);
+// The pose of the assembly's frame in the room while the check waits for a touch. `workpiece`: the place of
+// the workpiece in the room. If it is `registered`, that place; otherwise the workshop stands so that the
+// marker is above the middle of the clamping plate, and the workpiece is not shown. Neither follows the arm.
+Pose touch_scene(const TouchCheck& check, const Pose& workpiece, bool registered,
+                 const render::BoundingBox& box);
+
+// m from the marker at which the drawn tip of the arm disappears. The drawn tip is where the registration
+// says, so with a wrong registration a user who brings it to the drawn marker would find no error. It leads
+// to the marker; the touch itself must use the real tip and the real mark.
+inline constexpr double hidden_tip_distance = 0.04;
+
+// What the scene shows while the check waits for a touch, beside the workshop.
+struct TouchView {
+    const words::Words& words;
+    Pose scene_in_room;
+    std::optional<Pose> handle;  // of the arm, in the arm's frame; none: no sample
+    bool shows_workpiece = false;
+};
+// Shows arrows whose points meet at the marker, and an arrow whose point is the tip of the arm. Hides hand
+// and tools, because the drawn hand follows the arm.
+void show_touch_marker(render::Scene& scene, const scene::GpuLessonModels& models, const TouchCheck& check,
+                       const TouchView& view);
 
 }  // namespace bolt::trainer

@@ -41,12 +41,19 @@ struct TouchedLesson {
     test::VirtualTimeStation* bench = nullptr;
     std::optional<HeadlessTrainer> driver;
 
-    explicit TouchedLesson(const content::Registration& registered) {
+    explicit TouchedLesson(const content::Registration& registered,
+                           const std::optional<Pose>& workpiece_in_room = {}) {
         AppOptions options = test::options("cover-m8", false);
         options.choice.equipment.hand = HandMode::keyboard;
         content::StationFile& station = options.choice.equipment.station;
         station.arm.emplace().device = "force-dimension:0";
         station.registrations.push_back(registered);
+        if (workpiece_in_room) {
+            content::Registration& workpiece = station.registrations.emplace_back(registered);
+            workpiece.from = content::CoordinateFrame::workpiece;
+            workpiece.pose = *workpiece_in_room;
+            workpiece.check_point.reset();
+        }
         options.start_station =
             [this](const content::Assembly& assembly, const session::LessonOptions& lesson, const Equipment&,
                    const std::string&,
@@ -62,14 +69,28 @@ struct TouchedLesson {
         play(1.0);
     }
     void play(double seconds) {
-        for (int i = 0; i < static_cast<int>(std::lround(seconds / 0.02)); ++i) {
+        const int frames = static_cast<int>(std::lround(seconds / 0.02));
+        for (int i = 0; i < frames; ++i) {
             if (bench != nullptr) bench->advance(0.02);
+            driver->draws = i + 3 > frames;  // drawing takes most of the time
             driver->frame();
         }
+        driver->draws = true;
     }
     void press(platform::Key key) {
         driver->frame({platform::KeyEvent{key, true, false, {}}});
         driver->frame({platform::KeyEvent{key, false, false, {}}});
+    }
+    // The picture while the tip is held at a point of the room.
+    std::vector<std::uint8_t> picture_at(const Vec3& point) {
+        bench->hold({handle_at(point), 0});
+        play(0.1);
+        return driver->room_picture(0).rgba;
+    }
+    [[nodiscard]] bool shows(const char* label) const {
+        const std::vector<render::Label>& labels = lesson().scene.labels;
+        return std::any_of(labels.begin(), labels.end(),
+                           [&](const render::Label& one) { return one.text == label; });
     }
     // Holds the tip at a point of the room and presses a button.
     void touch(const Vec3& point) {
@@ -119,7 +140,6 @@ TEST_CASE("Touch check: a lesson waits for a touch of the marker, states the err
     CHECK(at.offers("touch.skip"));
     CHECK(!at.offers("menu.go_on"));
     test::save_eyes(*at.driver, "touch-asks");
-    CHECK(at.lesson().scene.objects.size() == 4);  // the arrows of the marker alone
 
     at.touch(marker + Vec3(0.0, 0.003, 0.0));
     REQUIRE(at.check());
@@ -134,6 +154,65 @@ TEST_CASE("Touch check: a lesson waits for a touch of the marker, states the err
     at.touch(marker);
     CHECK(!at.check());
     CHECK(at.lesson().session->time() > 0.2);
+}
+
+TEST_CASE(
+    "Touch check: the picture has marker, tip and workshop, and near the marker nothing that follows the "
+    "arm") {
+    TouchedLesson at(registration());
+    const std::vector<std::uint8_t> far = at.picture_at(marker + Vec3(0.16, 0.1, 0.05));
+    CHECK(at.shows("Check point"));
+    CHECK(at.shows("Tip of the arm"));
+    CHECK(at.lesson().scene.labels.size() == 2);
+    test::save_eyes(*at.driver, "touch-far");
+    const std::size_t objects = at.lesson().scene.objects.size();
+    CHECK(objects > 5);  // the workshop too
+    const std::vector<std::uint8_t> near = at.picture_at(marker + Vec3(0.02, -0.01, 0.0));
+    CHECK(at.shows("Check point"));
+    CHECK(!at.shows("Tip of the arm"));
+    test::save_eyes(*at.driver, "touch-near");
+    CHECK(near != far);
+    CHECK(near == at.picture_at(marker + Vec3(-0.01, 0.02, 0.03)));
+    // Without samples of the arm there is no tip.
+    (void)at.picture_at(marker + Vec3(0.16, 0.1, 0.05));
+    CHECK(at.shows("Tip of the arm"));
+    at.bench->unplugged_ = true;
+    at.play(0.1);
+    CHECK(!at.shows("Tip of the arm"));
+    CHECK(at.lesson().scene.objects.size() == objects - 1);
+}
+
+TEST_CASE("Touch check: a registered workpiece stands in its place, and does not follow the arm") {
+    std::size_t objects = 0;
+    {
+        TouchedLesson without(registration());
+        (void)without.picture_at(marker);
+        objects = without.lesson().scene.objects.size();
+    }
+    TouchedLesson at(registration(), Pose{{-0.05, 1.15, -0.55}, rotation({0.0, 0.3, 0.0})});
+    const std::vector<std::uint8_t> shown = at.picture_at(marker);
+    test::save_eyes(*at.driver, "touch-workpiece");
+    CHECK(at.lesson().scene.objects.size() > objects);
+    CHECK(shown == at.picture_at(marker + Vec3(0.0, 0.03, 0.0)));
+}
+
+TEST_CASE("Touch check: a headset that can shows the real room until the touch, whatever the setting") {
+    TouchedLesson at(registration());
+    at.driver->immersive->has_passthrough = true;
+    const auto clear = [&] {
+        const std::vector<std::uint8_t> picture = at.picture_at(marker);
+        std::size_t count = 0;
+        for (std::size_t alpha = 3; alpha < picture.size(); alpha += 4)
+            count += picture[alpha] == 0 ? 1U : 0U;
+        return static_cast<double>(count) / (0.25 * static_cast<double>(picture.size()));
+    };
+    CHECK(at.driver->app().wants_passthrough());
+    CHECK(clear() > 0.5);
+    test::save_eyes(*at.driver, "touch-passthrough");
+    at.touch(marker);
+    CHECK(at.check()->phase == TouchPhase::passed);
+    CHECK(!at.driver->app().wants_passthrough());
+    CHECK(clear() == 0.0);
 }
 
 TEST_CASE("Touch check: an arm that was moved gives a warning, and the lesson can be played") {
