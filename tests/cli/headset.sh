@@ -203,11 +203,38 @@ cat >station.json <<'END'
   "orientation_wxyz": [1, 0, 0, 0], "points": 6, "rms_m": 0.001,
   "check_point": {"from_m": [0.02, 0.01, 0.03], "to_m": [0.02, 1.01, -0.47]}}]}
 END
-place 0 0 0 0
+# The user looks down at the check point, and reads the request on the panel.
+cat >script <<END
+0 config width 240
+0 config height 200
+0 follow $work/commands
+1 head 0 1.65 0 -0.2164 0 0 0.9763
+END
+place 0.05 0.05 -0.04 0
 : >log
 "${train[@]}" --hmd first-nut --station station.json --out touched >log 2>&1 &
 player=$!
 check 'the arm is registered to the room' eventually grep -q 'picture and arm are aligned' log
+shot() {  # shot FILE: a picture of the lesson as it is now
+    sleep 2
+    echo "picture $work/$1" >commands
+    eventually test -s "$1"
+    rm commands
+    sleep 1  # until the pictures that were requested meanwhile are written
+}
+shot far.ppm
+place 0.02 0.03 0.03 0
+shot near.ppm
+check 'the request shows the workshop, and the tip of the arm until it is near the check point' python3 - far.ppm near.ppm <<'END'
+import sys
+def pixels(name):
+    data = open(name, 'rb').read()[-3 * 480 * 200:]
+    return [tuple(data[i:i + 3]) for i in range(0, len(data), 3)]
+far, near = [pixels(name) for name in sys.argv[1:]]
+blue = [sum(b > 180 and r < 160 and b > r + 60 for r, g, b in picture) for picture in (far, near)]
+assert blue[0] > blue[1] + 40, blue  # the arrow of the tip
+assert all(len(set(picture)) > 2000 for picture in (far, near)), [len(set(picture)) for picture in (far, near)]
+END
 place 0.02 0.016 0.03 0
 sleep 1
 place 0.02 0.016 0.03 1
