@@ -28,7 +28,7 @@ struct MemberReader;
 // Right-handed frames of a station, in m.
 enum class CoordinateFrame : std::uint8_t {
     arm,            // of the arm's samples (haptics/device/device.hpp), before its mounting is applied
-    wheel,          // of the wheel
+    wheel,          // of the wheel; in old files only
     tracker,        // of a tracking system
     wall,           // of a projection wall
     workpiece,      // of the assembly

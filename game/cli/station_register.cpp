@@ -59,6 +59,7 @@ Result<FramePair> frames_of(const RegisterArguments& options, const content::Sta
     BOLT_TRY_ASSIGN(const auto second, frame("--to", options.to));
     if (first == second)
         return fail(ErrorCode::usage, fmt::format("--from and --to are both \"{}\"", from), "two frames");
+    if (const auto unused = station_setup::unused_registration(first, second)) return fail(*unused);
     if (options.points.empty() && first != content::CoordinateFrame::arm)
         return fail(ErrorCode::usage, fmt::format("--from {}: an arm touches the points", from),
                     "--from arm, or --points FILE");
@@ -369,7 +370,7 @@ void add_station_register(CLI::App& station, int& exit_code) {
     add_touch_options(*command, *options, points);
     command->add_option(
         "--from", options->from,
-        "The first frame: arm, wheel, tracker, wall, workpiece, room, hand, controller or wrist_tracker; "
+        "The first frame: arm, tracker, wall, workpiece, room, hand, controller or wrist_tracker; "
         "default: arm, with --points tracker");
     command->add_option("--to", options->to, "The second frame")->capture_default_str();
     command->add_flag(

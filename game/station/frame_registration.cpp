@@ -34,6 +34,17 @@ RegistrationLimits limits_between(content::CoordinateFrame from, content::Coordi
     return hand ? limits_of_hand : RegistrationLimits{};
 }
 
+std::optional<Error> unused_registration(content::CoordinateFrame from, content::CoordinateFrame to) {
+    using content::CoordinateFrame;
+    if (from != CoordinateFrame::wheel && to != CoordinateFrame::wheel) return std::nullopt;
+    return Error{
+        ErrorCode::usage,
+        fmt::format("a registration between \"{}\" and \"{}\" is not used: a wheel turns one bolt after the "
+                    "other, so the workpiece has no place in the room that fits all of them",
+                    content::name(from), content::name(to)),
+        "a registration of the workpiece or the arm"};
+}
+
 Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, content::CoordinateFrame to,
                                              std::span<const PointPair> pairs, const std::string& date) {
     if (pairs.size() < 4)

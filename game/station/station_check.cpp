@@ -98,6 +98,9 @@ std::vector<StationFinding> compare(const content::StationFile& station, const S
                                 "it does not move the hand; expected a registration by "
                                 "`boltwright station register --hand SIDE --trainee NAME`",
                                 name(*station.glove_tracker))});
+    for (const content::Registration& one : station.registrations)
+        if (const auto unused = unused_registration(one.from, one.to))
+            findings.push_back({false, unused->message()});
     if (station.arm && !station.arm->tool.empty()) {
         const std::string& tool = station.arm->tool;
         const std::string near = nearest(tool, facts.tools);

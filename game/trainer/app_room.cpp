@@ -131,6 +131,8 @@ void App::start_registered_arm(const view::ImmersiveFrame& immersive) {
         return;
     }
     if (std::exchange(room.arm_lesson, lesson_number_) == lesson_number_) return;
+    for (const content::Registration& one : context_->choice.equipment.station.registrations)
+        if (const auto unused = station_setup::unused_registration(one.from, one.to)) log(unused->message());
     room.arm.reset();
     room.touch.reset();
     const content::Registration* found =

@@ -57,6 +57,9 @@ expect 1 'off by .* mm; expected at most 5 mm; register it again' "${run[@]}" s.
 expect 0 'warning: tracker -> room: the rms is' "${run[@]}" s.json --points wrong.csv --force
 check 'with --force it is stored' bash -c '! cmp -s s.json before.json'
 expect 2 'is not a frame; did you mean "tracker"' "${run[@]}" s.json --points pairs.csv --from trakcer
+for frames in '--from wheel' '--from room --to wheel'; do
+    expect 2 'between ".*" and ".*" is not used: a wheel turns one bolt after the other.*; expected a registration of the workpiece or the arm' "${run[@]}" s.json --points pairs.csv $frames
+done
 expect 2 'are both "room"' "${run[@]}" s.json --points pairs.csv --from room
 expect 2 'excludes' "${run[@]}" s.json --points pairs.csv --device $arm
 expect 2 'an arm touches the points; expected --from arm' "${run[@]}" s.json --from tracker

@@ -124,6 +124,18 @@ TEST_CASE("Station check: a Vive tracker without its registration does not move 
     CHECK(bench.text().empty());
 }
 
+TEST_CASE("Station check: a registration of a wheel, in an old file, is not used") {
+    Bench bench;
+    content::Registration& registered = bench.station.registrations.emplace_back();
+    registered.from = content::CoordinateFrame::room;
+    registered.to = content::CoordinateFrame::wheel;
+    CHECK(contains(bench.text(),
+                   "warning: a registration between \"room\" and \"wheel\" is not used: a wheel "
+                   "turns one bolt after the other"));
+    registered.to = content::CoordinateFrame::tracker;
+    CHECK(bench.text().empty());
+}
+
 TEST_CASE("Station check: the shipped assemblies have the tools that a station can name") {
     const std::vector<std::string> tools = find_facts({}).tools;
     CHECK(std::find(tools.begin(), tools.end(), "torque_wrench") != tools.end());

@@ -107,6 +107,20 @@ TEST_CASE(
     CHECK(scaled.logged("picture and arm are not aligned: the scale of the arm is 1.50; expected 1"));
 }
 
+TEST_CASE("Registered arm: a registration of a wheel is reported and changes nothing") {
+    Pose alone;
+    {
+        const RegisteredArm none(std::nullopt);
+        alone = none.scene_in_room();
+        CHECK(!none.logged("is not used"));
+    }
+    content::Registration wheel = registration();
+    wheel.from = content::CoordinateFrame::wheel;
+    const RegisteredArm at(wheel);
+    CHECK(at.logged("a registration between \"wheel\" and \"room\" is not used"));
+    CHECK(distance(at.scene_in_room(), alone) < 1e-9);
+}
+
 TEST_CASE("Registered arm: after the workpiece was turned, right is still the user's right") {
     RegisteredArm at(std::nullopt);
     at.driver->immersive->hands.sides[1].active = true;
