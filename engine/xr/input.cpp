@@ -235,8 +235,10 @@ Status XrInput::read_vive_trackers(const FrameTiming& frame, ViveTrackers& track
     // The event of a change may be lost.
     constexpr std::uint32_t enumeration_interval = 90;  // frames
     if (roles_are_old_ || reads_ % enumeration_interval == 0) {
-        BOLT_TRY_ASSIGN(connected_roles_,
-                        connected_roles(runtime.instance(), runtime.functions().enumerate_vive_trackers));
+        Result<TrackerRoles> roles =
+            connected_roles(runtime.instance(), runtime.functions().enumerate_vive_trackers);
+        if (!roles && roles.error().lost) return fail(roles.error());
+        if (roles) connected_roles_ = *roles;  // the roles are for messages only
         roles_are_old_ = false;
     }
     trackers.connected = connected_roles_;

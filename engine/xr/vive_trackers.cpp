@@ -30,7 +30,10 @@ Result<bool> suggest_tracker_bindings(XrInstance instance, std::span<const Track
         BOLT_TRY_ASSIGN(const XrPath pose, path_of(instance, path_of_role(one.role) + "/input/grip/pose"));
         bindings.push_back({one.action, pose});
     }
-    return suggest_bindings_of(tracker_profile, bindings, instance);
+    Result<bool> suggested = suggest_bindings_of(tracker_profile, bindings, instance);
+    // A runtime that refuses trackers in another way is used without them.
+    if (!suggested && !suggested.error().lost) return false;
+    return suggested;
 }
 
 // None: the runtime does not know the role.
@@ -44,10 +47,10 @@ Result<std::optional<TrackerAction>> make_action(XrInstance instance, XrActionSe
     info.actionType = XR_ACTION_TYPE_POSE_INPUT;
     info.countSubactionPaths = 1;
     info.subactionPaths = &made.path;
-    const XrResult result = xrCreateAction(set, &info, &made.action);
-    if (result == XR_ERROR_PATH_UNSUPPORTED) return std::optional<TrackerAction>();
-    BOLT_TRY(check(result, "xrCreateAction"));
-    return std::optional(made);
+    const Status created = check(xrCreateAction(set, &info, &made.action), "xrCreateAction");
+    if (created) return std::optional(made);
+    if (created.error().lost) return fail(created.error());
+    return std::optional<TrackerAction>();
 }
 
 }  // namespace
