@@ -106,14 +106,16 @@ std::vector<Jaw> jaws_of(const content::Assembly& assembly, const std::vector<st
     return jaws;
 }
 
-WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scene, const Messages& messages) {
+WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scene, const Messages& messages,
+                        CheckProgress& progress) {
     check_triangles(scene, near_budget, "/model", messages);
     ToolSet set(assembly, load_tools(assembly, messages));
     const std::vector<int> nodes = check_nodes(assembly, scene, messages);
     WrenchRooms rooms;
     rooms.everything = build_bvh(scene);
     const std::vector<Bvh> trees = build_part_trees(scene);
-    for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+    progress.joints = assembly.joints.size();
+    for (std::size_t i = 0; i < assembly.joints.size() && !progress.stop; progress.checked = ++i) {
         if (nodes[i] < 0) continue;
         const content::AssemblyJoint& joint = assembly.joints[i];
         const std::vector<std::size_t> tools = tools_of_joint(assembly, i);
@@ -134,7 +136,9 @@ WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scen
 
 }  // namespace
 
-Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchRooms>* rooms) {
+Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchRooms>* rooms,
+                        CheckProgress* progress) {
+    CheckProgress unwatched;
     Findings findings;
     const auto document = content::JsonDocument::parse(assembly.text, assembly.file, findings.errors);
     if (!document) return findings;
@@ -151,7 +155,8 @@ Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchR
     if (model && far) check_names(*model, *far, messages);
     if (model && contact) check_contact(*contact, *model, messages);
     if (model) {
-        WrenchRooms found = check_model(assembly, std::move(*model), messages);
+        WrenchRooms found =
+            check_model(assembly, std::move(*model), messages, progress != nullptr ? *progress : unwatched);
         if (rooms != nullptr) *rooms = std::move(found);
     }
     content::sort_by_position(findings.errors);

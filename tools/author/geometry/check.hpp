@@ -2,6 +2,7 @@
 // overlaps, kind, strength and room of the tools, levels of detail.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <vector>
 
@@ -16,9 +17,17 @@ struct Findings {
     std::vector<Error> notes;   // not errors, but useful to the author
 };
 
+// The progress of a check that runs on another thread, and the request to stop it.
+struct CheckProgress {
+    std::atomic<std::size_t> joints{0}, checked{0};  // 0 joints: the models are being read
+    // Stops the check before the next joint; its findings are then incomplete.
+    std::atomic<bool> stop{false};
+};
+
 // `assembly` must have loaded without errors, and its model files must exist. Without a model only kind, size
 // and strength of the tools are checked. `rooms`: receives the room for the tool of each joint, if there is a
-// model.
-Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchRooms>* rooms = nullptr);
+// model. `progress`: may be null.
+Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchRooms>* rooms = nullptr,
+                        CheckProgress* progress = nullptr);
 
 }  // namespace bolt::geometry

@@ -133,6 +133,7 @@ std::optional<double> flat_angle(const JointSurroundings& space) {
 void fill_in(WrenchRoom& out, const JointSurroundings& space, const ToolShape& tool, const ToolRoom& room) {
     out.gripped = true;
     out.height = room.height;
+    out.obstruction = room.obstruction;
     out.turned_over = room.seated.is_wider_turned_over();
     out.swing = room.seated.wider();
     if (const Arc* arc = out.swing.widest()) out.handle = 0.5 * (arc->from + arc->to);

@@ -25,6 +25,7 @@ struct WrenchRoom {
     double handle = 0.0;       // rad, the middle of the widest free arc; 0 without an arc
     double height = 0.0;       // m, of the tool's origin
     double turn = 0.0;         // rad by which the hexagon has to turn to fit the head at `handle`
+    std::uint32_t obstruction = no_part;  // a part in the path of the tool onto the joint
 };
 
 struct WrenchRooms {
