@@ -10,6 +10,8 @@ start() {  # start what option...
     "$bin/bolt-author" preview "$@" --validate >log 2>&1 &
     player=$!
     eventually has_window || { echo "no window:"; cat log; exit 1; }
+    # The swing of a selected joint is drawn after the check.
+    eventually grep -q '^checked ' log || { echo "not checked:"; cat log; exit 1; }
 }
 has_window() { window=$(xdotool search --name 'preview|broken' 2>/dev/null | head -1) && [[ -n $window ]]; }
 title() { xdotool getwindowname "$window"; }
@@ -181,7 +183,7 @@ sed -i '1a\\n' mine/assembly.json
 check "the selection follows the joint's line when the file changes" eventually grep -qxF \
     "mine/assembly.json:$((line + 2)):5: joint B3: type M8x30, tool wrench" log
 check "... also in the title" eventually has_title "mine - joint B3: *:$((line + 2)):5 - bolt-author preview"
-check "... and stays highlighted" shows selected.png
+check "... and stays highlighted" eventually shows selected.png
 xdotool key l
 check "... also in the far level" eventually count 'reloaded mine' 2
 xdotool key l
@@ -192,6 +194,54 @@ check "a joint that has gone is no longer selected" eventually grep -qxF 'joint 
 check "... as the title shows" eventually has_title 'mine - bolt-author preview'
 check "... and the highlight is gone" eventually shows top.png
 check "Esc closes" ends_well
+
+# Problems of the tools' room: the ratchet of two joints no longer has a ring instead, and there is no way for it.
+cp -r "$sources/content/assemblies/dn200-pn16" room
+sed -i 's/"handle_length_mm": 450,/"handle_length_mm": 450/; /"instead": { "B6": "ring"/d' room/assembly.json
+place() { echo "room/assembly.json:$(grep -n "\"id\": \"$1\"" room/assembly.json | cut -d: -f1):5"; }
+start room --size 800x600
+check "a check reports problems when the window is open" grep -qxF 'checked room (by_torque): 12 joints, 2 problems' log
+check "... with their places, as validate does" grep -qE "^$(place B6): .*\"ratchet\" cannot be brought onto \"B6\"" log
+check "... and their number in the title" eventually has_title 'room - 2 problems - bolt-author preview'
+settle
+cp after.png problems.png
+xdotool key p
+check "key P hides the panel" eventually shows_not problems.png
+xdotool key p
+check "... and shows it again" eventually shows problems.png
+xdotool key n
+check "key N selects the joint of the first problem" eventually grep -q "^$(place B6): joint B6: " log
+xdotool key n
+check "... and then that of the next one" eventually grep -q "^$(place B7): joint B7: " log
+settle
+cp after.png next.png
+xdotool mousemove 150 180 click 1
+check "a click on a problem in the panel selects its joint" eventually count ': joint B6: ' 2
+check "... and shows it" eventually shows_not next.png
+settle
+cp after.png chosen.png
+xdotool mousemove 700 550 click 1
+check "a click beside all joints removes the swing" eventually has_title 'room - 2 problems - bolt-author preview'
+xdotool key f
+check "... from the picture" eventually shows_not chosen.png
+settle
+cp after.png before_all.png
+xdotool key s
+check "key S draws the swing of all joints" eventually shows_not before_all.png
+xdotool key s
+check "... and removes it" eventually shows before_all.png
+xdotool mousemove 60 63 click 1
+check "a click on a variant in the panel shows and checks it" eventually grep -qF 'checked room (by_angle): ' log
+xdotool key v
+check "key V shows the next variant" eventually count 'checked room .by_torque.' 2
+cp "$sources/content/assemblies/dn200-pn16/assembly.json" room/assembly.json
+check "the check is repeated after a change" eventually grep -qxF 'checked room (by_torque): 12 joints, no problems' log
+check "... and the title follows" eventually has_title 'room - bolt-author preview'
+check "Esc closes" ends_well
+start room --variant by_angle --size 320x200
+check "--variant begins with another one" grep -qF 'checked room (by_angle): ' log
+check "Esc closes" ends_well
+expect 3 'did you mean "by_angle"' "$bin/bolt-author" preview room --variant by_angel
 
 # A changing light, and shaders.
 cp "$sources/content/environments/workshop.hdr" light.hdr

@@ -33,6 +33,10 @@ TEST_CASE("Preview: each key gives its command once, and not with a modifier") {
     CHECK(at.apply({pressed(Key::r)}).reload);
     CHECK(at.apply({pressed(Key::f)}).show_all);
     CHECK(at.apply({pressed(Key::l)}).toggle_level);
+    CHECK(at.apply({pressed(Key::s)}).toggle_sectors);
+    CHECK(at.apply({pressed(Key::n)}).next_problem);
+    CHECK(at.apply({pressed(Key::v)}).next_variant);
+    CHECK(at.apply({pressed(Key::p)}).toggle_panel);
     CHECK(at.apply({pressed(Key::digit_1)}).select_view == std::size_t{0});
     CHECK(at.apply({pressed(Key::digit_9)}).select_view == std::size_t{8});
     CHECK_FALSE(at.apply({pressed(Key::digit_0)}).select_view.has_value());

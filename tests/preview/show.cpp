@@ -34,9 +34,9 @@ struct Preview {
     std::optional<gpu::Instance> instance;
 
     Preview() {
-        view::ModelLoadResult loaded = sources.read_model(view::DetailLevel::near);
+        view::ModelLoadResult loaded = sources.read_model(view::DetailLevel::near, {});
         REQUIRE(loaded.ok());
-        sources.set_shown(std::move(loaded.model), view::DetailLevel::near);
+        sources.set_shown(std::move(loaded.model), view::DetailLevel::near, {});
         sources.set_shown(need(sources.read_light()));
         gpu::InstanceOptions validated;
         validated.validation = true;

@@ -125,7 +125,7 @@ WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scen
         if (check_fasteners_and_members(joint, joint.index_in_file, parts, scene, rooms.everything,
                                         jaws_of(assembly, tools), messages)) {
             const JointSurroundings surroundings(joint, parts, scene, trees);
-            check_tool_room(surroundings, joint.index_in_file, tools, set, messages, room);
+            check_tool_room(surroundings, joint.index_in_file, tools, set, messages, room, rooms.failing);
         }
         rooms.joints.push_back(std::move(room));
     }

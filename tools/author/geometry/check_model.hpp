@@ -77,9 +77,10 @@ bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_
                                  std::span<const Jaw> jaws, const Messages& messages);
 
 // Checks that each tool can be brought onto the turned part and swings far enough on it. `tools`: of
-// tools_of_joint(). `room`: receives what was measured for the first one. Implemented in check_reach.cpp.
+// tools_of_joint(). `room`: receives what was measured for the first one. `failing`: receives the rooms of
+// those that do not fit. Implemented in check_reach.cpp.
 void check_tool_room(const JointSurroundings& surroundings, std::size_t joint,
                      const std::vector<std::size_t>& tools, ToolSet& set, const Messages& messages,
-                     WrenchRoom& room);
+                     WrenchRoom& room, std::vector<WrenchRoom>& failing);
 
 }  // namespace bolt::geometry

@@ -147,7 +147,8 @@ void fill_in(WrenchRoom& out, const JointSurroundings& space, const ToolShape& t
 }  // namespace
 
 void check_tool_room(const JointSurroundings& space, std::size_t joint, const std::vector<std::size_t>& tools,
-                     ToolSet& set, const Messages& messages, WrenchRoom& room) {
+                     ToolSet& set, const Messages& messages, WrenchRoom& room,
+                     std::vector<WrenchRoom>& failing) {
     JointRooms rooms(space, set);
     const content::AssemblyJoint& checked = space.joint();
     const double gap = checked.design.start_gap;
@@ -157,6 +158,7 @@ void check_tool_room(const JointSurroundings& space, std::size_t joint, const st
         const ToolRoom& found = rooms.room_of(shape);
         if (tool == tools.front()) fill_in(room, space, shape, found);
         const ToolCheck check{space, rooms, joint, tool, shape, messages};
+        const std::size_t errors = messages.findings.errors.size();
         const std::string start = fmt::format(" where it starts, {:.3g} mm above its seat", gap / mm);
         if (shape.is_open_end()) {
             check.check_swing(found.seated, "");
@@ -166,6 +168,10 @@ void check_tool_room(const JointSurroundings& space, std::size_t joint, const st
             // One mistake is enough, because the path leads past the start of the thread.
             check.check_swing(*found.at_start, start);
         }
+        if (messages.findings.errors.size() == errors) continue;
+        failing.push_back(room);
+        failing.back().tool = tool;
+        fill_in(failing.back(), space, shape, found);
     }
 }
 

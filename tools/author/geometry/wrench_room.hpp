@@ -33,6 +33,8 @@ struct WrenchRooms {
     Bvh everything;                  // all parts, in the assembly's frame
     std::vector<ToolShape> tools;    // in the order of the assembly
     std::vector<WrenchRoom> joints;  // those whose node the model has
+    // The room for each tool that cannot do its work on a joint: too little swing, or no path onto it.
+    std::vector<WrenchRoom> failing;
 };
 
 }  // namespace bolt::geometry

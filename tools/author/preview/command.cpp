@@ -37,9 +37,9 @@ int run_preview(PreviewOptions options, const std::string& size) {
     if (!extent) return print_error(extent.error());
     options.size = *extent;
     PreviewSources sources(options);
-    view::ModelLoadResult loaded = sources.read_model(view::DetailLevel::near);
+    view::ModelLoadResult loaded = sources.read_model(view::DetailLevel::near, options.variant);
     if (!loaded.ok()) return print_error(loaded.errors);
-    sources.set_shown(std::move(loaded.model), view::DetailLevel::near);
+    sources.set_shown(std::move(loaded.model), view::DetailLevel::near, options.variant);
     Result<shading::RadianceImage> light = sources.read_light();
     if (!light) return print_error(light.error());
     sources.set_shown(std::move(*light));
@@ -69,6 +69,8 @@ void add_preview(CLI::App& app, int& exit_code) {
         "preview", "Show an assembly or a model in a window and reload its files when they change");
     command->add_option("what", options.source, "Assembly (folder, file or name) or a .glb")->required();
     command->add_option("--size", arguments->size, "WIDTHxHEIGHT of the window or the picture");
+    command->add_option("--variant", options.variant,
+                        "Variant of the assembly to begin with; its default if not given");
     command->add_option("--view", options.view, "Named view of the assembly to begin with");
     command->add_option("--light", options.light, "studio, or a Radiance .hdr file");
     command->add_option("--png", options.png, "Draw into this file instead; needs no display");

@@ -31,6 +31,18 @@ void press(Key key, PreviewCommands& commands) {
         case Key::l:
             commands.toggle_level = true;
             break;
+        case Key::s:
+            commands.toggle_sectors = true;
+            break;
+        case Key::n:
+            commands.next_problem = true;
+            break;
+        case Key::v:
+            commands.next_variant = true;
+            break;
+        case Key::p:
+            commands.toggle_panel = true;
+            break;
         default:
             if (key >= Key::digit_1 && key <= Key::digit_9)
                 commands.select_view = static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::digit_1);
@@ -77,7 +89,9 @@ std::string help_line(const std::vector<view::Viewpoint>& views) {
         "Left drag: turn. Click: select a joint. Right or middle drag: move. Wheel: zoom. F: all.";
     for (std::size_t i = 0; i < std::min(views.size(), view_keys); ++i)
         text += fmt::format(" {}: {}.", i + 1, views[i].name);
-    return text + " L: far level. R: reload. F11: full screen. Esc: close.\n";
+    return text +
+           " S: swing of all joints. N: next problem. V: next variant. P: panel."
+           " L: far level. R: reload. F11: full screen. Esc: close.\n";
 }
 
 }  // namespace bolt::author

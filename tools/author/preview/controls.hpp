@@ -11,6 +11,8 @@ namespace bolt::author {
 
 struct PreviewCommands {
     bool close = false, full_screen = false, reload = false, show_all = false, toggle_level = false;
+    bool toggle_sectors = false;  // of all joints
+    bool next_problem = false, next_variant = false, toggle_panel = false;
     bool redraw = false;                     // the window lost its picture or was resized
     std::optional<std::size_t> select_view;  // index of a view of the assembly
     // Pixels from the upper left corner, where the left button was pressed and released without a drag.

@@ -32,12 +32,15 @@ SelectableJoint describe_joint(const content::Assembly& assembly, const content:
 
 }  // namespace
 
-Result<SelectableJoints> find_joints(const std::string& source, const view::LoadedModel& model) {
+Result<SelectableJoints> find_joints(const std::string& source, const std::string& variant,
+                                     const view::LoadedModel& model) {
     SelectableJoints found;
     if (model.without_assembly) return found;
-    content::LoadedAssembly loaded = content::load_assembly(source);
+    content::LoadedAssembly loaded = content::load_assembly(source, variant);
     if (!loaded.ok()) return fail(std::move(loaded.errors.front()));
     const content::Assembly& assembly = loaded.assembly;
+    found.variant = assembly.variant;
+    for (const content::AssemblyVariant& known : assembly.variants) found.variants.push_back(known.name);
     std::vector<Error> errors;
     const auto document = content::JsonDocument::parse(assembly.text, assembly.file, errors);
     if (!document) return fail(std::move(errors.front()));

@@ -24,11 +24,14 @@ struct SelectableJoints {
     std::vector<SelectableJoint> joints;  // in the order of the file
     geometry::Bvh triangles;              // Triangle::part: index in `joint_of_part`
     std::vector<int> joint_of_part;       // index in `joints`; -1: the part belongs to no joint
+    std::vector<std::string> variants;    // names of all variants of the file
+    std::string variant;                  // name of the shown one; empty: the file has none
 };
 
-// `source`: of the preview; `model`: what view::load_model() read from it. Fails if the file has become
-// invalid since then.
-Result<SelectableJoints> find_joints(const std::string& source, const view::LoadedModel& model);
+// `source`, `variant`: of the preview; `model`: what view::load_model() read from them. Fails if the file has
+// become invalid since then.
+Result<SelectableJoints> find_joints(const std::string& source, const std::string& variant,
+                                     const view::LoadedModel& model);
 
 // Returns null if there is no joint of that name.
 const SelectableJoint* joint_named(const SelectableJoints& joints, std::string_view id);

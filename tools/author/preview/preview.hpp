@@ -12,6 +12,7 @@ namespace bolt::author {
 
 struct PreviewOptions {
     std::string source;            // assembly (folder, file or name) or model file
+    std::string variant;           // of the assembly; empty: its default one
     std::string view;              // name of the first view; empty: the whole model
     std::string light = "studio";  // or a Radiance file
     std::string shaders;           // folder with GLSL; empty: the built-in shaders
@@ -24,14 +25,16 @@ struct PreviewOptions {
 // The model and the light that the preview shows, and the watch on their files.
 class PreviewSources {
   public:
-    explicit PreviewSources(const PreviewOptions& options) : source_(options.source), light_(options.light) {}
+    explicit PreviewSources(const PreviewOptions& options)
+        : source_(options.source), light_(options.light), variant_(options.variant) {}
 
     // Reload the files. set_shown() makes the result current.
-    [[nodiscard]] view::ModelLoadResult read_model(view::DetailLevel level) const {
-        return view::load_model(source_, level);
+    [[nodiscard]] view::ModelLoadResult read_model(view::DetailLevel level,
+                                                   const std::string& variant) const {
+        return view::load_model(source_, level, variant);
     }
     [[nodiscard]] Result<shading::RadianceImage> read_light() const { return view::load_light(light_); }
-    void set_shown(view::LoadedModel model, view::DetailLevel level);
+    void set_shown(view::LoadedModel model, view::DetailLevel level, std::string variant);
     void set_shown(shading::RadianceImage radiance) { radiance_ = std::move(radiance); }
 
     struct FileChanges {
@@ -43,9 +46,10 @@ class PreviewSources {
     [[nodiscard]] const view::LoadedModel& model() const { return model_; }
     [[nodiscard]] const shading::RadianceImage& radiance() const { return radiance_; }
     [[nodiscard]] view::DetailLevel level() const { return level_; }
+    [[nodiscard]] const std::string& variant() const { return variant_; }  // empty: the default one
 
   private:
-    std::string source_, light_;
+    std::string source_, light_, variant_;
     view::DetailLevel level_ = view::DetailLevel::near;
     view::LoadedModel model_;
     shading::RadianceImage radiance_;
