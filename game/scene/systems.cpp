@@ -132,9 +132,10 @@ void place_second_wrench(SceneWorld& world, const servo::Setup& setup) {
 
 void place_tool(SceneWorld& world, std::size_t tool, const ToolAndHand& state) {
     const glm::dmat4 pose = matrix(state.wrench ? state.tool : state.rest);
+    const glm::dmat4 head = glm::rotate(pose, state.head_turn, Vec3(0.0, 0.0, 1.0));
     world.view<const ToolPart, Transform>().each(
         [&](ecs::Entity entity, const ToolPart& part, Transform& transform) {
-            transform.world = glm::mat4(pose * part.tool_from_mesh);
+            transform.world = glm::mat4((part.in_head ? head : pose) * part.tool_from_mesh);
             Appearance* appearance = world.find<Appearance>(entity);
             if (appearance == nullptr && part.tool != tool) appearance = &world.add<Appearance>(entity);
             if (appearance != nullptr) appearance->hidden = part.tool != tool;
@@ -177,6 +178,7 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     ToolAndHand held;
     held.tool = hand.wrench ? world.only<world::ConstrainedTool>().pose : hand.pose;
     held.wrench = hand.wrench;
+    held.head_turn = world.only<world::ToolState>().head_turn;
     held.rest = hand.rest;
     held.pinches = hand.pinches;
     held.closing = hand.closing;

@@ -224,6 +224,14 @@ void add_workshop(Workplace& workplace, const LessonModels& models, const GpuLes
     for (const render::Object& object : scene.objects) (void)view::add_drawable(workplace.world, object);
 }
 
+// The parts of a ratchet that do not turn with its handle, by the names of their nodes: socket, bit,
+// extension bar (bar_…) and square drive.
+bool is_in_ratchet_head(const assets::Model& model, int node) {
+    if (node < 0) return false;
+    const std::string& name = model.nodes[static_cast<std::size_t>(node)].name;
+    return name == "drive" || name == "bit" || name.starts_with("socket") || name.starts_with("bar_");
+}
+
 void add_tool(Workplace& workplace, std::size_t index, const ToolModel& tool,
               const render::GpuModel& on_gpu) {
     if (tool.model.meshes.empty()) return;
@@ -233,7 +241,8 @@ void add_tool(Workplace& workplace, std::size_t index, const ToolModel& tool,
         const ecs::Entity entity = view::add_drawable(workplace.world, object);
         workplace.world.get<Drawable>(entity).moves = true;
         const glm::dmat4 tool_from_mesh = matrix(tool.turn) * glm::dmat4(object.world);
-        workplace.world.add<ToolPart>(entity, tool_from_mesh, index);
+        workplace.world.add<ToolPart>(entity, tool_from_mesh, index,
+                                      is_in_ratchet_head(tool.model, object.node));
         const ecs::Entity ghost = view::add_drawable(workplace.world, object);
         workplace.world.get<Drawable>(ghost).moves = true;
         workplace.world.add<GhostPart>(ghost, tool_from_mesh, false, index);

@@ -53,6 +53,7 @@ struct SecondWrenchPart {
 struct ToolPart {
     glm::dmat4 tool_from_mesh{1.0};
     std::size_t tool = 0;  // index in servo::Setup::tools
+    bool in_head = false;  // turns with the head of a ratchet, not with its handle
 };
 
 // The displayed hand.

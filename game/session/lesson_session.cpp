@@ -143,6 +143,7 @@ bool same_tick(const servo::TickInput& input, const servo::Output& a, const serv
 
 void haptic_system(const world::WriteHaptics& world, TickContext& tick) {
     world::write_haptics(world, tick.servo);
+    world::turn_ratchet_head(world, tick.setup, tick.servo);
 }
 
 void lesson_system(const world::WriteHaptics& world, TickContext& tick) {
@@ -293,7 +294,7 @@ Result<servo::Output> LessonSession::tick(const world::WriteHaptics& world, cons
     servo::change_tool(session_setup_.setup, session_setup_.state, input);
     const servo::Output output = servo::tick(session_setup_.setup, session_setup_.state, input);
     checkpoints_saved_ += input.checkpoint_action == servo::save_checkpoint ? 1U : 0U;
-    TickContext context{{session_setup_.state, input, output}, tracker_};
+    TickContext context{{session_setup_.state, input, output}, session_setup_.setup, tracker_};
     ecs::run(tick_systems, world, context);
     events_.clear();
     std::swap(events_, tracker_.lesson.events);

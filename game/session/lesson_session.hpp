@@ -93,10 +93,11 @@ struct LessonTracker {
 // The input of the systems of a tick besides the world.
 struct TickContext {
     world::Snapshot servo;
+    const servo::Setup& setup;
     LessonTracker& tracker;
 };
 
-// Calls world::write_haptics().
+// Calls world::write_haptics() and world::turn_ratchet_head().
 void haptic_system(const world::WriteHaptics& world, TickContext& tick);
 // Updates the lesson from the components, and undoes its steps if the servo undid the nuts.
 void lesson_system(const world::WriteHaptics& world, TickContext& tick);

@@ -97,7 +97,7 @@ Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
             const servo::TickInput input = input_of(recorded);
             servo::change_tool(start.setup, start.state, input);
             const servo::Output output = servo::tick(start.setup, start.state, input);
-            TickContext context{{start.state, input, output}, tracker};
+            TickContext context{{start.state, input, output}, start.setup, tracker};
             ecs::run(tick_systems, world, context);
             if (!same_output(make_record(input, output), recorded) && replayed.mismatches++ == 0)
                 replayed.first_mismatch = replayed.ticks;

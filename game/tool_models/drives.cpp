@@ -66,7 +66,7 @@ Shell knurled_z(double from, double to, double radius, double depth, int teeth, 
 void add_text_around(ToolParts& parts, std::string_view text, double height, double radius, double z,
                      Detail detail) {
     if (detail == Detail::contact) return;
-    ToolPart part{"size", Finish::chrome_vanadium, {}};
+    ToolPart part{"socket_size", Finish::chrome_vanadium, {}};
     const double raised = std::max(0.2, 0.05 * height);
     for (Shell& stroke : text_shells(text, height, 0.17 * height, -0.4, raised))
         part.shells.push_back(moved(std::move(stroke), [=](const Vec3& p) {

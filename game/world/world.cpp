@@ -36,6 +36,27 @@ void write_joints(const WriteHaptics& world, const servo::State& servo) {
     }
 }
 
+// rad between two angles at which the head of a ratchet fits the same hexagon.
+double hexagon_period(const collision::ToolHead& head) {
+    const auto* ring = std::get_if<collision::Ring>(&head);
+    return to_radians(ring != nullptr && ring->points == 12 ? 30.0 : 60.0);
+}
+
+void write_tool(ToolState& tool, const Snapshot& servo) {
+    const servo::Output& output = servo.output;
+    const double head_turn = tool.head_turn;  // of turn_ratchet_head()
+    tool = {.joint = output.joint,
+            .grip = servo.state.engagement.grip,
+            .slipped = output.slipped,
+            .obstacle = output.touched,
+            .contacts = output.contacts,
+            .clicked = output.clicked,
+            .ratchet_slack = servo.state.engagement.ratchet_slack,
+            .second_wrench = servo.input.second_wrench,
+            .bent = servo.state.bent,
+            .head_turn = head_turn};
+}
+
 }  // namespace
 
 void write_initial_state(const WriteHaptics& world, const servo::State& state) {
@@ -48,19 +69,32 @@ void write_haptics(const WriteHaptics& world, const Snapshot& servo) {
     world.only<ServoClock>().tick = servo.state.tick;
     write_joints(world, servo.state);
     world.only<ConstrainedTool>().pose = output.constrained_tool;
-    world.only<ToolState>() = {output.joint,
-                               servo.state.engagement.grip,
-                               output.slipped,
-                               output.touched,
-                               output.contacts,
-                               output.clicked,
-                               servo.state.engagement.ratchet_slack,
-                               servo.input.second_wrench,
-                               servo.state.bent};
+    write_tool(world.only<ToolState>(), servo);
     world.only<GuidingForce>() = {servo.input.guide, servo.state.guiding_command.force,
                                   servo.state.guiding_command.torque};
     world.only<DeviceForce>() = {output.force, output.torque, output.fault};
     write_hand(world.only<WorkingHand>(), servo);
+}
+
+void turn_ratchet_head(const WriteHaptics& world, const servo::Setup& setup, const Snapshot& servo) {
+    double& head_turn = world.only<ToolState>().head_turn;
+    if (setup.wrench.ratchet.tooth_angle <= 0.0 || servo.input.grip != servo::Grip::wrench) {
+        head_turn = 0.0;
+        return;
+    }
+    const servo::Engagement& engagement = servo.state.engagement;
+    if (engagement.joint < 0 || engagement.grip != servo::Grip::wrench) return;
+    const auto i = static_cast<std::size_t>(engagement.joint);
+    const servo::NutGeometry& nut = setup.nuts[i];
+    const double play = servo::half_play(setup.wrench, nut.across_flats, servo.state.rounded[i]);
+    const double rotation = servo.state.joints[i].rotation();
+    // Beyond the play, the tool twists: the head stays on the hexagon.
+    const double head = rotation + std::clamp(engagement.hand_angle - rotation, -play, play);
+    const Vec3 tool_axis = servo.output.constrained_tool.orientation * Vec3(0.0, 0.0, 1.0);
+    const double about_axis = glm::dot(tool_axis, nut.axis) < 0.0 ? -1.0 : 1.0;
+    const double turn = -nut.sense * about_axis * (head - engagement.azimuth);
+    // The hexagon looks the same after each period. Text on the head does not.
+    head_turn += wrap(turn - head_turn, hexagon_period(setup.wrench.head));
 }
 
 const Joint& joint_at(const ReadJoints& world, std::size_t index) {

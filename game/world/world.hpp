@@ -55,6 +55,8 @@ struct ToolState {
     double ratchet_slack = 0.0;            // as servo::Engagement::ratchet_slack
     std::int16_t second_wrench = -1;       // as servo::TickInput::second_wrench
     double bent = 0.0;                     // rad, as servo::State::bent
+    // rad about the tool's +Z, by which a ratchet's head is turned relative to its handle, for drawing.
+    double head_turn = 0.0;
 };
 
 // The force that guides the tool to a nut, before the limits of the output stage.
@@ -130,6 +132,11 @@ struct Snapshot {
 // leaves WorkingHand::rest unchanged. A program with more data about the hand (its goal, a glove) writes that
 // afterwards.
 void write_haptics(const WriteHaptics& world, const Snapshot& servo);
+
+// Turns the head of a ratchet (ToolState::head_turn): on a nut it keeps the nut's angle while the handle
+// swings back, and turns with the handle while it pulls. Off the nut it stays as it is until the next nut.
+// Call after write_haptics().
+void turn_ratchet_head(const WriteHaptics& world, const servo::Setup& setup, const Snapshot& servo);
 
 // Writes the state at the start of a lesson, when there is no input or output yet.
 void write_initial_state(const WriteHaptics& world, const servo::State& state);
