@@ -130,6 +130,60 @@ TEST_CASE("Threads: a nut in phase does not overlap the bolt, a nut out of phase
     }
 }
 
+TEST_CASE("Threads: a left-hand thread is the mirror image of a right-hand one, with the same head") {
+    for (const std::string size : {"M8", "M16"}) {
+        CAPTURE(size);
+        auto spec = *iso_4014(size, 60.0);
+        spec.grade = "8.8";
+        auto nut_spec = *iso_4032(size);
+        const TopoDS_Shape right = made(hex_bolt(spec)), right_nut = made(hex_nut(nut_spec));
+        spec.direction = nut_spec.direction = ThreadDirection::left;
+        const TopoDS_Shape left = made(hex_bolt(spec)), left_nut = made(hex_nut(nut_spec));
+        CHECK(is_valid_solid(left));
+        CHECK(is_valid_solid(left_nut));
+        const double P = spec.pitch, r = 0.5 * spec.d - 0.3 * P, inside = 0.5 * spec.d - 0.25 * P;
+        for (const double angle : {0.3, 1.7, 3.9, 5.5}) {
+            const auto mirrored = [&](const TopoDS_Shape& a, const TopoDS_Shape& b, double radius) {
+                const auto at = crossings(a, parallel_to_axis(radius, angle));
+                const auto image = crossings(b, parallel_to_axis(radius, -angle));
+                REQUIRE(at.size() == image.size());
+                CHECK(at.size() > 8);
+                for (std::size_t i = 0; i < at.size(); ++i)
+                    CHECK(at[i] == doctest::Approx(image[i]).epsilon(1e-6));
+            };
+            mirrored(right, left, r);
+            mirrored(right_nut, left_nut, inside);
+        }
+        // A left-handed thread falls by P in a turn: a quarter turn shifts it by -P/4.
+        const auto here = crossings(left, parallel_to_axis(r, 0.3));
+        const auto quarter_turn = crossings(left, parallel_to_axis(r, 0.3 + 0.5 * pi));
+        for (const double z : here)
+            if (z > spec.length - spec.thread_length + P && z < spec.length - 2.0 * P)
+                CHECK(has(quarter_turn, z - 0.25 * P, 1e-3));
+        // The class on the head is not mirrored.
+        const double top = -spec.head_height;
+        for (const double x : {-1.0, 0.4, 1.3})
+            for (const double y : {-2.0, 0.1, 1.1}) {
+                const gp_Lin line(gp_Pnt(x, y, top - 5.0), gp::DZ());
+                CHECK(crossings(left, line).front() ==
+                      doctest::Approx(crossings(right, line).front()).epsilon(1e-9));
+            }
+        // The pair meshes, and a nut of the other direction does not.
+        DepthInside depth_inside(left);
+        const double dz = 60.0 - nut_spec.height - 2.0 * P;
+        const auto deepest = [&](const TopoDS_Shape& nut, ThreadDirection direction) {
+            const gp_Trsf seat = shift(0.0, 0.0, dz) * turn(gp::OZ(), nut_phase(dz, P, direction));
+            double depth = 0.0;
+            for (const gp_Pnt& p : surface_points(nut, 0.3, 61))
+                if (std::hypot(p.X(), p.Y()) < 0.55 * spec.d)
+                    depth = std::max(depth, depth_inside(p.Transformed(seat)));
+            return depth;
+        };
+        CHECK(deepest(left_nut, ThreadDirection::left) < 1e-4);
+        CHECK(deepest(right_nut, ThreadDirection::right) > 0.1 * P);
+    }
+}
+
 TEST_CASE("Threads: a mesh stays within its triangle budget") {
     CHECK(triangles(made(hex_bolt(*iso_4014("M16", 180.0))), 0.08, 0.4) <= 10000);
     CHECK(triangles(made(hex_nut(*iso_4032("M16"))), 0.08, 0.4) <= 4000);

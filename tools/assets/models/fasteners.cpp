@@ -7,6 +7,7 @@
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <algorithm>
@@ -90,6 +91,18 @@ ThreadField outer_thread(double d, double pitch, double z0, double full_from, do
     return field;
 }
 
+// The rod, or its mirror image in the plane y = 0, in which a crest still passes z = 0 on the +X side.
+Result<TopoDS_Shape> rod_with_thread(const ThreadField& field, ThreadDirection direction) {
+    BOLT_TRY_ASSIGN(auto rod, threaded_rod(field));
+    if (direction == ThreadDirection::right) return rod;
+    gp_Trsf mirror;
+    mirror.SetMirror(gp_Ax2(gp::Origin(), gp::DY()));
+    return BRepBuilderAPI_Transform(rod, mirror, true).Shape();
+}
+
+// Between the size and the length in the name of a part.
+const char* name_suffix(ThreadDirection direction) { return direction == ThreadDirection::left ? "-LH" : ""; }
+
 Result<TopoDS_Shape> checked(const TopoDS_Shape& shape, std::string_view what) {
     TopoDS_Shape solid = only_solid(shape);
     if (solid.IsNull() || !is_valid_solid(solid))
@@ -156,8 +169,9 @@ Result<TopoDS_Shape> hex_bolt(const BoltSpec& spec, ThreadDetail detail) {
                                            {0.0, spec.length}});
         return checked(glued(head_and_shank(spec, shank_end), rod), name);
     }
-    BOLT_TRY_ASSIGN(const auto rod,
-                    threaded_rod(outer_thread(spec.d, spec.pitch, shank_end, full_from, spec.length)));
+    BOLT_TRY_ASSIGN(
+        const auto rod,
+        rod_with_thread(outer_thread(spec.d, spec.pitch, shank_end, full_from, spec.length), spec.direction));
     return checked(glued(head_and_shank(spec, shank_end), rod), name);
 }
 
@@ -190,7 +204,7 @@ Result<TopoDS_Shape> hex_nut(const NutSpec& spec, ThreadDetail detail) {
                                             {0.0, m + beyond}});
         return checked(BRepAlgoAPI_Cut(body, hole), name);
     }
-    BOLT_TRY_ASSIGN(const auto plug, threaded_rod(bore));
+    BOLT_TRY_ASSIGN(const auto plug, rod_with_thread(bore, spec.direction));
     return checked(BRepAlgoAPI_Cut(body, plug), name);
 }
 
@@ -211,8 +225,9 @@ Result<TopoDS_Shape> stud(const StudSpec& spec) {
                                          {0.5 * spec.d, -spec.engagement + c},
                                          {0.5 * spec.d, shank_end},
                                          {0.0, shank_end}});
-    BOLT_TRY_ASSIGN(const auto rod,
-                    threaded_rod(outer_thread(spec.d, spec.pitch, shank_end, full_from, spec.length)));
+    BOLT_TRY_ASSIGN(
+        const auto rod,
+        rod_with_thread(outer_thread(spec.d, spec.pitch, shank_end, full_from, spec.length), spec.direction));
     return checked(glued(shank, rod), fmt::format("stud M{:g}x{:g}", spec.d, spec.length));
 }
 
@@ -248,21 +263,25 @@ Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec) {
 }
 
 Result<FastenerParts> add_fasteners(CadDocument& document, std::string_view size, double length_mm,
-                                    Finish finish, const FastenerParts* shared, std::string_view grade) {
+                                    Finish finish, const FastenerParts* shared, std::string_view grade,
+                                    ThreadDirection direction) {
     BOLT_TRY_ASSIGN(auto bolt_spec, iso_4014(size, length_mm));
     bolt_spec.grade = grade;
+    bolt_spec.direction = direction;
+    const char* const hand = name_suffix(direction);
     BOLT_TRY_ASSIGN(const auto bolt, hex_bolt(bolt_spec));
     FastenerParts parts;
     if (shared != nullptr) parts = *shared;
     parts.bolt_spec = bolt_spec;
-    parts.bolt = document.add_part(fmt::format("bolt_{}x{:g}", size, length_mm), bolt, finish);
-    if (shared != nullptr) return parts;
+    parts.bolt = document.add_part(fmt::format("bolt_{}{}x{:g}", size, hand, length_mm), bolt, finish);
+    if (shared != nullptr && shared->nut_spec.direction == direction) return parts;
     parts.nut_spec = *iso_4032(size);
+    parts.nut_spec.direction = direction;
     parts.washer_spec = *iso_7089(size);
     BOLT_TRY_ASSIGN(const auto nut, hex_nut(parts.nut_spec));
     BOLT_TRY_ASSIGN(const auto disc, washer(parts.washer_spec));
-    parts.nut = document.add_part(fmt::format("nut_{}", size), nut, finish);
-    parts.washer = document.add_part(fmt::format("washer_{}", size), disc, finish);
+    parts.nut = document.add_part(fmt::format("nut_{}{}", size, hand), nut, finish);
+    if (shared == nullptr) parts.washer = document.add_part(fmt::format("washer_{}", size), disc, finish);
     return parts;
 }
 
@@ -275,11 +294,15 @@ CadGroup add_joint(CadDocument& document, CadGroup parent, std::string_view id, 
                           shift(0.0, 0.0, -grip_mm - h));
     document.add_instance(group, fmt::format("{}_washer_nut", id), parts.washer, gp_Trsf());
     gp_Trsf turned;
-    turned.SetRotation(gp::OZ(), nut_phase(grip_mm + 2.0 * h, parts.bolt_spec.pitch));
+    turned.SetRotation(gp::OZ(),
+                       nut_phase(grip_mm + 2.0 * h, parts.bolt_spec.pitch, parts.bolt_spec.direction));
     document.add_instance(group, fmt::format("{}_nut", id), parts.nut, shift(0.0, 0.0, h) * turned);
     return group;
 }
 
-double nut_phase(double dz, double pitch) { return 2.0 * pi * std::fmod(dz, pitch) / pitch; }
+double nut_phase(double dz, double pitch, ThreadDirection direction) {
+    const double phase = 2.0 * pi * std::fmod(dz, pitch) / pitch;
+    return direction == ThreadDirection::left ? -phase : phase;
+}
 
 }  // namespace bolt::models

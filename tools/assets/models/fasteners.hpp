@@ -1,6 +1,6 @@
 // Bolts, nuts and washers as solids with helical threads, and the joint that they form.
-// Millimetres. Local +Z is the bolt axis, from head to nut. Threads are right-handed and in phase: in each
-// part's own frame a crest of the bolt, or a groove of the nut, passes z = 0 on the +X side.
+// Millimetres. Local +Z is the bolt axis, from head to nut. Threads are in phase: in each part's own frame a
+// crest of the bolt, or a groove of the nut, passes z = 0 on the +X side.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
@@ -8,9 +8,12 @@
 #include <string_view>
 
 #include "engine/base/result.hpp"
+#include "haptics/joint/design.hpp"
 #include "tools/assets/models/document.hpp"
 
 namespace bolt::models {
+
+using joint::ThreadDirection;
 
 enum class ThreadDetail { helical, cosmetic };  // cosmetic: a plain cylinder of the nominal diameter
 
@@ -25,6 +28,7 @@ struct BoltSpec {
     double head_height = 0.0;
     double head_bearing = 0.0;  // diameter of the washer face
     std::string grade;          // raised on the head, for example "8.8"; may be empty
+    ThreadDirection direction = ThreadDirection::right;
 };
 
 // Hexagon nut, ISO 4032. The origin is in the middle of the bearing face; the nut lies at 0 < z < height.
@@ -34,6 +38,7 @@ struct NutSpec {
     double height = 0.0;
     double across_flats = 0.0;
     double bearing = 0.0;  // diameter where the chamfer meets the faces
+    ThreadDirection direction = ThreadDirection::right;
 };
 
 // Plain washer, ISO 7089. The origin is in the middle of the lower face; the washer lies at 0 < z <
@@ -63,6 +68,7 @@ struct StudSpec {
     double engagement = 0.0;
     double length = 0.0;
     double thread_length = 0.0;  // at the end of the nut
+    ThreadDirection direction = ThreadDirection::right;
 };
 
 // Dimensions from the tables of haptics/joint. `size` is a thread such as "M16" or "M16x1.5".
@@ -86,11 +92,13 @@ struct FastenerParts {
     WasherSpec washer_spec;
 };
 
-// Adds the parts bolt_M16x180, nut_M16 and washer_M16. With `shared`, a set of the same size, only the bolt
-// is added and nut and washer are taken from that set.
+// Adds the parts bolt_M16x180, nut_M16 and washer_M16; with a left-hand thread bolt_M16-LHx180 and
+// nut_M16-LH. With `shared`, a set of the same size, the washer is taken from that set, and the nut too
+// unless its thread has the other direction.
 Result<FastenerParts> add_fasteners(CadDocument& document, std::string_view size, double length_mm,
                                     Finish finish, const FastenerParts* shared = nullptr,
-                                    std::string_view grade = {});
+                                    std::string_view grade = {},
+                                    ThreadDirection direction = ThreadDirection::right);
 
 // Adds the group joint_ID with ID_bolt, ID_washer_head, ID_washer_nut and ID_nut, with the nut seated. The
 // origin of `placement` is in the middle of the hole on the face under the nut's washer, its +Z points to the
@@ -99,6 +107,6 @@ CadGroup add_joint(CadDocument& document, CadGroup parent, std::string_view id, 
                    double grip_mm, const gp_Trsf& placement);
 
 // The angle (rad, about +Z) of a nut whose origin lies `dz` mm beyond the bolt's, so that the threads mesh.
-double nut_phase(double dz, double pitch);
+double nut_phase(double dz, double pitch, ThreadDirection direction = ThreadDirection::right);
 
 }  // namespace bolt::models

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "tools/author/geometry/drawn_thread.hpp"
 #include "tools/author/geometry/joint_check.hpp"
 
 namespace bolt::geometry {
@@ -192,6 +193,16 @@ void check_overlaps(const JointCheck& s, const Fastener& fastener, const std::se
                 "parts that do not overlap");
 }
 
+// Notes a thread that is drawn in the other direction than the file names. The lesson works nevertheless.
+void check_drawn_thread(const JointCheck& s, const Fastener& fastener) {
+    const auto drawn = measure_drawn_thread(fastener.triangles, s.size().d);
+    const joint::ThreadDirection named = s.joint.design.thread_direction;
+    if (drawn && drawn->direction != named)
+        s.messages.note(joint_pointer(s.index),
+                        fmt::format("{} is drawn with a {}-hand thread, but \"thread_direction\" is \"{}\"",
+                                    content::in_quotes(fastener.name), name(drawn->direction), name(named)));
+}
+
 }  // namespace
 
 bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_t index,
@@ -219,6 +230,7 @@ bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_
     } else if (parts.turned.exists()) {
         check_seat(s, parts.turned.name, parts.turned.box.low.y, member, 0.0);
     }
+    for (const Fastener* fastener : {&parts.bolt, &parts.nut}) check_drawn_thread(s, *fastener);
     // The thread of a screw or a stud may overlap the part that it is screwed into.
     std::set<std::uint32_t> accepted = tight;
     accepted.insert(tapped.begin(), tapped.end());

@@ -53,6 +53,7 @@ std::string axis_text(const Vec3& a) {
 // Joints with equal keys have the same joint type.
 struct JointTypeKey {
     std::string size, property_class;
+    joint::ThreadDirection thread_direction = joint::ThreadDirection::right;
     joint::HeadShape head = joint::HeadShape::hexagon;
     bool turns_head = false;
     double length = 0.0;  // mm
@@ -193,6 +194,7 @@ class DraftWriter {
     std::size_t type_index(const JointCandidate& joint) {
         JointTypeKey type;
         type.size = joint.size;
+        type.thread_direction = joint.thread_direction;
         type.head = joint.head;
         type.turns_head = joint.turns_head();
         type.property_class = in_.stainless[static_cast<std::size_t>(joint.bolt)] ? "A2-70" : "8.8";
@@ -215,10 +217,12 @@ class DraftWriter {
                 types_[i].joints.push_back(joint.id);
                 return i;
             }
-        std::string name = fmt::format("{}x{}{}", type.size, in_mm(type.length * mm),
+        std::string name = fmt::format("{}x{}{}{}", type.size, in_mm(type.length * mm),
+                                       joint::size_suffix(type.thread_direction),
                                        type.head == joint::HeadShape::socket ? " socket head" : "");
         const auto same = std::count_if(types_.begin(), types_.end(), [&](const DraftJointType& one) {
-            return one.type.size == type.size && one.type.length == type.length && one.type.head == type.head;
+            return one.type.size == type.size && one.type.length == type.length &&
+                   one.type.head == type.head && one.type.thread_direction == type.thread_direction;
         });
         if (same > 0) name += fmt::format(" ({})", same + 1);
         types_.push_back({name, type, target_torque(type), tool_index(joint), {joint.id}});
@@ -265,6 +269,8 @@ class DraftWriter {
         std::string form;
         if (const std::string& tool = tools_[named.tool].name; !tool.empty())
             form = fmt::format("\n      \"tool\": {},", quoted(tool));
+        if (type.thread_direction == joint::ThreadDirection::left)
+            form += "\n      \"thread_direction\": \"left\",";
         if (type.head == joint::HeadShape::socket) form += "\n      \"head\": \"socket\",";
         if (type.tapped.empty() && type.turns_head) form += "\n      \"turned\": \"head\",";
         if (!type.tapped.empty()) {

@@ -13,6 +13,7 @@
 #include <limits>
 #include <optional>
 
+#include "tools/author/geometry/drawn_thread.hpp"
 #include "tools/author/import/hexagons.hpp"
 #include "tools/author/import/step_document.hpp"
 
@@ -243,7 +244,9 @@ void explain_missing_hexagon(const std::vector<PlaneFace>& plane_faces, const Pa
 
 }  // namespace
 
-FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh) {
+namespace {
+
+FastenerShape recognise_shape(const TopoDS_Shape& shape, const PartMesh& mesh) {
     const FaceMap faces = faces_of(shape);
     const std::vector<PlaneFace> plane_faces = find_plane_faces(faces);
     if (plane_faces.size() > max_plane_faces || mesh.points.empty()) return {};
@@ -279,6 +282,34 @@ FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh
     return inside(mesh, hexagon->axis.origin + middle * hexagon->axis.direction)
                ? classify_bolt(plane_faces, mesh, *hexagon, whole)
                : classify_nut(plane_faces, mesh, *hexagon, whole);
+}
+
+// The triangles in a frame whose +Y is the axis.
+std::vector<geometry::Triangle> about_axis(const PartMesh& mesh, const Vec3& origin, const Vec3& axis) {
+    const Vec3 x =
+        glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.7 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0)));
+    const Vec3 z = glm::cross(x, axis);
+    std::vector<geometry::Triangle> triangles;
+    for (const FaceMesh& face : mesh.faces)
+        for (const auto& corners : face.triangles) {
+            const auto at = [&](std::size_t i) {
+                const Vec3 p = mesh.points[face.points[corners[i]]] - origin;
+                return Vec3(glm::dot(p, x), glm::dot(p, axis), glm::dot(p, z));
+            };
+            triangles.push_back({at(0), at(1), at(2)});
+        }
+    return triangles;
+}
+
+}  // namespace
+
+FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh) {
+    FastenerShape found = recognise_shape(shape, mesh);
+    if (found.kind != FastenerKind::bolt) return found;
+    if (const auto thread =
+            geometry::measure_drawn_thread(about_axis(mesh, found.origin, found.axis), found.diameter))
+        found.drawn_thread = thread->direction;
+    return found;
 }
 
 std::vector<Hole> find_holes(const TopoDS_Shape& shape) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/math.hpp"
+#include "haptics/joint/design.hpp"
 #include "tools/author/import/metric_size.hpp"
 #include "tools/author/import/tessellate.hpp"
 
@@ -29,6 +30,8 @@ struct FastenerShape {
     // The same for a part without a hexagon; reported only if the name is that of a fastener.
     std::string without_hexagon;
     std::optional<CapHead> cap = {};  // the head of a cap screw
+    // Of a bolt whose thread is drawn as a helix.
+    std::optional<joint::ThreadDirection> drawn_thread = {};
 };
 
 FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh);

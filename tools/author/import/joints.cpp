@@ -23,6 +23,8 @@ struct PlacedFastener {
     Vec3 origin, axis;
     double across_flats = 0.0, low = 0.0, high = 0.0, diameter = 0.0;  // m, as in FastenerShape
     std::optional<CapHead> cap;
+    // As in FastenerShape: CAD mirrors bolts with the assembly, but the real ones keep their direction.
+    std::optional<joint::ThreadDirection> drawn_thread;
 };
 
 PlacedFastener place(int node, const FastenerShape& shape, const ScaledPose& pose) {
@@ -36,7 +38,8 @@ PlacedFastener place(int node, const FastenerShape& shape, const ScaledPose& pos
             shape.low * scale,
             shape.high * scale,
             shape.diameter * scale,
-            cap};
+            cap,
+            shape.drawn_thread};
 }
 
 const joint::FastenerSize* metric_size_of(const PlacedFastener& bolt) {
@@ -295,6 +298,7 @@ class JointFinder {
         joint.bolt = bolt.node;
         joint.head = bolt.cap ? joint::HeadShape::socket : joint::HeadShape::hexagon;
         joint.bolt_length = bolt.high - bolt.low;
+        joint.thread_direction = bolt.drawn_thread.value_or(joint::ThreadDirection::right);
         double head = bolt.low;
         double far = end.nut ? along(*end.nut, bolt.origin, bolt.axis).first : end.tapped->face;
         joint.head_washers = washers_from(bolt, head, 1.0);

@@ -18,6 +18,8 @@ inline constexpr std::string_view joint_prefix = "joint_";  // of a node's name
 struct JointCandidate {
     std::string id;
     std::string size;  // "M16", "M16x1.5"
+    // That of the drawn helix; right if the thread is not drawn.
+    joint::ThreadDirection thread_direction = joint::ThreadDirection::right;
     joint::HeadShape head = joint::HeadShape::hexagon;
     double bolt_length = 0.0;  // m, under the head
     double grip = 0.0;         // m, distance from the head to the nut or the tapped part, without the washers
