@@ -47,13 +47,17 @@ struct EdgeGathering {
 // Largest cosine between an inward direction of an edge and the common perpendicular away from that edge's
 // solid: `normal` for `edge`, −`normal` for `piece`. At most 0: the perpendicular points out of both solids,
 // so the edges face each other. Above 0: a face, a vertex or another edge is nearer.
+// Returns the smaller one for the two senses of the perpendicular, whose products differ only in sign.
 double facing_excess(const Ridge& edge, const EdgePiece& piece, const Vec3& normal) {
-    double excess = -1.0;
-    for (std::size_t i = 0; i < 2; ++i)
-        excess =
-            std::max({excess, glm::dot(normal, Vec3(edge.inward[i])), -glm::dot(normal, piece.inward[i])});
+    double with = -1.0, against = -1.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double of_edge = glm::dot(normal, Vec3(edge.inward[i]));
+        const double of_piece = glm::dot(normal, piece.inward[i]);
+        with = std::max({with, of_edge, -of_piece});
+        against = std::max({against, -of_edge, of_piece});
+    }
     constexpr double slack = 1e-6;
-    return excess - slack;
+    return std::min(with - slack, against - slack);
 }
 
 // rad; if the piece must turn by more than this before the edge can face it, the distance is not computed.
@@ -108,8 +112,7 @@ EdgePair edge_pair(const EdgeGathering& g, const Ridge& edge) {
 // piece up to which that stays so: a turn φ of the piece, below `sine`/3, turns the common perpendicular by
 // at most 1.5 φ/`sine`.
 bool faces_away(EdgeGathering& g, EdgePair& pair, const Vec3& normal) {
-    const double excess =
-        std::min(facing_excess(pair.edge, *g.piece, normal), facing_excess(pair.edge, *g.piece, -normal));
+    const double excess = facing_excess(pair.edge, *g.piece, normal);
     const double turn = excess * pair.sine / 3.0;
     if (turn >= g.clear_turn) return true;
     if (turn > useful_turn) {
@@ -156,16 +159,16 @@ void bound_feet(EdgeGathering& g, const EdgePair& pair, const Vec3& normal, doub
 void add_edge_pair(EdgeGathering& g, std::uint32_t index) {
     EdgePair pair = edge_pair(g, g.solid->ridges[index]);
     const bool parallel = !(pair.sine > 1e-3);
-    Crossing crossing;
+    Vec3 normal(0.0);
     if (parallel) {
         pair.at = closest_on_segments(g.piece->middle, g.piece->half, pair.middle, pair.half);
     } else {
-        crossing.normal = pair.across / pair.size;
-        if (faces_away(g, pair, crossing.normal)) return;
+        normal = pair.across / pair.size;
+        if (faces_away(g, pair, normal)) return;
     }
-    crossing.on_piece = g.piece->middle + pair.at.s * g.piece->half;
-    crossing.on_edge = pair.middle + pair.at.t * pair.half;
-    const double apart = glm::length(crossing.on_piece - crossing.on_edge);
+    const Vec3 on_piece = g.piece->middle + pair.at.s * g.piece->half;
+    const Vec3 on_edge = pair.middle + pair.at.t * pair.half;
+    const double apart = glm::length(on_piece - on_edge);
     if (apart > g.radius) return;
     // Nearly parallel edges are compared at their middles only; the error is at most their angle times the
     // length.
@@ -174,14 +177,13 @@ void add_edge_pair(EdgeGathering& g, std::uint32_t index) {
         g.clear_distance = std::min(g.clear_distance, beyond);
         return;
     }
-    if (glm::dot(crossing.normal, Vec3(pair.edge.normals[0]) + Vec3(pair.edge.normals[1])) < 0.0)
-        crossing.normal = -crossing.normal;
+    if (glm::dot(normal, Vec3(pair.edge.normals[0]) + Vec3(pair.edge.normals[1])) < 0.0) normal = -normal;
     if (!pair.at.inner) {
-        bound_feet(g, pair, crossing.normal, apart, beyond);
+        bound_feet(g, pair, normal, apart, beyond);
         return;
     }
-    crossing.distance = glm::dot(crossing.on_piece - crossing.on_edge, crossing.normal);
-    crossing.edge = pair.edge.sharp_edge;
+    const Crossing crossing{glm::dot(on_piece - on_edge, normal), on_piece, on_edge, normal,
+                            pair.edge.sharp_edge};
     if (crossing.distance > 0.0) {
         // The edges can change sides only by passing through each other.
         g.clear_distance = std::min(g.clear_distance, 0.9 * crossing.distance);
@@ -264,13 +266,13 @@ EdgeQueryResult query_edges(const Solid& solid, const EdgePiece& piece, const So
 
 namespace {
 
-// As `query_edges`, among the candidates of an earlier query. `radius` and `facing.turn` must be reduced by
-// the piece's motion since then, and `facing.all` must be true.
+// As `query_edges`, among the candidates of an earlier query. `radius` and `turn` (FacingEdges::turn) must be
+// reduced by the piece's motion since then, and `facing.all` must be true.
 EdgeQueryResult query_facing_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
-                                   const Pose& to_other, double radius, double band,
+                                   const Pose& to_other, double radius, double turn, double band,
                                    std::span<Crossing> crossings, const FacingEdges& facing) {
     EdgeGathering g = make_gathering(solid, piece, radius, band);
-    g.clear_turn = facing.turn;
+    g.clear_turn = turn;
     for (std::uint32_t i = 0; i < facing.count; ++i) add_edge_pair(g, facing.ridges[i]);
     return select_crossings(g, other, to_other, crossings);
 }
@@ -287,10 +289,8 @@ EdgeQueryResult query_edges_cached(const Solid& solid, const EdgePiece& piece, c
     searched = !(cache.facing.all && cache.radius - displacement > deepest + band + min_cached_distance &&
                  cache.facing.turn - turn > min_cached_turn);
     if (!searched) {
-        FacingEdges facing = cache.facing;
-        facing.turn -= turn;
-        return query_facing_edges(solid, piece, other, to_other, cache.radius - displacement, band, crossings,
-                                  facing);
+        return query_facing_edges(solid, piece, other, to_other, cache.radius - displacement,
+                                  cache.facing.turn - turn, band, crossings, cache.facing);
     }
     cache.at = glm::vec3(piece.middle);
     cache.turned = turned;

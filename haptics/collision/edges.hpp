@@ -12,11 +12,12 @@ struct EdgePiece {
     std::array<Vec3, 2> inward{};  // as in SharpEdge
 };
 
+// Without initial values, because each query of an edge has room for many and uses few.
 struct Crossing {
-    double distance = 0.0;             // m, signed; negative: the edges have passed through each other
-    Vec3 on_piece{0.0}, on_edge{0.0};  // m
-    Vec3 normal{0.0};                  // unit, away from the solid
-    std::uint32_t edge = 0;            // index in the solid's mesh.sharp_edges
+    double distance;         // m, signed; negative: the edges have passed through each other
+    Vec3 on_piece, on_edge;  // m
+    Vec3 normal;             // unit, away from the solid
+    std::uint32_t edge;      // index in the solid's mesh.sharp_edges
 };
 
 // m; crossings deeper than this are not reported. Samples along the edges detect deeper penetration.

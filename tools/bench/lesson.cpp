@@ -75,10 +75,14 @@ BENCHMARK(headless_lesson_unrecorded)->Unit(benchmark::kMillisecond);
 
 constexpr double frame_time = 1.0 / 60.0, time_limit = 3600.0;  // s
 
-void lesson_frames(benchmark::State& state, const char* name, session::Obstacles obstacles) {
+void lesson_frames(benchmark::State& state, const char* name, session::Obstacles obstacles,
+                   const char* tool = "") {
     run_or_skip(state, [&] {
-        const content::LoadedAssembly loaded = content::load_assembly(name);
+        content::LoadedAssembly loaded = content::load_assembly(name);
         if (!loaded.ok()) throw std::runtime_error(loaded.errors.front().message());
+        if (*tool != '\0')
+            if (const Status chosen = content::choose_tool(loaded.assembly, tool); !chosen)
+                throw std::runtime_error(chosen.error().message());
         const auto file = std::filesystem::temp_directory_path() / "bolt-bench-frames.boltwright";
         session::LessonOptions options;
         options.obstacles = obstacles;
@@ -125,6 +129,10 @@ void lesson_frames(benchmark::State& state, const char* name, session::Obstacles
 
 LESSON_FRAMES(cover_m8, "cover-m8", session::Obstacles::required);
 LESSON_FRAMES(zq350, "zq350", session::Obstacles::required);
+// The same lesson with a tool that surrounds the nut; baseline: the open end.
+LESSON_FRAMES(dn200_open_end, "dn200-pn16", session::Obstacles::required);
+LESSON_FRAMES(dn200_ring, "dn200-pn16", session::Obstacles::required, "ring");
+LESSON_FRAMES(dn200_ratchet, "dn200-pn16", session::Obstacles::required, "ratchet");
 // Baseline: without obstacles.
 LESSON_FRAMES(zq350_without_obstacles, "zq350", session::Obstacles::none);
 
