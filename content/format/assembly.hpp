@@ -71,7 +71,8 @@ std::string turned_node(const AssemblyJoint& joint);
 // head that is turned, the joint's own node, which then is the screw itself.
 bool is_turned_node(const AssemblyJoint& joint, std::string_view mesh_node);
 
-// The same of the part that a second wrench holds (joint::CounterHold): a joint without one has no such node.
+// True if the mesh of a node of this name is the held part that a second wrench can hold
+// (joint::CounterHold): ID_bolt, or ID_nut if the head is turned.
 bool is_held_node(const AssemblyJoint& joint, std::string_view mesh_node);
 
 // run_down: nuts to their seats, by hand. tighten: to a fraction of the target torque. turn: to a fraction of

@@ -107,6 +107,9 @@ void check_form(const LayeredObject& layers, const joint::JointDesign& design) {
         reject("nut_proof_stress_MPa", "a screw in a tapped hole has no nut", "the values of tapped_hole");
     if (design.form != JointForm::through_bolt && design.counter_hold == joint::CounterHold::second_wrench)
         reject("counter_hold", "only a through-bolt has a part for a second wrench", "no such value");
+    if (design.head == joint::HeadShape::socket && design.turned == joint::TurnedPart::nut &&
+        design.counter_hold == joint::CounterHold::second_wrench)
+        reject("counter_hold", "a second wrench cannot hold a socket head", "\"fixed\", or a hexagon head");
     const JsonNode hole = layers.find("tapped_hole");
     if (!design.is_tapped() && hole)
         reader.report(hole.pointer, "a through-bolt has no tapped hole",

@@ -65,7 +65,7 @@ struct StationFile {
     std::optional<StationMover> arm;
     std::optional<StationWheel> wheel;
     std::string glove_port;  // empty: no glove
-    // Of the Vive tracker that is fixed to the gloved hand; none: no tracker measures the wrist.
+    // The role of the Vive tracker on the gloved hand; none: a controller or the cameras measure the wrist.
     std::optional<TrackerRole> glove_tracker;
     std::vector<Registration> registrations;  // at most one between two frames
     bool operator==(const StationFile&) const = default;

@@ -43,7 +43,7 @@ inline constexpr KeyRow key_rows[] = {
     {"hint.set_on_again", "joint"},
     {"hint.set_on_rounded", "joint fastener"},
     {"hint.grip_nut", "joint fastener"},
-    {"hint.hold_other_part", "joint fastener"},
+    {"hint.hold_held_part", "joint fastener"},
     {"hint.run_down", "joint fastener thread"},
     {"hint.run_down_by_wrench", "joint fastener thread"},
     {"hint.twist_back", "fastener"},

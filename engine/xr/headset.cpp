@@ -210,7 +210,7 @@ void Headset::end_frame(const HeadsetFrame& frame, bool drawn, const DepthRange&
         (void)drop_on_error(
             session_->end_frame(frame.timing, {drawn ? &frame.view : nullptr, depth, frame.passthrough}));
     if (session_)
-        for (const std::string& line : session_->take_passthrough_news()) log(line);
+        for (const std::string& line : session_->take_passthrough_messages()) log(line);
 }
 
 void Headset::vibrate(Side side, const Vibration& vibration) {

@@ -39,7 +39,7 @@ Result<std::unique_ptr<XrInput>> XrInput::create(Session& session, const ActionN
 
 XrInput::~XrInput() {
     const PFN_xrDestroyHandTrackerEXT destroy = session_->runtime().functions().destroy_hand_tracker;
-    for (const XrHandTrackerEXT tracker : trackers_)
+    for (const XrHandTrackerEXT tracker : hand_trackers_)
         if (tracker != XR_NULL_HANDLE) (void)destroy(tracker);
 }
 
@@ -72,7 +72,7 @@ Status XrInput::create_actions(const ActionNames& names) {
     BOLT_TRY(make(secondary_, "secondary", names.secondary, XR_ACTION_TYPE_BOOLEAN_INPUT));
     BOLT_TRY(make(vibrate_, "vibrate", names.vibrate, XR_ACTION_TYPE_VIBRATION_OUTPUT));
     if (!session_->runtime().extensions().vive_trackers) return {};
-    BOLT_TRY_ASSIGN(trackers_of_roles_, make_tracker_actions(instance, raw));
+    BOLT_TRY_ASSIGN(vive_actions_, make_tracker_actions(instance, raw));
     return {};
 }
 
@@ -121,8 +121,8 @@ Status XrInput::attach() {
         space = SpaceHandle(created);
         return {};
     };
-    for (const TrackerAction& tracker : trackers_of_roles_)
-        BOLT_TRY(make_space(tracker.action, tracker.path, tracker_spaces_.emplace_back()));
+    for (const TrackerAction& tracker : vive_actions_)
+        BOLT_TRY(make_space(tracker.action, tracker.path, vive_spaces_.emplace_back()));
     for (std::size_t side = 0; side < 2; ++side) {
         BOLT_TRY(make_space(grip_, hands_[side], grip_spaces_[side]));
         BOLT_TRY(make_space(aim_, hands_[side], aim_spaces_[side]));
@@ -130,9 +130,10 @@ Status XrInput::attach() {
         XrHandTrackerCreateInfoEXT tracker{XR_TYPE_HAND_TRACKER_CREATE_INFO_EXT};
         tracker.hand = side == 0 ? XR_HAND_LEFT_EXT : XR_HAND_RIGHT_EXT;
         tracker.handJointSet = XR_HAND_JOINT_SET_DEFAULT_EXT;
-        const XrResult tracked = functions.create_hand_tracker(session_->get(), &tracker, &trackers_[side]);
+        const XrResult tracked =
+            functions.create_hand_tracker(session_->get(), &tracker, &hand_trackers_[side]);
         if (XR_SUCCEEDED(tracked)) continue;
-        trackers_[side] = XR_NULL_HANDLE;  // the controllers remain
+        hand_trackers_[side] = XR_NULL_HANDLE;  // the controllers remain
         if (const Status status = check(tracked, "xrCreateHandTrackerEXT"); status.error().lost)
             return status;
     }
@@ -165,7 +166,7 @@ Result<bool> XrInput::pressed(XrAction action, Side side) const {
 }
 
 Status XrInput::read_joints(const FrameTiming& frame, Side side, HandInput& hand) {
-    const XrHandTrackerEXT tracker = trackers_[static_cast<std::size_t>(side)];
+    const XrHandTrackerEXT tracker = hand_trackers_[static_cast<std::size_t>(side)];
     if (tracker == XR_NULL_HANDLE) return {};
     std::array<XrHandJointLocationEXT, hand_joint_count> located{};
     XrHandJointLocationsEXT locations{XR_TYPE_HAND_JOINT_LOCATIONS_EXT};
@@ -229,28 +230,28 @@ Status XrInput::read_controllers() {
 
 Status XrInput::read_vive_trackers(const FrameTiming& frame, ViveTrackers& trackers) {
     const Runtime& runtime = session_->runtime();
-    trackers.read = true;
+    trackers.has_data = true;
     trackers.available = runtime.extensions().vive_trackers;
     if (!trackers.available) return {};
     // The event of a change may be lost.
     constexpr std::uint32_t enumeration_interval = 90;  // frames
-    if (roles_are_old_ || reads_ % enumeration_interval == 0) {
+    if (roles_outdated_ || reads_ % enumeration_interval == 0) {
         Result<TrackerRoles> roles =
             connected_roles(runtime.instance(), runtime.functions().enumerate_vive_trackers);
         if (!roles && roles.error().lost) return fail(roles.error());
         if (roles) connected_roles_ = *roles;  // the roles are for messages only
-        roles_are_old_ = false;
+        roles_outdated_ = false;
     }
     trackers.connected = connected_roles_;
-    for (std::size_t i = 0; i < trackers_of_roles_.size(); ++i) {
+    for (std::size_t i = 0; i < vive_actions_.size(); ++i) {
         XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
-        info.action = trackers_of_roles_[i].action;
-        info.subactionPath = trackers_of_roles_[i].path;
+        info.action = vive_actions_[i].action;
+        info.subactionPath = vive_actions_[i].path;
         XrActionStatePose state{XR_TYPE_ACTION_STATE_POSE};
         BOLT_TRY(check(xrGetActionStatePose(session_->get(), &info, &state), "xrGetActionStatePose"));
         if (state.isActive != XR_TRUE) continue;
-        BOLT_TRY_ASSIGN(trackers.poses[static_cast<std::size_t>(trackers_of_roles_[i].role)],
-                        locate(tracker_spaces_[i].get(), frame.display_time));
+        BOLT_TRY_ASSIGN(trackers.poses[static_cast<std::size_t>(vive_actions_[i].role)],
+                        locate(vive_spaces_[i].get(), frame.display_time));
     }
     return {};
 }

@@ -78,7 +78,7 @@ class XrInput {
     Result<Hands> read(const FrameTiming& frame);
     Status vibrate(Side side, const Vibration& vibration);
     // Queries the roles of the Vive trackers again in the next frame. Call it after TrackersChanged.
-    void trackers_changed() { roles_are_old_ = true; }
+    void trackers_changed() { roles_outdated_ = true; }
 
     // Controllers whose bindings the runtime accepted, as paths; for the report of `doctor`.
     [[nodiscard]] const std::vector<std::string>& profiles() const { return profiles_; }
@@ -105,11 +105,11 @@ class XrInput {
              vibrate_ = XR_NULL_HANDLE;  // owned by the set
     std::array<XrPath, 2> hands_{};
     std::array<SpaceHandle, 2> grip_spaces_, aim_spaces_;
-    std::array<XrHandTrackerEXT, 2> trackers_{};    // null without hand tracking
-    std::vector<TrackerAction> trackers_of_roles_;  // the roles that the runtime knows
-    std::vector<SpaceHandle> tracker_spaces_;       // of the same
-    TrackerRoles connected_roles_;                  // at the last query
-    bool roles_are_old_ = true;
+    std::array<XrHandTrackerEXT, 2> hand_trackers_{};  // null without hand tracking
+    std::vector<TrackerAction> vive_actions_;          // the roles that the runtime knows
+    std::vector<SpaceHandle> vive_spaces_;             // one for each of vive_actions_
+    TrackerRoles connected_roles_;                     // at the last query
+    bool roles_outdated_ = true;
     std::vector<std::string> profiles_;
     std::array<const ControllerProfile*, 2> controllers_{};  // by Side; null: HandInput::controller
     std::uint32_t reads_ = 0;                                // number of calls of read()

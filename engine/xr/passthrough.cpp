@@ -19,7 +19,7 @@ PassthroughLayer& PassthroughLayer::operator=(PassthroughLayer&& other) noexcept
     std::swap(shown_, other.shown_);
     std::swap(refused_, other.refused_);
     std::swap(interrupted_, other.interrupted_);
-    std::swap(news_, other.news_);
+    std::swap(messages_, other.messages_);
     return *this;
 }
 
@@ -72,7 +72,8 @@ Status PassthroughLayer::show(bool wanted) {
     if (done.error().lost) return done;
     refused_ = true;
     destroy();
-    news_.push_back(fmt::format("the headset does not show the real room: {}", done.error().message()));
+    messages_.push_back(fmt::format("the headset {} the real room: {}",
+                                    shows ? "does not show" : "can no longer show", done.error().message()));
     return {};
 }
 
@@ -86,16 +87,16 @@ void PassthroughLayer::handle(const XrEventDataPassthroughStateChangedFB& event)
     if (has(XR_PASSTHROUGH_STATE_CHANGED_NON_RECOVERABLE_ERROR_BIT_FB)) {
         refused_ = true;
         destroy();
-        news_.emplace_back(
+        messages_.emplace_back(
             "the headset does not show the real room: its cameras have failed; expected a "
             "restart of the headset");
     } else if (has(XR_PASSTHROUGH_STATE_CHANGED_REINIT_REQUIRED_BIT_FB)) {
         destroy();  // the next show() creates it again
     }
     if (has(XR_PASSTHROUGH_STATE_CHANGED_RECOVERABLE_ERROR_BIT_FB) && !std::exchange(interrupted_, true))
-        news_.emplace_back("the headset does not show the real room for now");
+        messages_.emplace_back("the headset does not show the real room for now");
     if (has(XR_PASSTHROUGH_STATE_CHANGED_RESTORED_ERROR_BIT_FB) && std::exchange(interrupted_, false))
-        news_.emplace_back("the headset can show the real room again");
+        messages_.emplace_back("the headset can show the real room again");
 }
 
 }  // namespace bolt::xr

@@ -1,6 +1,6 @@
-// The real room below what is drawn, as a layer of its own (XR_FB_passthrough), for runtimes without the
-// blend mode ALPHA_BLEND, such as those of Quest headsets. The layer and its cameras run only while they are
-// wanted.
+// Shows the picture of the headset's cameras as a composition layer under the rendered one
+// (XR_FB_passthrough), for runtimes without the blend mode ALPHA_BLEND, such as those of Quest headsets. The
+// layer and its cameras run only while they are wanted.
 #pragma once
 
 #include <optional>
@@ -26,18 +26,18 @@ class PassthroughLayer {
     [[nodiscard]] bool available() const;
 
     // Starts or pauses the layer; creates it when it is first wanted. If a call is refused, the layer is
-    // destroyed and no longer available, and the reason is in take_news(). Fails only if session or instance
-    // are lost.
+    // destroyed and no longer available, and the reason is in take_messages(). Fails only if session or
+    // instance are lost.
     Status show(bool wanted);
     [[nodiscard]] bool shown() const { return shown_; }
-    // To be submitted below the layer of the pictures while shown() is true.
+    // Submit it below the projection layer while shown() is true.
     [[nodiscard]] XrCompositionLayerPassthroughFB composition_layer() const;
 
     // Follows an event of the runtime.
     void handle(const XrEventDataPassthroughStateChangedFB& event);
 
     // Lines for the user about what happened to the layer since the last call.
-    std::vector<std::string> take_news() { return std::exchange(news_, {}); }
+    std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
   private:
     Status create();
@@ -52,7 +52,7 @@ class PassthroughLayer {
     bool shown_ = false;
     bool refused_ = false;      // for the rest of the session
     bool interrupted_ = false;  // by an error that the runtime may repair
-    std::vector<std::string> news_;
+    std::vector<std::string> messages_;
 };
 
 }  // namespace bolt::xr

@@ -78,7 +78,7 @@ Status PoseTracker::Objects::create_instance() {
     if (role && std::find(offered.begin(), offered.end(), trackers) == offered.end()) {
         unload_runtime();
         ViveTrackers none;
-        none.read = true;
+        none.has_data = true;
         return fail(*tracker_fault(none, *role));
     }
     if (role) enabled.push_back(trackers);
@@ -294,14 +294,15 @@ Result<std::optional<LocatedPose>> PoseTracker::Objects::locate() const {
     return LocatedPose{pose, (location.locationFlags & fully_tracked) == fully_tracked};
 }
 
-// Sets `fault` of a Vive tracker.
+// Sets `fault` if the Vive tracker has no tracked pose.
 Status PoseTracker::Objects::explain(const std::optional<LocatedPose>& pose) {
-    fault.clear();
     if (!role || (pose && pose->tracked)) return {};
     ViveTrackers trackers;
-    trackers.read = trackers.available = true;
+    trackers.has_data = trackers.available = true;
     trackers.poses[static_cast<std::size_t>(*role)] = pose;
-    BOLT_TRY_ASSIGN(trackers.connected, connected_roles(instance.get(), enumerate_trackers));
+    const Result<TrackerRoles> roles = connected_roles(instance.get(), enumerate_trackers);
+    if (!roles && roles.error().lost) return fail(roles.error());
+    if (roles) trackers.connected = *roles;  // the roles are for messages only
     if (const std::optional<Error> error = tracker_fault(trackers, *role)) fault = error->message();
     return {};
 }
@@ -336,6 +337,7 @@ Result<std::optional<Pose>> PoseTracker::read() {
         return fail(std::move(error));
     }
     objects_->pressed = false;
+    objects_->fault.clear();
     if (!objects_->running) return std::optional<Pose>();
     BOLT_TRY(objects_->sync_actions());
     BOLT_TRY(objects_->read_button());

@@ -20,8 +20,8 @@ class PoseTracker {
     // Fails with ErrorCode::no_device if there is no runtime, it cannot track without pictures, or nothing is
     // connected; trying again later may then succeed.
     static Result<std::unique_ptr<PoseTracker>> open(TrackedDevice device);
-    // The same for the Vive tracker with this role. Fails too if the runtime does not know trackers or the
-    // role. A tracker that is switched off, or gets the role later, is no error.
+    // Opens the Vive tracker with this role. Also fails if the runtime lacks the extension or the role. A
+    // tracker that is switched off, or gets the role later, is no error.
     static Result<std::unique_ptr<PoseTracker>> open(TrackerRole role);
     PoseTracker(const PoseTracker&) = delete;
     PoseTracker& operator=(const PoseTracker&) = delete;
@@ -32,7 +32,7 @@ class PoseTracker {
     // destroyed.
     Result<std::optional<Pose>> read();
 
-    // Why the last read() returned no pose, in words; for a Vive tracker only, else empty.
+    // The reason for which the last read() returned no pose of a Vive tracker; empty for other devices.
     [[nodiscard]] const std::string& fault() const;
 
     // True if the trigger of the controller, or its button that selects, was pressed at the last read(). A

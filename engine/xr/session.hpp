@@ -179,7 +179,7 @@ class Session {
         return runtime_->passthrough().has_value() || passthrough_.available();
     }
     // Lines for the user about the real room, since the last call.
-    std::vector<std::string> take_passthrough_news() { return passthrough_.take_news(); }
+    std::vector<std::string> take_passthrough_messages() { return passthrough_.take_messages(); }
     [[nodiscard]] bool uses_depth() const { return !depth_.empty(); }
     [[nodiscard]] BaseSpace base_space() const { return base_; }
     [[nodiscard]] XrSpace space() const { return space_.get(); }

@@ -31,7 +31,7 @@ Result<bool> suggest_tracker_bindings(XrInstance instance, std::span<const Track
         bindings.push_back({one.action, pose});
     }
     Result<bool> suggested = suggest_bindings_of(tracker_profile, bindings, instance);
-    // A runtime that refuses trackers in another way is used without them.
+    // Any other refusal disables the trackers only; the session continues.
     if (!suggested && !suggested.error().lost) return false;
     return suggested;
 }
@@ -59,7 +59,7 @@ std::optional<Error> tracker_fault(const ViveTrackers& trackers, TrackerRole rol
     Error error;
     error.code = ErrorCode::no_device;
     const std::optional<LocatedPose>& pose = trackers[role];
-    if (!trackers.read || (pose && pose->tracked)) return std::nullopt;
+    if (!trackers.has_data || (pose && pose->tracked)) return std::nullopt;
     if (!trackers.available) {
         error.what =
             "the OpenXR runtime finds no Vive trackers: it lacks "
@@ -90,7 +90,7 @@ Result<std::vector<TrackerAction>> make_tracker_actions(XrInstance instance, XrA
         BOLT_TRY_ASSIGN(const bool known, suggest_tracker_bindings(instance, {&one, 1}));
         if (known) accepted.push_back(one);
     }
-    // Each suggestion has replaced the one before it.
+    // Each call replaces the previous suggestion, so all accepted roles are suggested together once more.
     if (!accepted.empty()) BOLT_TRY(suggest_tracker_bindings(instance, accepted));
     return accepted;
 }

@@ -22,7 +22,7 @@ using TrackerRoles = std::bitset<tracker_role_count>;
 
 // The trackers in one frame, by TrackerRole.
 struct ViveTrackers {
-    bool read = false;       // false: the session has no focus, and nothing is known
+    bool has_data = false;   // false: the session has no focus, so there is no data in this frame
     bool available = false;  // the runtime has the extension
     TrackerRoles connected;  // roles of connected trackers
     // None: no tracker has this role, it is switched off, or its pose is not known.
@@ -33,11 +33,10 @@ struct ViveTrackers {
     }
 };
 
-// Why the tracker with this role gives no certain pose, and what is expected; none: it is tracked, or nothing
-// is known.
+// The error if the pose of this tracker is missing or estimated; none if it is tracked, or without data.
 std::optional<Error> tracker_fault(const ViveTrackers& trackers, TrackerRole role);
 
-// The action of the pose of the tracker with one role, and the role's path.
+// The pose action for one role, with the role's path.
 struct TrackerAction {
     TrackerRole role = TrackerRole::handheld_object;
     XrAction action = XR_NULL_HANDLE;  // owned by its set

@@ -157,8 +157,8 @@ Result<station_setup::WornGlove> open_glove(const RegisterArguments& options,
     return station_setup::WornGlove::start(station.glove_port, station_setup::wearer_of(calibration));
 }
 
-// Opens the tracker of the controller, or of the Vive tracker. Fails without a stage, because only the stage
-// is fixed in the room.
+// Opens the PoseTracker of the controller, or of the Vive tracker with `role`. Fails without a stage, because
+// only the stage is fixed in the room.
 Result<std::unique_ptr<xr::PoseTracker>> open_controller(const std::string& side,
                                                          const std::optional<TrackerRole>& role = {}) {
     BOLT_TRY_ASSIGN(auto tracker, role ? xr::PoseTracker::open(*role)
@@ -206,7 +206,7 @@ Result<std::vector<PointPair>> turn_about_fingertips(const RegisterArguments& op
     catch_interruption();
     EnterKey enter;
     station_setup::ControllerIo io = controller_io(*tracker, enter);
-    if (role) io.device = station_setup::vive_tracker;
+    if (role) io.device = station_setup::vive_tracker_words;
     station_setup::ControllerTip controller(std::move(io), Vec3(0.0));
     return station_setup::measure_fingertips(controller, [&]() -> Result<hand::Skeleton> {
         glove.update();

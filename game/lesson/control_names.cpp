@@ -26,7 +26,7 @@ constexpr ControlRow control_rows[] = {
     {HintMotion::lift, "control.mouse.let_go", "control.drag.lift", "control.device.move"},
     {HintMotion::set_back, "control.mouse.again", "control.drag.set_back", "control.device.move"},
 };
-static_assert(std::size(control_rows) == motion_count - 2);  // all but `none` and `hold`
+static_assert(std::size(control_rows) == motion_count - 2);  // all but `none` and `counter_hold`
 
 std::string& at(ControlNames& controls, HintMotion motion) {
     return controls.at(static_cast<std::size_t>(motion));
@@ -34,7 +34,7 @@ std::string& at(ControlNames& controls, HintMotion motion) {
 
 ControlNames controls(const words::Words& words, TextKey ControlRow::*column, const std::string& key) {
     ControlNames names;
-    at(names, HintMotion::hold) = words::format_text(words, "control.room.hold", {});
+    at(names, HintMotion::counter_hold) = words::format_text(words, "control.room.hold", {});
     for (const ControlRow& row : control_rows)
         at(names, row.motion) = words::format_text(words, row.*column, {{"key", key}});
     return names;
@@ -43,7 +43,7 @@ ControlNames controls(const words::Words& words, TextKey ControlRow::*column, co
 }  // namespace
 
 ControlNames with_second_wrench(const words::Words& words, ControlNames controls, const std::string& key) {
-    at(controls, HintMotion::hold) = words::format_text(words, "control.key.hold", {{"key", key}});
+    at(controls, HintMotion::counter_hold) = words::format_text(words, "control.key.hold", {{"key", key}});
     return controls;
 }
 
@@ -109,7 +109,7 @@ ControlNames glove_controls(const words::Words& words, ControlNames controls) {
 
 ControlNames tracked_controls(const words::Words& words) {
     ControlNames names = glove_controls(words, {});
-    at(names, HintMotion::hold) = words::format_text(words, "control.room.hold", {});
+    at(names, HintMotion::counter_hold) = words::format_text(words, "control.room.hold", {});
     for (const HintMotion motion : {HintMotion::approach, HintMotion::reach, HintMotion::set_on,
                                     HintMotion::lift, HintMotion::set_back})
         at(names, motion) = words::format_text(words, "control.hand.move", {});

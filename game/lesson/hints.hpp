@@ -25,11 +25,11 @@ enum class HintMotion : std::uint8_t {
     spin,        // turn the nut with the fingers
     twist_back,  // turn the empty hand back
     let_go,
-    pull_on,   // pull the wrench in the tightening direction
-    pull_off,  // pull the wrench in the loosening direction
-    lift,      // take the wrench off the nut
-    set_back,  // move the handle back for another stroke
-    hold,      // the other part, with the second wrench
+    pull_on,       // pull the wrench in the tightening direction
+    pull_off,      // pull the wrench in the loosening direction
+    lift,          // take the wrench off the nut
+    set_back,      // move the handle back for another stroke
+    counter_hold,  // put the second wrench on the held part
 };
 inline constexpr std::size_t motion_count = 15;
 
@@ -65,8 +65,7 @@ std::string motion_text(const words::Words& words, const Hint& hint, const Contr
 // The following functions describe, in the trainee's language, which input performs each motion of a hint.
 // The caller names the bound keys and buttons.
 
-// The control that puts the second wrench on the due joint is the button of the panel in a room; this makes
-// it `key`.
+// Sets the control of HintMotion::counter_hold to `key`. By default it is the button of the panel in a room.
 ControlNames with_second_wrench(const words::Words& words, ControlNames controls, const std::string& key);
 
 // Mouse: press on a nut and hold, drag, release. `tool_key` takes the wrench and puts it down.

@@ -62,7 +62,7 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
     result.score = 100.0;
     const double share = 100.0 / static_cast<double>(std::max<std::size_t>(1, lesson.joints.size()));
     int done_already = 0, out_of_turn = 0, wrong_ways = 0, overdone = 0, overturned = 0, slips = 0,
-        let_turn = 0, bent = 0;
+        common_turns = 0, bent = 0;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         JointResult joint = judge_joint(lesson, i, world);
         if (joint.condition != joint::JointCondition::intact)
@@ -78,7 +78,7 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
         out_of_turn += joint.out_of_turn;
         wrong_ways += lesson.joints[i].wrong_way_count;
         slips += lesson.joints[i].slip_count;
-        let_turn += lesson.joints[i].let_turn_count;
+        common_turns += lesson.joints[i].common_turn_count;
         bent += lesson.joints[i].bent_count;
         const bool still_too_high =
             joint.torque_verdict == Verdict::high || joint.condition != joint::JointCondition::intact;
@@ -107,9 +107,9 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
     if (slips > 0)
         take_points(result,
                     {2.0 * slips, times(slips) + " the wrench slipped", DeductionKind::slipped, -1, slips});
-    if (let_turn > 0)
-        take_points(result, {1.0 * let_turn, times(let_turn) + " nut and bolt turned together",
-                             DeductionKind::turned_together, -1, let_turn});
+    if (common_turns > 0)
+        take_points(result, {1.0 * common_turns, times(common_turns) + " nut and bolt turned together",
+                             DeductionKind::turned_together, -1, common_turns});
     if (bent > 0)
         take_points(result,
                     {5.0 * bent, times(bent) + " the tool was bent", DeductionKind::tool_bent, -1, bent});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "game/lesson/fastener_names.hpp"
 
@@ -15,11 +16,11 @@ constexpr double recheck_turn = to_radians(0.2);  // nut angle by which a re-che
 constexpr double turning_speed = 0.01;            // rad/s
 constexpr double wrong_way = to_radians(5.0);     // nut angle; more than play and the wrench's elasticity
 constexpr double turn_excess = to_radians(1.0);   // nut angle beyond the window that is reported
-constexpr double visible_bend = to_radians(1.0);  // of a tool, that is reported
+constexpr double max_bend = to_radians(1.0);      // rad in a hold; more is a mistake
 constexpr std::uint64_t assessment_end_ticks = 3000;
-constexpr std::uint64_t regrip_ticks = 1000;   // gap within which a grip by fingers continues the hold
-constexpr double working_torque = 0.5;         // N·m; less is only a touch
-constexpr double let_turn = to_radians(20.0);  // of nut and bolt together, that is reported
+constexpr std::uint64_t regrip_ticks = 1000;          // gap within which a grip by fingers continues the hold
+constexpr double working_torque = 0.5;                // N·m; less is only a touch
+constexpr double max_common_turn = to_radians(10.0);  // rad in a hold; more is a mistake
 
 using world::joint_at;
 
@@ -111,10 +112,12 @@ void engage(Lesson& lesson, int joint, servo::Grip grip, const world::ReadHaptic
     lesson.grip = grip;
     JointTrack& track = lesson.joints[static_cast<std::size_t>(joint)];
     track.worked = again && track.worked;
-    track.turned_back = track.seated = track.let_turn = track.bends_tool = false;
+    track.turned_back = track.seated = track.common_turn_reported = track.bend_reported = false;
     track.bent = world.only<world::ToolState>().bent;
     track.furthest = joint_at(world, static_cast<std::size_t>(joint)).angle;
-    track.turned_with_bolt = joint_at(world, static_cast<std::size_t>(joint)).common_turn;
+    track.common_turn = track.common_turn_at_grip =
+        joint_at(world, static_cast<std::size_t>(joint)).common_turn;
+    track.peak_at_grip = track.peak_torque;
     add_event(lesson, tick_of(world), EventKind::engage, joint, 0.0,
               fmt::format("{} on the {}", grip == servo::Grip::wrench ? "wrench" : "fingers",
                           fastener_name(lesson.assembly->joints[static_cast<std::size_t>(joint)].design)));
@@ -210,23 +213,23 @@ void report_wrong_way(Lesson& lesson, std::size_t joint, const world::ReadHaptic
                             loosens ? "tightens" : "loosens"));
 }
 
-// Reports a wrench that turns nut and bolt together, once a hold.
+// Reports a wrench that turns nut and bolt together, at most once per hold.
 void report_common_turn(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[joint];
-    const double turned = joint_at(world, joint).common_turn - track.turned_with_bolt;
-    if (track.let_turn || std::abs(turned) < let_turn) return;
-    track.let_turn = true;
-    ++track.let_turn_count;
+    const double turned = joint_at(world, joint).common_turn - track.common_turn_at_grip;
+    if (track.common_turn_reported || std::abs(turned) < max_common_turn) return;
+    track.common_turn_reported = true;
+    ++track.common_turn_count;
     add_mistake(
         lesson, tick_of(world), MistakeKind::turned_together, joint, turned,
         fmt::format("nut and bolt of {} turned together: nothing held the other end", track.result.id));
 }
 
-// Reports a tool that bends, once a hold.
+// Reports a tool that bends, at most once per hold.
 void report_bent_tool(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[joint];
-    if (track.bends_tool || world.only<world::ToolState>().bent - track.bent < visible_bend) return;
-    track.bends_tool = true;
+    if (track.bend_reported || world.only<world::ToolState>().bent - track.bent < max_bend) return;
+    track.bend_reported = true;
     ++track.bent_count;
     const double torque = std::abs(joint_at(world, joint).torque);
     add_mistake(lesson, tick_of(world), MistakeKind::tool_bent, joint, torque,
@@ -247,7 +250,9 @@ void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& w
     const bool works =
         leaves ? nut.speed > turning_speed : step_torque > working_torque || (fingers && step_torque > 0.01);
     if (!track.worked && works) begin_work(lesson, joint, world);
-    track.peak_torque = std::max(track.peak_torque, step_torque);
+    // A pull that turns nut and bolt together says nothing about the clamp force: it does not count.
+    const bool together = std::exchange(track.common_turn, nut.common_turn) != nut.common_turn;
+    track.peak_torque = together ? track.peak_at_grip : std::max(track.peak_torque, step_torque);
     update_turned_torque(lesson, joint, nut, step_torque);
     report_excess_torque(lesson, joint, tick_of(world));
     report_excess_angle(lesson, joint, world);
@@ -430,7 +435,7 @@ bool undo_steps(Lesson& lesson, const world::ReadHaptics& world, std::size_t ste
         tracks[i].over_torque_count = lesson.joints[i].over_torque_count;
         tracks[i].over_turn_count = lesson.joints[i].over_turn_count;
         tracks[i].slip_count = lesson.joints[i].slip_count;
-        tracks[i].let_turn_count = lesson.joints[i].let_turn_count;
+        tracks[i].common_turn_count = lesson.joints[i].common_turn_count;
         tracks[i].bent_count = lesson.joints[i].bent_count;
         tracks[i].result.condition = joint_at(world, i).condition;
     }

@@ -25,8 +25,8 @@ bool out_of_room(const ObservedLesson& s) {
     return hand.action == world::HandAction::holding && hand.free_swing < no_free_swing;
 }
 
-// True if nothing holds the other part of the due joint, which a wrench would turn.
-bool other_part_is_free(const ObservedLesson& s, const LessonStep& due) {
+// True if the due joint needs the second wrench, and it is not there.
+bool held_part_is_free(const ObservedLesson& s, const LessonStep& due) {
     return needs_second_wrench(*s.lesson.assembly, due.joint) &&
            s.world.only<world::ToolState>().second_wrench != static_cast<int>(due.joint);
 }
@@ -38,7 +38,7 @@ Situation without_nut(const ObservedLesson& s, const LessonStep& due, bool finge
     if (!fingers && !wrench) return Situation::take_wrench;
     if (distance_to_due(s) > near) return fingers ? Situation::find_by_fingers : Situation::find_by_wrench;
     if (fingers) return Situation::grip_nut;
-    if (other_part_is_free(s, due)) return Situation::hold_other_part;
+    if (held_part_is_free(s, due)) return Situation::hold_held_part;
     if (world::joint_at(s.world, due.joint).rounded > worn) return Situation::set_on_rounded;
     const bool again = s.lesson.joints[due.joint].peak_torque > worked_torque;
     return again ? Situation::set_on_again : Situation::set_on;
@@ -135,11 +135,11 @@ Situation situation(const ObservedLesson& work) {
     if (work.lesson.held_joint < 0) return without_nut(work, *due, fingers);
     if (work.lesson.held_joint != static_cast<int>(due->joint)) return Situation::wrong_joint;
     const world::Joint& joint = world::joint_at(work.world, due->joint);
-    if (held_item(work) == HeldItem::nut_by_wrench && other_part_is_free(work, *due) &&
-        !step_fulfilled(work.lesson, work.world))
-        return Situation::hold_other_part;
     if (joint.condition == joint::JointCondition::broken) return Situation::leave_broken;
     if (joint.condition == joint::JointCondition::stripped) return Situation::leave_stripped;
+    if (held_item(work) == HeldItem::nut_by_wrench && held_part_is_free(work, *due) &&
+        !step_fulfilled(work.lesson, work.world))
+        return Situation::hold_held_part;
     switch (due->kind) {
         case StepKind::run_down:
             return running_down(work, joint, fingers);

@@ -19,9 +19,9 @@ enum class Situation : std::uint8_t {
     find_by_wrench,
     find_by_fingers,
     set_on,
-    set_on_again,     // earlier pulls were not enough
-    set_on_rounded,   // onto corners that a slipping jaw has rounded off
-    hold_other_part,  // with the second wrench
+    set_on_again,    // earlier pulls were not enough
+    set_on_rounded,  // onto corners that a slipping jaw has rounded off
+    hold_held_part,  // with the second wrench
     grip_nut,
     run_down,
     run_down_by_wrench,

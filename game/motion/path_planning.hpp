@@ -65,7 +65,7 @@ struct GripAngle {
 
 // Chooses among the angles at which the jaw fits (every 60°, and 30° between these with the wrench flipped)
 // the one nearest to `preferred` with room for a pull of `stroke` rad in the direction of `sign` (tightening
-// positive) and for the approach. Without obstacles every angle has room.
+// positive) and for the approach. Without obstacles every angle has room. `state`: of the joint.
 GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
                       const joint::JointState& state, double preferred, double sign, double stroke);
 

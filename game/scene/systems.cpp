@@ -90,7 +90,7 @@ double widest_nut(const servo::Setup& setup) {
     return widest;
 }
 
-void place_nuts(SceneWorld& world, const servo::Setup& setup) {
+void place_fasteners(SceneWorld& world, const servo::Setup& setup) {
     world.view<const NutPart, Transform>().each([&](const NutPart& nut, Transform& transform) {
         const world::Joint& joint = world::joint_at(world, nut.joint);
         const Pose pose = servo::nut_pose(setup.nuts[nut.joint], joint.angle, joint.common_turn);
@@ -122,7 +122,8 @@ void place_second_wrench(SceneWorld& world, const servo::Setup& setup) {
     const int joint = world.only<world::ToolState>().second_wrench;
     world.view<const SecondWrenchPart, Transform, Appearance>().each(
         [&](const SecondWrenchPart& part, Transform& transform, Appearance& appearance) {
-            const auto* const nut = joint >= 0 ? &setup.nuts[static_cast<std::size_t>(joint)] : nullptr;
+            const bool exists = joint >= 0 && static_cast<std::size_t>(joint) < setup.nuts.size();
+            const auto* const nut = exists ? &setup.nuts[static_cast<std::size_t>(joint)] : nullptr;
             appearance.hidden = nut == nullptr || nut->held_across_flats != part.across_flats;
             if (appearance.hidden) return;
             const Pose pose = second_wrench_pose(setup, static_cast<std::size_t>(joint));
@@ -197,7 +198,7 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     held.tremor = context.tremor;
     held.gloved = glove != nullptr ? &glove->fingers : nullptr;
     held.solids = context.solids;
-    place_nuts(world, context.setup);
+    place_fasteners(world, context.setup);
     place_second_wrench(world, context.setup);
     place_tool(world, context.setup.tool, held);
     place_hand(world, context.postures, held);

@@ -31,7 +31,7 @@ struct ToolAndHand {
 };
 
 // The parts of placement_system().
-void place_nuts(SceneWorld& world, const servo::Setup& setup);
+void place_fasteners(SceneWorld& world, const servo::Setup& setup);
 // The second wrench on its joint, with the handle away from the middle of all joints. It is no obstacle for
 // the tool in the hand.
 Pose second_wrench_pose(const servo::Setup& setup, std::size_t joint);

@@ -43,7 +43,7 @@ struct HeldPart {
     glm::dmat4 assembly_from_mesh{1.0};
 };
 
-// A part of a second wrench. The one that fits the joint on which it is, is drawn.
+// A part of a second wrench. Only the wrench with the size of the held part is drawn.
 struct SecondWrenchPart {
     glm::dmat4 tool_from_mesh{1.0};
     double across_flats = 0.0;  // m, as servo::NutGeometry::held_across_flats

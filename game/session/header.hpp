@@ -37,7 +37,7 @@ struct Header {
     joint::Law law = joint::Law::mechanistic;
     // These two follow from the format of the file.
     lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;
-    bool tools_bend = true;  // since format 8
+    bool tools_yield = true;  // since format 8
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     // "person", or the simulated trainee's profile: "expert", … The key in the file is "operator".

@@ -169,7 +169,7 @@ namespace {
 servo::Setup make_lesson_setup(const content::Assembly& assembly, const LessonOptions& options) {
     servo::Setup setup = make_setup(assembly, options.law, options.device_limits, options.seed, options.dt);
     servo::set_ratchets(setup, options.task == lesson::Task::loosen);
-    if (!options.tools_bend) servo::make_tools_rigid(setup);
+    if (!options.tools_yield) servo::disable_tool_yield(setup);
     return setup;
 }
 

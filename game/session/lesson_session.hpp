@@ -47,7 +47,7 @@ struct LessonOptions {
     lesson::Task task = lesson::Task::tighten;
     joint::Law law = joint::Law::mechanistic;
     lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;  // another one: replays only
-    bool tools_bend = true;  // servo::Wrench::yield_torque; false: replays only
+    bool tools_yield = true;  // servo::Wrench::yield_torque; false: replays only
     std::uint64_t seed = 1;
     double dt = 0.001;
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).

@@ -64,7 +64,7 @@ Result<SessionSetup> restore_setup(const SessionReader& session) {
     options.task = header.task;
     options.law = header.law;
     options.law_adaptation = header.law_adaptation;
-    options.tools_bend = header.tools_bend;
+    options.tools_yield = header.tools_yield;
     options.seed = header.seed;
     options.dt = header.dt;
     options.device_limits = *header.device_limits;

@@ -21,14 +21,14 @@ struct ControllerSample {
     std::string fault;               // why there is no pose; empty: not known
 };
 
-// The device in the user's hand, as requests name it.
-struct TouchingDevice {
+// Words for the device in prompts to the user.
+struct DeviceWords {
     std::string_view name = "controller";
     std::string_view press = "press the trigger of the controller or Enter";
     std::string_view remedy = "switch it on, and hold it where the headset sees it";
 };
-inline constexpr TouchingDevice vive_tracker{"Vive tracker", "press Enter",
-                                             "switch it on, and hold it where its base stations see it"};
+inline constexpr DeviceWords vive_tracker_words{"Vive tracker", "press Enter",
+                                                "switch it on, and hold it where its base stations see it"};
 
 // The functions of the program that a touch with a controller calls. Tests replace them, as they do TouchIo.
 struct ControllerIo {
@@ -37,7 +37,7 @@ struct ControllerIo {
     std::function<bool()> stop;                      // the user ends the program
     std::function<void(std::string_view)> show;      // a line for the user
     device::Timer timer;
-    TouchingDevice device{};
+    DeviceWords device{};
 };
 
 // Permits more motion than for an arm, because optical trackers have a noise of about a millimetre, which the

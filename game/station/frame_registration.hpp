@@ -54,8 +54,8 @@ constexpr content::CoordinateFrame wrist_frame(const std::optional<TrackerRole>&
     return tracker ? content::CoordinateFrame::wrist_tracker : content::CoordinateFrame::controller;
 }
 
-// Why lessons do not use a registration between these frames, and what is expected instead; none: they may
-// use it, or another program does. Old station files may have such a registration.
+// The error of a registration between these frames if lessons never use one (a wheel); otherwise none. Old
+// station files may contain such a registration.
 std::optional<Error> unused_registration(content::CoordinateFrame from, content::CoordinateFrame to);
 
 // A table of the points, and the values that assess the registration.

@@ -90,7 +90,7 @@ struct TraineeState {
     double hover_height = 0.0;        // m above the nut, start of the lowering
 
     bool holds_wrench = false;
-    std::uint8_t tool = 0;               // that it uses or wants next: servo::TickInput::tool
+    std::uint8_t tool = 0;               // in use, or wanted next: servo::TickInput::tool
     std::int16_t second_wrench = -1;     // joint on which it has put the second wrench; −1: none
     double common_turn_at_stroke = 0.0;  // rad, joint::JointState::common_turn at the start of the stroke
     double caught_time = 0.0;            // s for which an obstacle has held the wrench back
@@ -186,7 +186,7 @@ void spin(TraineeState& t, const Percept& felt);
 // These move the handle by one tick; the caller ends the phase. The wrench springs back before it is lifted;
 // a ratchet swings back on the nut, and the open fingers turn back for the next twist.
 void unload(TraineeState& t);
-// Puts the second wrench on the joint of the plan once the trainee sees that nut and bolt turn together.
+// Puts the second wrench on plan.joint once the trainee sees that nut and bolt turn together.
 void see_common_turn(TraineeState& t);
 // Returns true if a ratchet can pull again without leaving the nut.
 bool pulls_again(const TraineeState& t);

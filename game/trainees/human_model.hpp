@@ -113,7 +113,7 @@ struct TraineeProfile {
     double wrong_joint;        // probability of choosing another joint than the due one
     double stops_early;        // probability of stopping well below the target
     double overtightens;       // probability of pulling well past the target
-    // Probability of forgetting the second wrench until it sees that the bolt turns along.
+    // Probability of forgetting the second wrench; it is then put on when nut and bolt have turned by 30°.
     double forgets_second_wrench;
     Impedance impedance{};
 };

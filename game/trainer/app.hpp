@@ -89,7 +89,7 @@ class App : public view::WindowContent {
 
     [[nodiscard]] bool closed() const override { return closed_; }
     [[nodiscard]] bool scales_scene() const override { return active_.has_value() && !in_room(); }
-    // Also while the touch of a mark in the real room is awaited.
+    // Also during awaits_touch(), whatever the setting.
     [[nodiscard]] bool wants_passthrough() const override {
         return preferences_.settings.passthrough || awaits_touch();
     }

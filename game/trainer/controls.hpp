@@ -32,7 +32,7 @@ enum class Action : std::uint8_t {
     restart_step,
     recentre,       // at a station: moves the tool to its initial pose
     close_up,       // shows and hides the close-up
-    second_wrench,  // puts the second wrench on the due joint or takes it away
+    second_wrench,  // puts the second wrench on the held or due joint, or takes it away
     place_again,    // in a room: places panel and workpiece in front of the user
     turn_left,      // in a room, by a step: the workpiece
     turn_right,

@@ -104,7 +104,7 @@ std::optional<MotionArrow> arrow_of(HintMotion motion, const MotionGeometry& geo
     switch (motion) {
         case HintMotion::none:
             return std::nullopt;
-        case HintMotion::hold:
+        case HintMotion::counter_hold:
             return down_to(geometry.nut.seat - geometry.nut.held_distance * axis, -axis, width,
                            forward_color);
         case HintMotion::take:

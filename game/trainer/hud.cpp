@@ -296,7 +296,7 @@ void draw_hint(const ActiveLesson& active, const HudText& texts, const glm::dvec
     if (active.guidance.mistakes.shown) {
         lines.push_back({lesson::mistake_text(w, *active.guidance.mistakes.shown), warm});
         lines.push_back({lesson::remedy_text(w, *active.guidance.mistakes.shown), white});
-        if (is_undone(active.guidance.mistakes.shown->kind))
+        if (undo_repairs(active.guidance.mistakes.shown->kind))
             lines.push_back(
                 {active.session->lesson().mode == lesson::Mode::guided
                      ? w["mistake.begins_again"]

@@ -51,6 +51,7 @@ Status resume_session(const LessonRequest& request, session::SessionSetup setup,
     BOLT_TRY_ASSIGN(lesson.active.session,
                     session::LessonSession::resume(std::move(setup), options,
                                                    request.folder / "session.boltwright", world));
+    lesson.active.second_wrench = world.only<world::ToolState>().second_wrench;
     lesson.active.workplace.world = std::move(world);
     lesson.continued = true;
     return {};
@@ -91,10 +92,13 @@ hand::Side working_side(const ActiveLesson& active, const content::TraineeSettin
 
 // The registration of a glove and of what is fixed to it.
 WristMount wrist_mount(const content::StationFile& station) {
-    const Result<content::Registration> found =
-        station_setup::registration_from(station.registrations, content::CoordinateFrame::hand,
-                                         station_setup::wrist_frame(station.glove_tracker));
-    return {station.glove_tracker, found ? std::optional(found->pose) : std::nullopt};
+    const auto wrist_in = [&](content::CoordinateFrame frame) -> std::optional<Pose> {
+        const Result<content::Registration> found =
+            station_setup::registration_from(station.registrations, content::CoordinateFrame::hand, frame);
+        return found ? std::optional(found->pose) : std::nullopt;
+    };
+    return {station.glove_tracker, wrist_in(content::CoordinateFrame::wrist_tracker),
+            wrist_in(content::CoordinateFrame::controller)};
 }
 
 // A view of the workpiece and the resting wrench, no higher than the eyes of a seated trainee.

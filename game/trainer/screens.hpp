@@ -38,7 +38,7 @@ enum class ScreenAction : std::uint8_t {
     turn_right,
     raise,
     lower,
-    second_wrench,   // puts it on the due joint or takes it away
+    second_wrench,   // puts it on the held or due joint, or takes it away
     select_trainee,  // LessonChoice::trainee was edited
     change_display,  // to the one that the due step of a study needs
     quit,

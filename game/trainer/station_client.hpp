@@ -78,7 +78,7 @@ struct StationClient {
 
     // Kept from frame to frame.
     bool hand_closed = false;      // in the previous frame
-    std::string logged_fault;      // wrist_fault of the previous frame
+    std::string logged_fault;      // the last wrist_fault that was logged
     bool waits_for_arm = false;    // the lesson is paused until the arm has what it needs
     bool user_had_paused = false;  // the user had paused the lesson before the arm did
 };

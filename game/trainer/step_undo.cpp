@@ -25,14 +25,14 @@ void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t step
     undo = {step - steps, undo.by_mistake};
 }
 
-bool is_undone(lesson::MistakeKind mistake) {
+bool undo_repairs(lesson::MistakeKind mistake) {
     return mistake != lesson::MistakeKind::none && mistake != lesson::MistakeKind::turned_together &&
            mistake != lesson::MistakeKind::tool_bent;
 }
 
 void observe(StepUndo& undo, const lesson::Lesson& lesson, const lesson::LessonEvent& event) {
     if (event.kind == lesson::EventKind::undo) undo = {};
-    if (!is_undone(event.mistake) || lesson.mode != lesson::Mode::guided) return;
+    if (!undo_repairs(event.mistake) || lesson.mode != lesson::Mode::guided) return;
     undo = {std::min(undo.target.value_or(lesson.current), lesson.current), true};
 }
 

@@ -23,11 +23,11 @@ const lesson::LessonStep* due(const StepUndo& undo, const lesson::Lesson& lesson
 // assessment and if there are not so many steps.
 void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t steps);
 
-// True if an undo mends the mistake. It does not if nut and bolt turned together, which changed no clamp
-// force, or if the tool was bent.
-bool is_undone(lesson::MistakeKind mistake);
+// True if an undo can repair the mistake. False if nut and bolt turned together, which changes no clamp
+// force, and for a bent tool, which an undo does not straighten.
+bool undo_repairs(lesson::MistakeKind mistake);
 
-// Call with every event of the lesson. A mistake that is undone requests the undo in a guided lesson; the
+// Call with every event of the lesson. A mistake that an undo repairs requests it in a guided lesson; the
 // undo itself clears the request.
 void observe(StepUndo& undo, const lesson::Lesson& lesson, const lesson::LessonEvent& event);
 

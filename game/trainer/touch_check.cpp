@@ -18,7 +18,7 @@ using station_setup::max_check_error;
 constexpr double marker_length = 0.06;  // m, of its arrows
 constexpr glm::vec4 marker_color{1.0F, 0.75F, 0.2F, 1.0F};
 constexpr float marker_outline = 0.8F;       // opacity
-constexpr double marker_above_plate = 0.02;  // m, of a clamping plate that is not registered
+constexpr double marker_above_plate = 0.02;  // m, if no workpiece is registered
 constexpr double tip_length = 0.09;          // m, of the arrow
 constexpr glm::vec4 tip_color{0.3F, 0.7F, 1.0F, 1.0F};
 constexpr float touch_label_height = 0.014F;  // m

@@ -58,18 +58,18 @@ TouchAnswer answer_of(const TouchCheck& check, std::span<const platform::InputEv
 
 ScreenAction draw_touch_check(const ScreenContext& context, const TouchCheck& check);
 
-// The pose of the assembly's frame in the room while the check waits for a touch. `workpiece`: the place of
-// the workpiece in the room. If it is `registered`, that place; otherwise the workshop stands so that the
-// marker is above the middle of the clamping plate, and the workpiece is not shown. Neither follows the arm.
+// The pose of the assembly's frame in the room while the check waits for a touch. `workpiece`: the pose of
+// the workpiece in the room, which is the result if it is `registered`. Otherwise the result places the
+// clamping plate 20 mm below the marker, and the caller hides the workpiece. The result does not depend on
+// the arm.
 Pose touch_scene(const TouchCheck& check, const Pose& workpiece, bool registered,
                  const render::BoundingBox& box);
 
-// m from the marker at which the drawn tip of the arm disappears. The drawn tip is where the registration
-// says, so with a wrong registration a user who brings it to the drawn marker would find no error. It leads
-// to the marker; the touch itself must use the real tip and the real mark.
+// m from the marker at which the drawn tip of the arm disappears. Tip and marker are drawn from the same
+// registration, so they meet even if it is wrong. The touch needs the real tip and the real mark.
 inline constexpr double hidden_tip_distance = 0.04;
 
-// What the scene shows while the check waits for a touch, beside the workshop.
+// The objects that are shown, besides the workshop, while the check waits for a touch.
 struct TouchView {
     const words::Words& words;
     Pose scene_in_room;

@@ -66,11 +66,11 @@ xr::HandInput with_glove(const xr::Hands& hands, const station_setup::WornFinger
                          const WristMount& mount) {
     const xr::HandInput& hand = hands[fingers.side];
     std::optional<Pose> wrist;
-    if (mount.tracker && mount.wrist) {
+    if (mount.tracker && mount.wrist_in_tracker) {
         if (const std::optional<xr::LocatedPose>& tracker = hands.trackers[*mount.tracker])
-            wrist = tracker->pose * *mount.wrist;
-    } else if (hand.active && hand.grip && mount.wrist)
-        wrist = hand.grip->pose * *mount.wrist;
+            wrist = tracker->pose * *mount.wrist_in_tracker;
+    } else if (hand.active && hand.grip && mount.wrist_in_controller)
+        wrist = hand.grip->pose * *mount.wrist_in_controller;
     else if (hand.active && hand.joints && (*hand.joints)[hand::wrist].valid)
         wrist = (*hand.joints)[hand::wrist].pose;
     else if (const auto palm = palm_of(hand, fingers.side)) {
@@ -90,7 +90,7 @@ xr::HandInput with_glove(const xr::Hands& hands, const station_setup::WornFinger
 
 std::string wrist_fault(const xr::ViveTrackers& trackers, const WristMount& mount) {
     if (!mount.tracker) return {};
-    if (!mount.wrist)
+    if (!mount.wrist_in_tracker)
         return fmt::format(
             "glove: the wrist is not registered with the Vive tracker {}; expected a "
             "registration by boltwright station register --hand SIDE --trainee NAME",

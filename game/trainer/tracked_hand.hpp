@@ -44,23 +44,27 @@ Pose fingertips_at_palm(xr::Side side);
 // The pose of the joint hand::palm in the frame of the fingertips.
 Pose palm_joint_at_fingertips(xr::Side side);
 
-// The device that is fixed to a gloved hand, and the registered pose of the wrist in its frame.
+// The devices that may be fixed to a gloved hand, and the registered poses of the wrist in the frames of
+// their grip poses; none: not registered.
 struct WristMount {
-    std::optional<TrackerRole> tracker;  // none: the hand's controller
-    std::optional<Pose> wrist;           // in the frame of the device's grip pose; none: not registered
+    std::optional<TrackerRole> tracker;  // that the station file names
+    std::optional<Pose> wrist_in_tracker, wrist_in_controller;
 };
 
 // The hand of `hands` with the fingers of a glove instead of those that the headset sees. It closes as the
-// glove does; the buttons of a controller that is fixed to it do nothing, and it does not point. Its wrist is
-// at a registered Vive tracker. While that is lost, the hand is not tracked, because a controller or a hand
-// that the cameras see may then be another one. Without a registered tracker the wrist is, in this order: at
-// the controller where it is registered, where the cameras see it, or that of a hand that holds the
-// controller.
+// glove does; the buttons of a controller that is fixed to it do nothing, and it does not point. The first of
+// these that applies determines the wrist:
+//
+//   1 the registered Vive tracker. While it is lost, the hand is not tracked, because a controller or a hand
+//     that the cameras see may be another one
+//   2 the registered controller
+//   3 the headset's cameras
+//   4 a controller that the hand holds
 xr::HandInput with_glove(const xr::Hands& hands, const station_setup::WornFingers& fingers,
                          const WristMount& mount);
 
-// Why the Vive tracker of a gloved hand does not measure its wrist, for the user; empty: it does, or there is
-// none.
+// The message to the user if the Vive tracker that the station file names does not measure the wrist;
+// otherwise empty.
 std::string wrist_fault(const xr::ViveTrackers& trackers, const WristMount& mount);
 
 // Call once a frame. A hand that is not tracked keeps its pose and opens.

@@ -44,7 +44,7 @@ double hexagon_period(const collision::ToolHead& head) {
 
 void write_tool(ToolState& tool, const Snapshot& servo) {
     const servo::Output& output = servo.output;
-    const double head_turn = tool.head_turn;  // of turn_ratchet_head()
+    const double head_turn = tool.head_turn;  // turn_ratchet_head() writes it
     tool = {.joint = output.joint,
             .grip = servo.state.engagement.grip,
             .slipped = output.slipped,
@@ -93,7 +93,7 @@ void turn_ratchet_head(const WriteHaptics& world, const servo::Setup& setup, con
     const Vec3 tool_axis = servo.output.constrained_tool.orientation * Vec3(0.0, 0.0, 1.0);
     const double about_axis = glm::dot(tool_axis, nut.axis) < 0.0 ? -1.0 : 1.0;
     const double turn = -nut.sense * about_axis * (head - engagement.azimuth);
-    // The hexagon looks the same after each period. Text on the head does not.
+    // Takes the shortest equivalent rotation; embossed text may then jump by one period.
     head_turn += wrap(turn - head_turn, hexagon_period(setup.wrench.head));
 }
 

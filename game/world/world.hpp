@@ -44,7 +44,7 @@ struct ConstrainedTool {
     Pose pose;
 };
 
-// The contact of the tool with nuts and obstacles. A joint is −1 if there is none.
+// The tool in the hand: its contact with nuts and obstacles, and its state. A joint is −1 if there is none.
 struct ToolState {
     std::int16_t joint = -1;               // engaged joint
     servo::Grip grip = servo::Grip::none;  // what holds the engaged joint
@@ -55,7 +55,8 @@ struct ToolState {
     double ratchet_slack = 0.0;            // as servo::Engagement::ratchet_slack
     std::int16_t second_wrench = -1;       // as servo::TickInput::second_wrench
     double bent = 0.0;                     // rad, as servo::State::bent
-    // rad about the tool's +Z, by which a ratchet's head is turned relative to its handle, for drawing.
+    // rad about the tool's +Z, rotation of a ratchet's head relative to its handle. turn_ratchet_head()
+    // computes it, for drawing only.
     double head_turn = 0.0;
 };
 
@@ -134,8 +135,8 @@ struct Snapshot {
 void write_haptics(const WriteHaptics& world, const Snapshot& servo);
 
 // Turns the head of a ratchet (ToolState::head_turn): on a nut it keeps the nut's angle while the handle
-// swings back, and turns with the handle while it pulls. Off the nut it stays as it is until the next nut.
-// Call after write_haptics().
+// swings back, and turns with the handle while it pulls. Off the nut it stays as it is until the next nut, or
+// until the tool is put down. Call after write_haptics().
 void turn_ratchet_head(const WriteHaptics& world, const servo::Setup& setup, const Snapshot& servo);
 
 // Writes the state at the start of a lesson, when there is no input or output yet.

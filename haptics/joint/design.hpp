@@ -94,11 +94,11 @@ constexpr std::string_view size_suffix(ThreadDirection direction) {
 // The part that a tool turns.
 enum class TurnedPart : std::uint8_t { nut, head };
 
-// What keeps the part of a through-bolt that is not turned from turning too: its head while a tool turns the
-// nut, or its nut while a tool turns the head. Below it is called the held part.
+// The held part of a through-bolt is the part that no tool turns: the head while the nut is turned, the nut
+// while the head is turned. This enumeration states what keeps it from turning.
 enum class CounterHold : std::uint8_t {
     fixed,         // it cannot turn
-    second_wrench  // friction under it, and a second wrench while that is on it
+    second_wrench  // friction under it, and a second wrench while one is on it
 };
 inline constexpr std::array all_counter_holds{CounterHold::fixed, CounterHold::second_wrench};
 
@@ -198,7 +198,7 @@ TorqueLevers torque_levers(const ScrewThread& thread, double mu_thread, double m
 
 // The torques on the held part of a through-bolt that is tightened to the clamp force F. The thread turns it
 // with F (P/2π + μ_G r_t/cos β) and the prevailing torque; friction under it holds it with up to F μ r_b.
-// With equal coefficients and sizes M8 to M24 it turns below μ ≈ 0.21.
+// With equal coefficients, friction alone holds it above μ ≈ 0.20 (M8) to 0.22 (M12).
 struct HeldPartTorques {
     double thread = 0.0;    // N·m
     double friction = 0.0;  // N·m, at most

@@ -148,13 +148,13 @@ namespace {
 // Resistances of the turned part if it turns on the thread, or together with the held part.
 struct NutResistances {
     Resistance on_thread;
-    std::optional<Resistance> together;  // none: the held part stands
+    std::optional<Resistance> together;  // none: the held part cannot turn
 
     [[nodiscard]] bool turns_together(double speed) const {
         if (!together || speed == 0.0) return false;
         return speed > 0.0 ? together->tighten < on_thread.tighten : together->loosen > on_thread.loosen;
     }
-    // That of the motion which needs less torque.
+    // The resistance of the motion that needs less torque.
     [[nodiscard]] Resistance weaker() const {
         Resistance r = on_thread;
         if (turns_together(1.0)) {
@@ -189,7 +189,7 @@ double held_friction_share(const Resistance& on_thread, double torque) {
 NutStep step_driven(const GroupParameters& group, std::size_t index, JointState& joint, NutDrive drive,
                     double dt) {
     const double inertia = drive_inertia(std::max(drive.stiffness, 1.0), dt);
-    const NutResistances r = resistances(group, index, joint, drive.counter_hold);
+    const NutResistances r = resistances(group, index, joint, drive.held_part_torque);
     drive.angle -= joint.common_turn;
     NutStep step = step_nut(r.weaker(), inertia, joint.nut, drive, dt);
     if (r.turns_together(step.nut.speed)) {

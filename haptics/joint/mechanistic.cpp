@@ -241,9 +241,9 @@ void derive_insert(const JointDesign& design, MechanisticParameters& p) {
     p.insert_wear = std::pow(nut->least_off_5th / nut->least_off, 0.25);
 }
 
-// Draws from `random` only for a joint whose held part can turn, so that those of other joints stay as they
-// are. The bolt's weight rests on its head, or in its hole if it is level; d/2 lies between the two levers
-// (ours).
+// Draws from `random` only if the held part can turn, so that the random values of all other joints stay the
+// same. The bolt's weight rests on its head, or in its hole if the bolt is level. d/2 is our value between
+// these two friction radii.
 void derive_held_part(const JointDesign& design, Random& random, MechanisticParameters& p) {
     p.held_part_can_turn = design.counter_hold == CounterHold::second_wrench;
     if (!p.held_part_can_turn) return;
@@ -359,7 +359,7 @@ double free_closure(const MechanisticParameters& p, const MechanisticState& s, d
 
 void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn& turn, double dt) {
     const double angle = turn.angle, friction_share = turn.friction_share;
-    const double turned = std::abs(angle - s.angle) + std::abs(turn.with_bolt);
+    const double turned = std::abs(angle - s.angle) + std::abs(turn.common);
     // Exponentials are computed only where they have an effect: most joints rest unloaded in most ticks.
     if (turned > 0.0)
         s.breakaway *= std::exp(-turned / p.breakaway_angle);

@@ -81,7 +81,7 @@ struct MechanisticParameters {
     double weight_lead = 0.0;    // N·m, weight of the nut along the lead; negative if it helps tightening
     double weight_friction = 0;  // N·m
     double ripple_phase[3] = {0.0, 0.0, 0.0};  // of the running drag over the angle
-    // CounterHold::second_wrench. Only then the next two have values.
+    // CounterHold::second_wrench. The next two are 0 without it.
     bool held_part_can_turn = false;
     double held_lever = 0.0;  // m, μ r_b under the held part
     double held_drag = 0.0;   // N·m, friction of the bolt's weight
@@ -117,16 +117,16 @@ struct Resistance {
 
 Resistance resistance(const MechanisticParameters& p, const MechanisticState& s);
 
-// The same if nut and bolt turn together: the faces under nut and head slide, the thread does not, and the
-// clamp force stays as it is. All faces of a joint have one breakaway state (ours), so that running friction
-// alone decides which of them slide. `hold`: N·m that holds the held part besides friction.
+// The resistance while nut and bolt turn together: the faces under nut and head slide, the thread does not,
+// and the clamp force is constant. All faces of a joint share one breakaway state (docs/decisions.md).
+// `hold`: external torque on the held part, N·m.
 Resistance resistance_together(const MechanisticParameters& p, const MechanisticState& s, double hold);
 
 // The motion of a nut in a step.
 struct NutTurn {
     double angle = 0.0;           // rad, on the thread, after the step
     double friction_share = 0.0;  // as in MechanisticState
-    double with_bolt = 0.0;       // rad by which nut and bolt have turned together in the step
+    double common = 0.0;          // rad by which nut and bolt have turned together in the step
 };
 
 // Advances the joint by `dt` (s) after the nut has turned. Call it with an unchanged angle too, because

@@ -48,15 +48,15 @@ struct NutMotion {
 // The drive of the nut: a spring with play between the angles of hand and nut.
 struct NutDrive {
     bool engaged = false;  // false: no drive
-    // rad, the nut's angle at the grip plus the hand's rotation since; for step_group() the nut's rotation
-    // (JointState::rotation) instead of its angle.
+    // rad. step_nut(): the nut's angle at the grip, plus the hand's rotation since. step_group(): the nut's
+    // rotation (JointState::rotation) at the grip, plus the hand's since.
     double angle = 0.0;
     double half_play = 0.0;     // rad, backlash to either side
     double stiffness = 0.0;     // N·m/rad
     double torque_limit = 0.0;  // N·m at which the grip slips (fingers); 0: never
-    // N·m with which something besides friction holds the held part (CounterHold::second_wrench); infinite:
-    // it stands. Only step_group() uses it.
-    double counter_hold = std::numeric_limits<double>::infinity();
+    // N·m, external torque that the held part (CounterHold::second_wrench) can bear; infinite: it cannot
+    // turn. Only step_group() uses it.
+    double held_part_torque = std::numeric_limits<double>::infinity();
     Click click;         // between hand and spring
     double swung = 0.0;  // rad that the click mechanism has swung, 0 … click.swing
 };

@@ -28,9 +28,9 @@ struct Engagement {
     // rad, angle of the tool about the bolt at the last tick, in −π … π; a rotation that tightens increases
     // it.
     double azimuth = 0.0;
-    // rad, the rotation of the nut at which the tool would apply no torque: that at engagement, plus the
-    // misalignment of the jaw, plus the tool's rotation about the bolt since then (not wrapped). With a
-    // ratchet: of its head.
+    // rad, the rotation of the nut at which the tool would apply no torque: the nut's rotation at engagement,
+    // plus the misalignment of the jaw, plus the tool's rotation about the bolt since then (not wrapped).
+    // With a ratchet, the rotation of its head counts.
     double hand_angle = 0.0;
     double ratchet_slack = 0.0;  // rad, 0 … one tooth, by which the handle is behind the ratchet's head
     // m, tool minus nut centre at engagement; decays with a time constant of 0.05 s.
@@ -105,9 +105,9 @@ void update_contact_engagement(const Setup& setup, std::span<const joint::JointS
 joint::NutDrive contact_drive(const Setup& setup, const NutGeometry& nut, double rounded,
                               const Engagement& engagement);
 
-// Call before the joint's step. A tool with Wrench::yield_torque transmits no more than that: the rotation of
-// the hand beyond it bends the tool for good. Returns that rotation, rad, at least 0. If the corners of the
-// nut bear less, they yield instead (round_corners).
+// Call before the joint's step. A tool transmits at most Wrench::yield_torque; any further rotation of the
+// hand bends it permanently. Returns that rotation, rad, at least 0. If the corners of the nut bear less,
+// they yield instead (round_corners).
 double bend_tool(const Wrench& wrench, double rotation, joint::NutDrive& drive, Engagement& engagement);
 
 // Call after the joint's step. A head that turns beyond the corners' torque removes material in proportion to

@@ -122,7 +122,7 @@ void use_tool(Setup& setup, std::size_t tool) {
         setup.nuts[i].grip_height = setup.tools[tool].grip_heights[i];
 }
 
-void make_tools_rigid(Setup& setup) {
+void disable_tool_yield(Setup& setup) {
     setup.wrench.yield_torque = 0.0;
     for (LessonTool& tool : setup.tools) tool.wrench.yield_torque = 0.0;
 }

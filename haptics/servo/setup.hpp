@@ -41,7 +41,7 @@ struct NutGeometry {
     double corner_pressure = 0.0;    // Pa at which the corners yield (haptics/joint/nut.hpp)
     double start_gap = 0.0;          // m from bearing face to seat at nut angle 0
     double lead = 0.0;               // m of advance per rad
-    double held_across_flats = 0.0;  // m, of a held part that can turn (joint::CounterHold); 0: it cannot
+    double held_across_flats = 0.0;  // m, of the held part (joint::CounterHold); 0: it cannot turn
     double held_distance = 0.0;      // m from the seat along −axis to the middle of that part
 };
 
@@ -152,7 +152,7 @@ Setup make_setup(const SetupDescription& description);
 void use_tool(Setup& setup, std::size_t tool);
 
 // Sets Wrench::yield_torque of all tools to 0.
-void make_tools_rigid(Setup& setup);
+void disable_tool_yield(Setup& setup);
 
 // Sets the levers of all ratchets.
 void set_ratchets(Setup& setup, bool loosen);

@@ -42,9 +42,9 @@ joint::NutDrive drive_without_click(const Setup& setup, const State& state) {
     return drive;
 }
 
-// N·m that holds the held part of the engaged joint besides friction. While the fingers of one hand turn a
-// nut, those of the other hold the head.
-double counter_hold(const Setup& setup, const Engagement& e, int second_wrench) {
+// The external torque, N·m, that the held part of the engaged joint can bear. While the fingers of one hand
+// turn a nut, those of the other hand hold the head.
+double held_part_torque(const Setup& setup, const Engagement& e, int second_wrench) {
     if (e.joint < 0 || second_wrench == e.joint) return std::numeric_limits<double>::infinity();
     if (e.grip != Grip::fingers) return 0.0;
     return 0.5 * setup.finger_force * setup.nuts[static_cast<std::size_t>(e.joint)].held_across_flats;
@@ -53,7 +53,7 @@ double counter_hold(const Setup& setup, const Engagement& e, int second_wrench) 
 joint::NutDrive drive_of(const Setup& setup, const State& state, int second_wrench) {
     const Engagement& e = state.engagement;
     joint::NutDrive drive = drive_without_click(setup, state);
-    drive.counter_hold = counter_hold(setup, e, second_wrench);
+    drive.held_part_torque = held_part_torque(setup, e, second_wrench);
     drive.click = setup.wrench.click;
     drive.click.set_torque = e.set_torque * (1.0 + setup.wrench.deviation);
     drive.swung = e.swung;

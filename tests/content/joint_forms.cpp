@@ -129,6 +129,8 @@ TEST_CASE("Joint forms: mistakes are reported with their place and what would fi
          R"(4:24: /joint_types/T/thread_directon: unknown property "thread_directon"; did you mean "thread_direction"?)"},
         {R"("form": "stud", "tapped_hole": {"material": "C45", "engagement_mm": 8}, "counter_hold": "second_wrench", "bolt_length_mm": 30)",
          R"(4:90: /joint_types/T/counter_hold: only a through-bolt has a part for a second wrench; expected no such value)"},
+        {R"("head": "socket", "counter_hold": "second_wrench", "bolt_length_mm": 30)",
+         R"(4:36: /joint_types/T/counter_hold: a second wrench cannot hold a socket head; expected "fixed", or a hexagon head)"},
         {R"("form": "tapped_hole", "bolt_length_mm": 30)",
          R"(4:10: /joint_types/T/form: a joint of this form needs its tapped hole; expected tapped_hole with its material)"},
         {R"("tapped_hole": {"material": "C45"}, "bolt_length_mm": 30)",

@@ -36,7 +36,7 @@ struct Pull {
     [[nodiscard]] const JointState& joint() const { return joints[0]; }
     void step(double speed, double hold) {
         drive.angle += to_radians(speed) * dt;
-        drive.counter_hold = hold;
+        drive.held_part_torque = hold;
         step_group(group, joints, 0, drive, dt);
     }
     void tighten_to(double clamp) {
@@ -90,7 +90,7 @@ TEST_CASE("Counter-hold: a held joint follows a fixed one to the bit") {
     CHECK(fixed.joint().clamp > 20e3);
 }
 
-TEST_CASE("Counter-hold: without it nut and bolt turn together at the friction of their faces") {
+TEST_CASE("Counter-hold: the torque of nut and bolt that turn together is the friction of their faces") {
     Pull pull(design_with(0.12, CounterHold::second_wrench));
     pull.tighten_to(20e3);
     const double angle = pull.joint().nut.angle, clamp = pull.joint().clamp;
@@ -131,7 +131,7 @@ TEST_CASE("Counter-hold: friction of 0.3 holds the head, and the nut tightens") 
     CHECK(pull.joint().common_turn == turned);
 }
 
-TEST_CASE("Counter-hold: nothing holds the bolt before the nut is on its seat, nor against a locking nut") {
+TEST_CASE("Counter-hold: a free bolt turns with its nut during run-down, and with a locking nut") {
     JointDesign d = design_with(0.12, CounterHold::second_wrench);
     Pull spun(d);
     for (int i = 0; i < 5000; ++i) spun.step(60.0, 0.0);

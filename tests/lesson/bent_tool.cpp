@@ -23,7 +23,7 @@ TEST_CASE("Bent tool: a tool bends at a fifth above its test torque, but not in 
     // ISO 1711-1: 64.5 N·m for an open end of 13 mm.
     CHECK(session::prepare_session(assembly, {}).value().setup.wrench.yield_torque == doctest::Approx(77.4));
     session::LessonOptions older;
-    older.tools_bend = false;
+    older.tools_yield = false;
     const auto rigid = session::prepare_session(assembly, older);
     CHECK(rigid.value().setup.wrench.yield_torque == 0.0);
     for (const servo::LessonTool& tool : rigid.value().setup.tools) CHECK(tool.wrench.yield_torque == 0.0);

@@ -221,7 +221,7 @@ TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras th
             hands[side] = hand;
             return with_glove(hands, fingers, at);
         };
-        const WristMount on_controller{{}, mount};
+        const WristMount on_controller{{}, {}, mount};
         const xr::HandInput without_buttons = gloved(worn, on_controller);
         is_at_wrist(without_buttons, 1e-6);
         CHECK_FALSE((without_buttons.menu || without_buttons.secondary || without_buttons.aim));
@@ -246,11 +246,11 @@ TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras th
         CHECK_FALSE(gloved({}, on_controller).active);
         // A Vive tracker whose place on the hand is registered. While it is lost, no other device replaces
         // it: a controller on the table may be active.
-        const WristMount on_tracker{TrackerRole::left_elbow, mount};
+        const WristMount on_tracker{TrackerRole::left_elbow, mount, {}};
         xr::Hands hands;
         hands[side] = held;
         hands[side].joints = seen.joints;
-        hands.trackers.read = hands.trackers.available = true;
+        hands.trackers.has_data = hands.trackers.available = true;
         CHECK_FALSE(with_glove(hands, fingers, on_tracker).active);
         std::optional<xr::LocatedPose>& tracker =
             hands.trackers.poses[static_cast<std::size_t>(TrackerRole::left_elbow)];

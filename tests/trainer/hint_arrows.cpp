@@ -90,7 +90,7 @@ TEST_CASE("Hint arrows: a straight arrow points to the nut or away from it and s
     }
     CHECK_FALSE(arrow_of(HintMotion::none, place));
     // To the other end of the bolt, from outside.
-    const auto hold = arrow_of(HintMotion::hold, place);
+    const auto hold = arrow_of(HintMotion::counter_hold, place);
     REQUIRE(hold);
     const Vec3 other_end = nut.seat - 0.04 * nut.axis;
     const double tail_outside = glm::dot(other_end - at(*hold, Vec3(0.0)), nut.axis),

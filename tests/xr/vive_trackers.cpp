@@ -65,7 +65,7 @@ TEST_CASE("Vive trackers: all roles are bound, and the pose of each tracker arri
     mock->set_vive_tracker({"B", "", true, {}});
     (void)program.focus();
     const xr::ViveTrackers trackers = trackers_of(program);
-    CHECK(trackers.read);
+    CHECK(trackers.has_data);
     CHECK(trackers.available);
     check_tracker(trackers[TrackerRole::right_wrist], on_wrist);
     CHECK(trackers[TrackerRole::right_wrist]->tracked);
@@ -129,7 +129,7 @@ TEST_CASE("Vive trackers: without focus nothing is known, and without the extens
         mock->send(mock::Event::focus_lost);
         (void)program.frame();
         const xr::ViveTrackers trackers = trackers_of(program);
-        CHECK_FALSE(trackers.read);
+        CHECK_FALSE(trackers.has_data);
         CHECK(fault_of(trackers, TrackerRole::right_wrist).empty());
     }
     const test::MockRuntime mock;

@@ -136,6 +136,7 @@ void fill_in(WrenchRoom& out, const JointSurroundings& space, const ToolShape& t
     out.obstruction = room.obstruction;
     out.turned_over = room.seated.is_wider_turned_over();
     out.swing = room.seated.wider();
+    out.handle = 0.0;  // `out` may be a copy of another tool's
     if (const Arc* arc = out.swing.widest()) out.handle = 0.5 * (arc->from + arc->to);
     // Angles about +Y run from +X towards -Z. The head's direction lies along a corner of the hexagon.
     const double head = out.handle + (out.turned_over ? -1.0 : 1.0) * tool.head_angle;

@@ -30,7 +30,7 @@ struct FastenerShape {
     // The same for a part without a hexagon; reported only if the name is that of a fastener.
     std::string without_hexagon;
     std::optional<CapHead> cap = {};  // the head of a cap screw
-    // Of a bolt whose thread is drawn as a helix.
+    // The direction of a bolt's drawn helix; none if no helix is drawn.
     std::optional<joint::ThreadDirection> drawn_thread = {};
 };
 

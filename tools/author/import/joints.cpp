@@ -23,7 +23,8 @@ struct PlacedFastener {
     Vec3 origin, axis;
     double across_flats = 0.0, low = 0.0, high = 0.0, diameter = 0.0;  // m, as in FastenerShape
     std::optional<CapHead> cap;
-    // As in FastenerShape: CAD mirrors bolts with the assembly, but the real ones keep their direction.
+    // As in FastenerShape. Measured in the part's own frame, because CAD may mirror an instance, but real
+    // bolts are not mirrored.
     std::optional<joint::ThreadDirection> drawn_thread;
 };
 

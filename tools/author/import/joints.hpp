@@ -18,7 +18,7 @@ inline constexpr std::string_view joint_prefix = "joint_";  // of a node's name
 struct JointCandidate {
     std::string id;
     std::string size;  // "M16", "M16x1.5"
-    // That of the drawn helix; right if the thread is not drawn.
+    // The direction of the drawn helix; right if no helix is drawn.
     joint::ThreadDirection thread_direction = joint::ThreadDirection::right;
     joint::HeadShape head = joint::HeadShape::hexagon;
     double bolt_length = 0.0;  // m, under the head

@@ -1,4 +1,4 @@
-// Checks an assembly on threads of their own, so that the window is drawn meanwhile.
+// Checks an assembly on another thread, so that the window keeps drawing.
 #pragma once
 
 #include <future>
@@ -28,7 +28,7 @@ struct Problem {
 // In the order of the file. A mistake of a joint that the variant leaves out belongs to no joint.
 std::vector<Problem> problems_of(const CheckedAssembly& checked);
 
-// "B1: the wrench has 12 degrees of free swing …; expected …": without the place in the file.
+// "B1: the wrench has 12 degrees of free swing …; expected …": without file, line and column.
 std::string problem_text(const CheckedAssembly& checked, const Problem& problem);
 
 class RoomCheck {

@@ -16,8 +16,8 @@ using geometry::WrenchRoom;
 
 constexpr float tool_opacity = 0.45F;
 constexpr double whole_turn = to_radians(359.0);  // of free swing: the tool is drawn once
-// Outer radius of the fans of joints that are not selected, in units of the inner one: fans in one plane
-// should not overlap.
+// Outer/inner radius of the small sectors of joints that are not selected; limited so that those of
+// neighbours do not overlap.
 constexpr double least_small_fan = 1.6, greatest_small_fan = 4.0;
 constexpr glm::vec4 problem_plate{0.65F, 0.12F, 0.02F, 0.9F};
 constexpr float mark_height_px = 26.0F;  // of a label above its joint

@@ -40,7 +40,7 @@ class RoomOverlay {
     // The room of a joint for the first of its tools that does not fit, or else for its usual one; null if
     // none was measured.
     [[nodiscard]] const geometry::WrenchRoom* room_of(const std::string& joint) const;
-    // What the check says about a joint: its swing, and the notes. Empty without a room.
+    // The free swing and the notes of a joint; empty without a measured room.
     [[nodiscard]] std::string description_of(const std::string& joint) const;
 
   private:

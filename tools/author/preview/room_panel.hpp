@@ -24,7 +24,7 @@ struct RoomPanelState {
     bool all_sectors = false;
 };
 
-// What the author has clicked in one frame.
+// The author's clicks in one frame.
 struct RoomPanelCommands {
     std::optional<std::size_t> problem;  // index into RoomOverlay::problems()
     std::optional<std::size_t> variant;
