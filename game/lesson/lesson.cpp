@@ -222,7 +222,7 @@ void report_common_turn(Lesson& lesson, std::size_t joint, const world::ReadHapt
     ++track.common_turn_count;
     add_mistake(
         lesson, tick_of(world), MistakeKind::turned_together, joint, turned,
-        fmt::format("nut and bolt of {} turned together: nothing held the other end", track.result.id));
+        fmt::format("nut and bolt of {} turned together: nothing held the bolt", track.result.id));
 }
 
 // Reports a tool that bends, at most once per hold.

@@ -87,6 +87,13 @@ expect 1 'full|written' bash -c "'$bin/boltwright' export a/session.boltwright -
 # Loosening, compared with measured data.
 expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --no-obstacles --headless --quiet --task loosen --out loose
 
+# A bolt whose head only a second wrench holds.
+cp -r "$sources/content/assemblies/cover-m8" held
+sed -i '0,/"class": "8.8",/s//& "counter_hold": "second_wrench",/' held/assembly.json
+expect 0 'score 100' "$bin/boltwright" train --no-pictures held --no-obstacles --headless --quiet --out holds
+expect 0 'times nut and bolt turned together' "$bin/boltwright" train --no-pictures held --no-obstacles --headless --operator clumsy --out forgets
+expect 0 'all as they were recorded' "$bin/boltwright" replay forgets/session.boltwright
+
 # Contacts are simulated if the assembly has contact models, and the files record this. Two runs are equal byte for byte.
 expect 0 'score 100' "$bin/boltwright" train --no-pictures one --headless --quiet --out solid
 expect 0 '"obstacles": true' cat solid/summary.json

@@ -26,7 +26,7 @@ bool is_drawn(const ActiveLesson& active) {
 
 }  // namespace
 
-TEST_CASE("Trainer: a key puts the second wrench on the head of a bolt that turns along") {
+TEST_CASE("Trainer: a key puts the second wrench on the head of a bolt that turns with its nut") {
     if (test::sanitized) return test::skip_rest("a lesson takes minutes under a sanitizer");
     const test::Folder folder;
     AppOptions options = test::options("", false);
