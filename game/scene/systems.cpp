@@ -106,27 +106,33 @@ void place_fasteners(SceneWorld& world, const servo::Setup& setup) {
     });
 }
 
-Pose second_wrench_pose(const servo::Setup& setup, std::size_t joint) {
+Pose second_wrench_pose(const servo::Setup& setup, std::size_t joint, double corner) {
     Vec3 middle(0.0);
     for (const servo::NutGeometry& nut : setup.nuts)
         middle += nut.seat / static_cast<double>(setup.nuts.size());
     const servo::NutGeometry& nut = setup.nuts[joint];
-    Vec3 handle = nut.seat - middle;
-    handle -= nut.axis * glm::dot(handle, nut.axis);
-    handle = glm::length(handle) > 1e-3 ? glm::normalize(handle) : nut.e1;
+    const Vec3 outward = nut.seat - middle;
+    const double wanted = std::atan2(glm::dot(outward, nut.e2), glm::dot(outward, nut.e1));
+    constexpr double fits_every = pi / 6.0;  // a ring with twelve points
+    const double angle = corner + fits_every * std::round((wanted - corner) / fits_every);
+    const Vec3 handle = std::cos(angle) * nut.e1 + std::sin(angle) * nut.e2;
     const Quat turn = glm::quat_cast(glm::dmat3(handle, glm::cross(-nut.axis, handle), -nut.axis));
     return {nut.seat - nut.held_distance * nut.axis, turn};
 }
 
 void place_second_wrench(SceneWorld& world, const servo::Setup& setup) {
     const int joint = world.only<world::ToolState>().second_wrench;
+    std::optional<double> corner;  // of the held part; none: it needs no second wrench
+    for (const HeldPart& part : world.pool<HeldPart>().components())
+        if (static_cast<int>(part.joint) == joint)
+            corner =
+                part.corner - setup.nuts[part.joint].sense * world::joint_at(world, part.joint).common_turn;
     world.view<const SecondWrenchPart, Transform, Appearance>().each(
         [&](const SecondWrenchPart& part, Transform& transform, Appearance& appearance) {
-            const bool exists = joint >= 0 && static_cast<std::size_t>(joint) < setup.nuts.size();
-            const auto* const nut = exists ? &setup.nuts[static_cast<std::size_t>(joint)] : nullptr;
-            appearance.hidden = nut == nullptr || nut->held_across_flats != part.across_flats;
+            const auto index = static_cast<std::size_t>(std::max(joint, 0));
+            appearance.hidden = !corner || setup.nuts[index].held_across_flats != part.across_flats;
             if (appearance.hidden) return;
-            const Pose pose = second_wrench_pose(setup, static_cast<std::size_t>(joint));
+            const Pose pose = second_wrench_pose(setup, index, *corner);
             transform.world = glm::mat4(matrix(pose) * part.tool_from_mesh);
         });
 }

@@ -32,9 +32,10 @@ struct ToolAndHand {
 
 // The parts of placement_system().
 void place_fasteners(SceneWorld& world, const servo::Setup& setup);
-// The second wrench on its joint, with the handle away from the middle of all joints. It is no obstacle for
-// the tool in the hand.
-Pose second_wrench_pose(const servo::Setup& setup, std::size_t joint);
+// The second wrench on its joint: of the twelve directions in which the ring fits, the handle takes the one
+// that points away from the middle of all joints. It is no obstacle for the tool in the hand. `corner`: rad
+// about the joint's axis, from e1 to a corner of the held part.
+Pose second_wrench_pose(const servo::Setup& setup, std::size_t joint, double corner);
 void place_second_wrench(SceneWorld& world, const servo::Setup& setup);
 // `tool`: index in servo::Setup::tools of the one to show.
 void place_tool(SceneWorld& world, std::size_t tool, const ToolAndHand& state);

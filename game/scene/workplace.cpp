@@ -160,12 +160,24 @@ std::vector<int> joints_of(const assets::Model& model, const content::Assembly& 
     return joints;
 }
 
-// From the mesh's frame to the nut's, determined from the corners of the hexagon (session::find_hexagon).
-glm::dmat4 nut_from_mesh(const assets::Mesh& mesh, const glm::mat4& world, const servo::NutGeometry& nut) {
+std::vector<glm::dvec3> points_of(const assets::Mesh& mesh, const glm::mat4& world) {
     std::vector<glm::dvec3> points;
     for (const assets::Primitive& p : mesh.primitives)
         for (const glm::vec3& at : p.positions) points.emplace_back(glm::dmat4(world) * glm::dvec4(at, 1.0));
-    const session::HexagonPose hexagon = session::find_hexagon(nut, points);
+    return points;
+}
+
+// HeldPart::corner.
+double corner_of(const assets::Mesh& mesh, const glm::mat4& world, servo::NutGeometry held) {
+    held.across_flats = held.held_across_flats;
+    held.socket_depth = 0.0;
+    const Quat straighten = session::find_hexagon(held, points_of(mesh, world)).straighten;
+    return -2.0 * std::atan2(straighten.z, straighten.w);
+}
+
+// From the mesh's frame to the nut's, determined from the corners of the hexagon (session::find_hexagon).
+glm::dmat4 nut_from_mesh(const assets::Mesh& mesh, const glm::mat4& world, const servo::NutGeometry& nut) {
+    const session::HexagonPose hexagon = session::find_hexagon(nut, points_of(mesh, world));
     const auto to_nut = [&](const Vec3& p) { return session::to_nut_frame(nut, hexagon, p); };
     const Vec3 origin = to_nut(Vec3(0.0));
     glm::dmat4 from_assembly(1.0);
@@ -194,7 +206,9 @@ Status add_workpiece(Workplace& workplace, const LessonModels& models, const Gpu
         const auto joint = static_cast<std::size_t>(joints[node]);
         workplace.world.add<JointPart>(entity, joint);
         if (content::is_held_node(assembly.joints[joint], model.nodes[node].name)) {
-            workplace.world.add<HeldPart>(entity, joint, glm::dmat4(object.world));
+            workplace.world.add<HeldPart>(
+                entity, joint, glm::dmat4(object.world),
+                corner_of(model.meshes[object.mesh], object.world, setup.nuts[joint]));
             workplace.world.get<Drawable>(entity).moves = true;
         }
         if (!content::is_turned_node(assembly.joints[joint], model.nodes[node].name)) continue;

@@ -41,6 +41,7 @@ struct JointPart {
 struct HeldPart {
     std::size_t joint = 0;
     glm::dmat4 assembly_from_mesh{1.0};
+    double corner = 0.0;  // rad about the joint's axis, from e1 to a corner of its hexagon, before it turns
 };
 
 // A part of a second wrench. Only the wrench with the size of the held part is drawn.
