@@ -220,9 +220,8 @@ void report_common_turn(Lesson& lesson, std::size_t joint, const world::ReadHapt
     if (track.common_turn_reported || std::abs(turned) < max_common_turn) return;
     track.common_turn_reported = true;
     ++track.common_turn_count;
-    add_mistake(
-        lesson, tick_of(world), MistakeKind::turned_together, joint, turned,
-        fmt::format("nut and bolt of {} turned together: nothing held the bolt", track.result.id));
+    add_mistake(lesson, tick_of(world), MistakeKind::turned_together, joint, turned,
+                fmt::format("nut and bolt of {} turned together: nothing held the bolt", track.result.id));
 }
 
 // Reports a tool that bends, at most once per hold.

@@ -50,7 +50,8 @@ struct RecordedHand {
 // Bits of the recorded device's buttons.
 inline constexpr std::uint32_t button_held = 1, button_stop = 2, button_reset = 4;
 
-// Reads the whole session into memory, 40 bytes for each tick. Fails if it is damaged or has no tick.
+// Reads the whole session into memory, 40 bytes for each tick. Fails if it is damaged or has no tick with
+// a fresh sample.
 Result<RecordedHand> replay_device(const SessionReader& session);
 
 }  // namespace bolt::session

@@ -81,8 +81,8 @@ class App : public view::WindowContent {
         return end_lesson();
     }
 
-    // If the plan of a study names displays: the caller opens the wanted one, or the window if that fails,
-    // and passes the outcome before it runs the app on that display.
+    // True if the plan of a study names another display. The caller opens it, or the window if that fails,
+    // calls enter_display() with the result, and runs the app again.
     [[nodiscard]] bool wants_other_display() const override { return wanted_display_.has_value(); }
     [[nodiscard]] const LessonDisplay& wanted_display() const { return *wanted_display_; }
     void enter_display(const Status& opened);

@@ -61,7 +61,7 @@ Status App::share(cluster::MessageWriter& message, cluster::MessageWriter& bulk)
     frame.scene_in_room = scene_in_room();
     if (in_room()) {
         frame.panel = room_->panel;
-        frame.panel_point = room_->panel_point;
+        frame.panel_point_size = room_->panel_point_size;
         frame.ray = wand_ray_;
     }
     sender_->write(message, bulk, frame);
@@ -217,7 +217,7 @@ void App::place_in_room(const view::ImmersiveFrame& immersive) {
     const bool placed = can_place(room.placement, immersive);
     if (placed && !room.panel) {
         room.panel = immersive.panel ? immersive.panel->pose : place_panel(viewer);
-        room.panel_point = immersive.panel ? immersive.panel->point_size : point_size;
+        room.panel_point_size = immersive.panel ? immersive.panel->point_size : point_size;
         room.placement.provisional = !immersive.expected_head && !is_worn(immersive);
     }
     if (!active_) {
@@ -373,7 +373,7 @@ Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& imme
     BOLT_TRY(draw_hands(scene, immersive));
     if (in_room() && room_->panel)
         scene.panels.push_back(
-            panel_in_scene(*room_->panel, room_->panel_point, place, gpu_->panel->image()));
+            panel_in_scene(*room_->panel, room_->panel_point_size, place, gpu_->panel->image()));
     BOLT_TRY(draw_in_room(*gpu_->context->renderer, frame, scene, place, immersive));
     if (!room_) return {};
     room_->drawn_scene = place;

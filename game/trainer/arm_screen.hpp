@@ -19,7 +19,8 @@ inline constexpr double question_time = 0.5;
 struct ArmScreen {
     device::ArmNeeds needs;
     bool in_lesson = false;
-    bool restores = false;   // an interrupted lesson is restored, which may take longer than its devices
+    bool restores =
+        false;  // an interrupted lesson is being restored; that may go on after the devices are open
     double shown_for = 0.0;  // s
 };
 

@@ -34,7 +34,7 @@ struct HelpedHand {
     HandAction action = HandAction::resting;
     bool wrench = false;             // in the hand
     std::uint8_t tool = 0;           // in the hand, or ready for it
-    bool changes_tool = false;       // at rest, between two tools; goes to `nut` with the next one
+    bool changes_tool = false;       // at rest, and about to go to `nut` with another tool
     std::optional<std::size_t> nut;  // joint that the hand moves to, is at or holds
     Pose pose;                       // of the tool, in the assembly's frame
     Pose rest;                       // where the wrench lies; an empty hand waits beside it

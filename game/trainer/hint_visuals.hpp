@@ -24,8 +24,8 @@ struct MotionGeometry {
 };
 
 // The arrow of a motion; none for HintMotion::none. A turn gets a round arrow about the bolt, clockwise from
-// above to tighten a right-hand thread; an approach or a lift a straight one along the bolt; taking or laying
-// down the wrench a straight one down to its resting place.
+// above to tighten a right-hand thread; an approach or a lift a straight one along the bolt, the second
+// wrench one from the other side; taking or laying down the wrench a straight one down to its resting place.
 std::optional<scene::MotionArrow> arrow_of(lesson::HintMotion motion, const MotionGeometry& geometry);
 
 // Shows the visuals of `hint`; null hides all.

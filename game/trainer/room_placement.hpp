@@ -12,7 +12,7 @@ namespace bolt::trainer {
 struct Placement {
     double waited = 0.0;           // s for which the user has looked and nothing had a place
     double unseen = 0.0;           // s for which the user has turned away from the panel
-    bool provisional = false;      // placed for a head that was below all people's
+    bool provisional = false;      // placed for a head that was lower than any person's
     bool workpiece_faced = false;  // the user has faced the workpiece since it was placed
     bool requested = false;        // by the user: place all again
 };

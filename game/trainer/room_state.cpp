@@ -145,21 +145,21 @@ void raise(RoomState& room, double height) {
     room.height = std::clamp(room.height + height, -max_raise, max_raise);
 }
 
-std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim) {
-    const Pose in_panel = inverse(panel) * aim;
+std::optional<glm::dvec2> panel_hit(const PanelInRoom& panel, const Pose& aim) {
+    const Pose in_panel = inverse(panel.pose) * aim;
     const Vec3 along = in_panel.orientation * Vec3(0.0, 0.0, -1.0);
     if (in_panel.position.z <= 0.0 || along.z > -1e-3) return std::nullopt;
     const Vec3 hit = in_panel.position - along * (in_panel.position.z / along.z);
-    const glm::dvec2 points(0.5 * panel_points.x + hit.x / point_size,
-                            0.5 * panel_points.y - hit.y / point_size);
+    const glm::dvec2 points(0.5 * panel_points.x + hit.x / panel.size,
+                            0.5 * panel_points.y - hit.y / panel.size);
     if (points.x < 0.0 || points.y < 0.0 || points.x > panel_points.x || points.y > panel_points.y)
         return std::nullopt;
     return points * static_cast<double>(panel_scale);
 }
 
-Vec3 point_on_panel(const Pose& panel, const glm::dvec2& at) {
+Vec3 point_on_panel(const PanelInRoom& panel, const glm::dvec2& at) {
     const glm::dvec2 from_middle = at / static_cast<double>(panel_scale) - 0.5 * panel_points;
-    return panel * Vec3(from_middle.x * point_size, -from_middle.y * point_size, 0.0);
+    return panel.pose * Vec3(from_middle.x * panel.size, -from_middle.y * panel.size, 0.0);
 }
 
 std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& hands, const HandKeys& keys,
@@ -177,7 +177,7 @@ std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& 
         apply_stick(room, hand.active ? hand.stick : glm::vec2(0.0F), room.stick_used[side], seconds);
         if (hand.active && hand.controller != nullptr) room.controller = hand.controller;
         if (!hand.active || !hand.aim || !room.panel || working == static_cast<xr::Side>(side)) continue;
-        const auto hit = panel_point(*room.panel, hand.aim->pose);
+        const auto hit = panel_hit({*room.panel, room.panel_point_size}, hand.aim->pose);
         // If both hands point at the panel, the one that presses harder counts; if equal, the right one.
         if (!hit || (at && hand.select < select)) continue;
         at = hit;

@@ -48,7 +48,7 @@ struct RoomState {
     // It stands where the station file registers the real workpiece, and is neither turned nor raised.
     bool workpiece_registered = false;
     std::optional<Pose> panel;  // pose of its centre: x right, y up, z towards the user; none: not placed yet
-    double panel_point = point_size;  // m per point of the panel
+    double panel_point_size = point_size;  // m per point of the panel
     Placement placement;
     PanelPointer pointer;
     std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};  // in the last frame, for each hand
@@ -56,8 +56,8 @@ struct RoomState {
     const xr::ControllerProfile* controller = nullptr;  // in a hand in the last frame; null: none is known
     double height = 0.0;                                // m that the user has raised the workpiece
     int turns = 0;                                      // steps by which the user has turned it
-    // The arm's frame in the room, if the station file has the registration and the arm's scale is 1; else
-    // the workpiece stands where the user looks.
+    // The arm's frame in the room; none unless the station file registers it and the arm's scale is 1.
+    // Without it the workpiece stands where the user looks.
     std::optional<Pose> arm;
     std::uint32_t arm_lesson = 0;     // number of the lesson for which `arm` was set; 0: none
     std::optional<TouchCheck> touch;  // checks that registration before the lesson begins
@@ -105,11 +105,17 @@ inline Pose registered_scene(const Pose& room_from_arm, const Pose& arm_in_scene
     return room_from_arm * inverse(arm_in_scene);
 }
 
-// Where a ray along −z of `aim` meets the panel, px; none: it does not.
-std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim);
+// The place of the panel in the room.
+struct PanelInRoom {
+    Pose pose;                 // RoomState::panel
+    double size = point_size;  // RoomState::panel_point_size
+};
 
-// The point of the panel at `at` (px, as panel_point() returns it), m in the room.
-Vec3 point_on_panel(const Pose& panel, const glm::dvec2& at);
+// The point, px, where a ray along −z of `aim` meets the panel; none: it does not.
+std::optional<glm::dvec2> panel_hit(const PanelInRoom& panel, const Pose& aim);
+
+// The point of the panel at `at` (px, as panel_hit() returns it), m in the room.
+Vec3 point_on_panel(const PanelInRoom& panel, const glm::dvec2& at);
 
 // The keys that controller buttons trigger.
 struct HandKeys {

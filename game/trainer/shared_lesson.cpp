@@ -49,7 +49,7 @@ void LessonSender::write(cluster::MessageWriter& message, cluster::MessageWriter
     message.put(frame.panel.has_value());
     if (frame.panel) {
         message.put_pose(*frame.panel);
-        message.put(frame.panel_point);
+        message.put(frame.panel_point_size);
         message.put(panel.write(bulk));
     }
     message.put(frame.ray.has_value());

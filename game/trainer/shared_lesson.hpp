@@ -28,7 +28,7 @@ struct SharedFrame {
     const render::Scene* scene = nullptr;
     Pose scene_in_room;
     std::optional<Pose> panel;       // of its centre in the room; none: the room does not show it
-    double panel_point = 0.0;        // m per point of the panel
+    double panel_point_size = 0.0;   // m per point of the panel
     std::optional<PointingRay> ray;  // of a wand
 };
 

@@ -108,9 +108,10 @@ struct UserActions {
 [[nodiscard]] Status send_actions(StationClient& client, const session::LessonSession& session,
                                   const UserActions& actions);
 
-// Lets the mouse move the hand that a headset has tracked, and the headset track it again. The tool stays
-// where it is, and the mouse keeps the wrench; a tracked hand goes to where the real one is.
+// Lets the mouse move the hand that a headset has tracked. The tool stays where it is, and the hand keeps the
+// wrench.
 void give_hand_to_mouse(StationClient& client);
+// Lets the headset track the hand again, which moves to where the real one is.
 void give_hand_to_headset(StationClient& client, xr::Side side);
 
 // Returns true if a device renders forces, which then requires a dead-man switch: a button, or the tool in a

@@ -27,8 +27,8 @@ void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t step
 // force, and for a bent tool, which an undo does not straighten.
 bool undo_repairs(lesson::MistakeKind mistake);
 
-// Call with every event of the lesson. A mistake that an undo repairs requests it in a guided lesson; the
-// undo itself clears the request.
+// Call with every event of the lesson. In a guided lesson a mistake that an undo repairs requests an undo.
+// The event of the undo clears the request.
 void observe(StepUndo& undo, const lesson::Lesson& lesson, const lesson::LessonEvent& event);
 
 // Call once a frame. A key's request expires after a few seconds, so that the lesson does not jump back

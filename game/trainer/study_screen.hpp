@@ -37,8 +37,7 @@ class StudyScreen {
     // Draws the page of the due step on the display that shows it now. If the due step needs another display,
     // draws a page that leads there instead. Returns start_lesson, change_display, quit or none.
     ScreenAction draw(const ScreenContext& context, const LessonDisplay& shown);
-    // The display of the due step: that of its lesson; of other pages, and if the plan names no displays, the
-    // window.
+    // The display of the due lesson. For other pages, or if the plan names no displays: the window.
     [[nodiscard]] LessonDisplay due_display() const;
 
     [[nodiscard]] study::Participation& participation() { return participation_; }

@@ -33,7 +33,7 @@ struct TouchCheck {
     double error = 0.0;         // m, of the result
     double shown_for = 0.0;     // s for which the phase is shown
     std::vector<Vec3> touched;  // m, positions of the tip in the room
-    std::uint32_t held = ~0U;   // buttons of the arm that were held before; only another one is a press
+    std::uint32_t held = ~0U;  // buttons of the arm that are already held; only another one counts as a press
 };
 
 // True until there is a result.

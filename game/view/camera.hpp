@@ -52,7 +52,8 @@ Orbit limit_eye_height(const Orbit& orbit, double eye);
 Orbit fit_to_box(const Orbit& orbit, const render::BoundingBox& box, float aspect);
 
 // A camera that approaches its goal exponentially with a time constant of 70 ms, independent of the frame
-// rate. All values follow the same straight line, so that a zoom keeps its fixed point in between too.
+// rate. All values are interpolated with the same fraction, so that the point under the cursor stays fixed
+// during a zoom.
 struct CameraGlide {
     Orbit shown, goal;
 
@@ -81,8 +82,8 @@ double visibility_from(const ViewTarget& target, motion::VisibilityModel& model,
 // Visible fraction at which a search stops.
 inline constexpr double sufficient_visibility = 0.6;
 
-// Areas about the middle of the picture, as fractions of half its width and height: all but a narrow border,
-// and the part that no text at the borders covers.
+// Areas about the middle of the picture, as fractions of half its width and height. `picture_area`: all but a
+// narrow border. `open_middle`: the part that texts at the borders never cover.
 inline constexpr glm::dvec2 picture_area(0.88, 0.88), open_middle(0.36, 0.6);
 
 // True if the point lies in the area of the picture.

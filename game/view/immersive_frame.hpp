@@ -34,16 +34,15 @@ struct ImmersiveFrame {
     // The headset's runtime is late: poses and hands are those of the last frame, and nothing is drawn.
     bool repeated = false;
     bool attentive = false;  // false: the user does not see the picture; pause, and output no force
-    // Workpiece and panel are placed for this pose of the head if the display is fixed in the room. None:
+    // Workpiece and panel are placed for this pose of the head if the display has fixed walls. None:
     // they are placed for the tracked head.
     std::optional<Pose> expected_head;
     // Returns true if the display shows a point of the room to the expected head; empty: it shows all points.
     std::function<bool(const Vec3&)> shows;
-    // Where a display that is fixed in the room shows the panel; none: in front of the head.
+    // Where a display with fixed walls shows the panel; none: in front of the head.
     std::optional<PanelPlace> panel;
-    // Since the last frame the user has recentred the headset, and the room's origin has moved. Headsets may
-    // recentre without moving this origin.
-    bool recentred = false, origin_moved = false;
+    bool recentred = false;     // the user has recentred the headset since the last frame
+    bool origin_moved = false;  // the room's origin has moved; a headset may recentre without that
     bool floor_known = true;    // y is 0 at the floor; false: at the eyes of a seated user
     bool fixed_in_room = true;  // the origin stays when the user recentres; false: registrations do not hold
     // Group i is drawn as the renderer's group immersive_group + i; a group without eyes is not drawn.
@@ -57,7 +56,7 @@ struct ImmersiveFrame {
 };
 
 inline constexpr std::uint32_t immersive_group = 16;
-// m. The near plane is closer than eyes can focus on the hands.
+// m. The near plane is nearer than the eyes can focus.
 inline constexpr xr::DepthRange immersive_range{0.03F, 50.0F};
 
 // The eyes of a headset, for pictures of this size.

@@ -47,7 +47,7 @@ class PanelSender {
     VkExtent2D extent_{};
     std::uint64_t frame_ = 0;                // counts record()
     std::optional<std::uint64_t> recorded_;  // when copy_ was recorded; none: it has been written
-    std::vector<std::byte> sent_;            // the picture, as the receivers have it with waiting_
+    std::vector<std::byte> sent_;            // the picture that the receivers have once waiting_ is sent
     std::vector<PanelTile> waiting_;         // changed, and not written yet
 };
 

@@ -45,8 +45,8 @@ class WindowContent {
     // with one, each group of eyes is drawn as a group of the renderer. The poses of the eyes may be newer
     // than those of update().
     virtual Status draw(gpu::FrameContext& frame, const WindowFrame& window) = 0;
-    // Called between draw() and the submission of a headset's frame, with its latest eyes: moves those of the
-    // recorded pictures there (Renderer::move_eyes). Returns false if they stay where draw() had them.
+    // Called between draw() and the submission of a headset's frame, with its newest eyes. Moves the recorded
+    // pictures to them (Renderer::move_eyes). Returns false if they stay where draw() had them.
     virtual bool move_eyes(const WindowFrame&) { return false; }
     // The picture for the window, valid after draw(). On walls the control window shows all of it; the window
     // of a headset does not use it.
@@ -107,8 +107,8 @@ struct WindowRunOptions {
     std::string gpu{};               // part of the name of the GPU to use; empty: the best
     std::function<bool()> stop{};    // polled every frame; true closes the window
     xr::Headset* headset = nullptr;  // null: none is used
-    // The first headset must work: if it does not, the run fails with ErrorCode::no_device. False: a headset
-    // that cannot be used leaves the content in the window, as one that fails later does.
+    // True: the run fails with ErrorCode::no_device if the first headset cannot be used. False: the window
+    // shows the content instead. A headset that fails later never ends the run.
     bool needs_headset = false;
     Walls* walls = nullptr;  // null: there are none; not together with a headset
     // Lower the resolution of a headset if the GPU cannot keep its frame rate, and that of scenes in the

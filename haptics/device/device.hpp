@@ -51,7 +51,7 @@ struct Description {
     force::OutputLimits limits;     // force 0 and torque 0: input only
     double rate = 1000.0;           // samples per second while the hand moves
     bool silent_at_rest = false;    // may send nothing while the hand rests; implied by Sensing::velocity
-    // m, half the workspace along each axis; 0 for a puck or a wheel
+    // m, half the workspace along each axis; 0: it has no limit, or the device senses no position
     Vec3 half_workspace{0.0};
     Vec3 axis{0.0, 0.0, 1.0};  // unit, of Sensing::angle
     int buttons = 0;

@@ -87,7 +87,8 @@ class DeviceSupervisor {
     std::uint64_t command_number_ = 0;           // of the newest command
     double command_time_ = 0.0;                  // when that command was first seen
     bool rendering_ = false;                     // the last write was not zero
-    // A force may remain: no zero command was written since the device was opened or last rendered a force.
+    // True until a zero command is written after opening or after a rendered force: until then the device may
+    // still hold a force.
     bool may_hold_force_ = false;
 };
 

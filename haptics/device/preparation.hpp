@@ -1,5 +1,5 @@
-// The needs of an arm before it can be used, such as the user's permission to move by itself. The thread that
-// shows the question and the thread that opens the arm share the permission.
+// The needs of an arm before it can be used, such as the user's permission that the arm may move by itself.
+// The thread that shows the question and the thread that opens the arm share the permission.
 #pragma once
 
 #include <atomic>
@@ -74,7 +74,7 @@ class MovePermission {
 // preparation. May wait, for example for an answer.
 using PreparationHandler = std::function<bool(const Preparation& preparation)>;
 
-// Connects an arm that is being opened with the user. By default a need is an error, and no arm moves.
+// Lets the user take part while an arm is opened. By default a need is an error, and no arm moves.
 struct ArmDialog {
     PreparationHandler on_preparation{};
     std::shared_ptr<MovePermission> permission{};

@@ -54,7 +54,8 @@ struct HandMotion {
     // m and rad that the intention may be ahead of the arm: this limits how hard the hand pushes
     // against a wall.
     double max_deflection = 0.06, max_angular_deflection = 0.6;
-    // 1/s, rate at which the intention approaches the pose of the arm: the arm moves a relaxed hand.
+    // 1/s, rate at which the intended pose moves to the arm's pose, as a relaxed hand lets the arm move it.
+    // 0: firm.
     double compliance_rate = 0.0;
     std::uint32_t buttons = 0;
     // The pose of the hand in the device frame, if it is measured; it replaces `moved` and `turned`. The
@@ -85,8 +86,8 @@ class SimulatedArm {
     std::shared_ptr<Shared> shared_;
 };
 
-// The arm of `train --device simulated-arm`: the force of an omega.7 (12 N), a lower stiffness, because the
-// hand is a spring of 300 N/m, no torque, and an unlimited workspace.
+// The arm of `train --device simulated-arm`: 12 N, as an omega.7; no torque; an unlimited workspace. The
+// stiffness is lower than an omega.7's, because the hand is a spring of 300 N/m.
 Description simulated_arm_description();
 HandAndArmParameters simulated_arm_parameters();
 

@@ -25,10 +25,10 @@ struct WorkspaceMap {
     double scale = 1.0;                 // m of the tool per m of the device
     double power_ratio = 1.0;           // power at the device / power at the tool
     double fade = 0.05;                 // s in which forces fade out and in with the clutch
-    // s, time constant with which WorkspaceState::centre returns to 0 (absolute mapping, for a tracked hand
-    // whose pose the picture shows), and tool_to_device to the identity while the lever arm is 0: a wrench
-    // keeps the orientation in which the hand has grasped it. Infinite: both keep the values that realign()
-    // computed (relative mapping).
+    // s. Finite: the mapping is absolute, for a tracked hand that the picture shows. This is the time
+    // constant with which WorkspaceState::centre decays to 0 and, while the lever arm is 0, tool_to_device
+    // decays to the identity. A wrench (lever arm > 0) keeps its orientation in the hand. Infinite: the
+    // mapping is relative, and both keep the values of realign().
     double return_time = std::numeric_limits<double>::infinity();
 };
 
@@ -108,8 +108,8 @@ TorqueRendering make_torque_rendering(const OutputLimits& limits, double max_tor
 OutputCommand render_torque(const TorqueRendering& rendering, double torque, const Vec3& loosening_axis,
                             const Vec3& handle);
 
-// The part, J, of the energy in a spring of `stiffness` (N·m/rad) under this torque that the device can
-// return to the hand.
+// J. The part of the stored energy torque²/(2 stiffness) that the rendered force can return to the hand.
+// `stiffness` in N·m/rad.
 double stored_torque_energy(const TorqueRendering& rendering, double torque, double stiffness,
                             double handle_length);
 

@@ -52,7 +52,8 @@ double aligning_potential(double max_torque, const Hexagon& hexagon, const Vec3&
 // Plans a path for the guiding force around obstacles. The caller supplies the line-of-sight query (Embree,
 // in the servo), so the force never pulls through a housing.
 
-// Returns true if the straight segment is free for a point; a query may also include a margin for the tool.
+// Returns true if a point can move along the straight segment. The implementation may require a margin for
+// the tool.
 using IsSegmentFree = FunctionRef<bool(const Vec3& from, const Vec3& to)>;
 
 struct GuideTarget {
@@ -119,9 +120,9 @@ struct GuideState {
 };
 
 // One tick of dt. With a negative `target.id` the force fades out; pass a negative id while a nut is engaged.
-// Returns the request to the output stage. Along the path all work counts as injected energy, which the
-// passivity observer ignores. At the target the force derives from a potential, which the observer treats
-// like the energy of a spring.
+// Returns the request to the output stage. Along the path all work is reported as injected energy, so the
+// passivity observer does not count it as generated. At the target the force derives from a potential, which
+// the observer treats like the energy of a spring.
 ForceRequest guide(const GuidingParameters& guiding, GuideState& state, const GuidedTool& tool,
                    const GuideTarget& target, IsSegmentFree free, double dt);
 

@@ -88,8 +88,8 @@ struct PassivityState {
     double damping = 0.0;        // 0 … 1, active share of the permitted damping
 
     std::array<OutputCommand, 4> sent{};  // commands sent, newest first
-    OutputCommand applied;                // sum of the commands since the last sample, over `ticks`
-    double ticks = 0.0;
+    OutputCommand applied;                // sum of the commands of the ticks since the last sample
+    double ticks = 0.0;                   // number of these ticks
 };
 
 // Share of OutputLimits::damping that is used: damping is sampled and delayed as well (Colgate, Schenkel

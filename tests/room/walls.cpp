@@ -79,7 +79,7 @@ TEST_CASE("Walls: the panel is where and as large as the display shows it whole"
     REQUIRE(room.panel);
     CHECK(room.panel->position == driver.immersive->panel->pose.position);
     CHECK(room.panel->orientation == driver.immersive->panel->pose.orientation);
-    CHECK(room.panel_point == 0.7e-3);
+    CHECK(room.panel_point_size == 0.7e-3);
 }
 
 TEST_CASE("Walls: keys and buttons of the pause turn and raise the workpiece, also in a lesson by mouse") {
@@ -125,6 +125,8 @@ TEST_CASE("Walls: a wand points at the panel, presses its buttons, pauses, and i
     options.choice.equipment.glove = "/dev/null";  // a lesson with devices is played before the walls
     HeadlessTrainer driver(options, {panel_extent, 1.0F, 0.02});
     driver.immersive = in_front_of_wall(-100.0);
+    // As large as a cave shows it: twice a headset's.
+    driver.immersive->panel = view::PanelPlace{{{0.1, 1.4, -1.5}, rotation({0.0, 0.2, 0.0})}, 2.0e-3};
     driver.draws = true;
     for (int i = 0; i < 3; ++i) driver.frame();
     const RoomState& room = *driver.app().room();
@@ -134,7 +136,7 @@ TEST_CASE("Walls: a wand points at the panel, presses its buttons, pauses, and i
         if (widget.label == words::TextKey("menu.settings")) language = widget.middle;
     REQUIRE(language.x > 0.0);
     // From the hip, askew.
-    const Vec3 from(0.3, 1.1, 0.1), target = point_on_panel(*room.panel, language);
+    const Vec3 from(0.3, 1.1, 0.1), target = point_on_panel({*room.panel, 2.0e-3}, language);
     const Vec3 z = glm::normalize(from - target), x = glm::normalize(glm::cross(Vec3(0, 1, 0), z));
     xr::HandInput& wand = driver.immersive->hands[Side::right];
     wand.active = true;

@@ -35,7 +35,7 @@ struct EmulatedGloveOptions {
 hand::PerSensor<std::uint8_t> raw_values(hand::Posture posture);
 constexpr hand::LinearFit sensor_fit{0.013, 50.0};
 
-// Returns the sensor values, 1 … 255, at these joint angles.
+// Returns the sensor values, 1 … 255, at these angles of the finger joints. The other sensors are at rest.
 hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand,
                                          const hand::PerSensor<hand::LinearFit>& fits);
 hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::LinearFit& all = sensor_fit);

@@ -1,5 +1,5 @@
 // An emulated SpaceMouse. It sends reports every 8 ms while it is deflected, once more when it is released,
-// and none at rest.
+// and at rest only when a button changes.
 #pragma once
 
 #include <array>

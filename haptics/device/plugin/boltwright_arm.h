@@ -52,8 +52,9 @@
    VERSIONS
    Each structure begins with its size in bytes. Later versions of this header only append members. The
    sizes of bw_arm_info_v1 and bw_arm_state_v1 are set by Boltwright, which also sets all other members to
-   zero: write no member that lies beyond this size. The size of bw_arm_v1 is set by the plug-in; Boltwright
-   uses no member beyond it. A change that cannot be made by appending raises BW_ARM_ABI. */
+   zero, but for the orientation of a state (1, 0, 0, 0) and its gripper (1): write no member that lies beyond
+   this size. The size of bw_arm_v1 is set by the plug-in; Boltwright uses no member beyond it. A change that
+   cannot be made by appending raises BW_ARM_ABI. */
 #ifndef BOLTWRIGHT_ARM_H
 #define BOLTWRIGHT_ARM_H
 
@@ -95,9 +96,9 @@ struct bw_arm_info_v1 {
     uint32_t axes;   /* BW_ARM_FORCE_X | ... */
     uint32_t flags;  /* BW_ARM_SENSES_ROTATION | ... */
     int32_t buttons; /* 0 to 32 */
-    /* Time from exchange() until its command acts on the hand and the state shows the effect, in ms, rounded
-       up: 0 or 1; at a rate of 1000 also 2. Boltwright adds the delay of its own threads. If the value is too
-       small, forces may oscillate. */
+    /* Delay in ms, rounded up, from exchange() until the command acts and the state shows it. Allowed: 0 or
+       1, at a rate of 1000 also 2. Boltwright adds the delay of its own threads. If the value is too small,
+       forces may oscillate. */
     int32_t delay;
     uint32_t reserved;    /* 0 */
     char name[64];        /* of the arm, for the user; empty: the name of the plug-in */
@@ -146,11 +147,11 @@ struct bw_arm_v1 {
     /* Describes the arm. Returns BW_ARM_DONE or BW_ARM_ERROR. */
     int (*info)(struct bw_arm* arm, struct bw_arm_info_v1* info);
 
-    /* Lets the arm find its position. Called every 10 ms (with pauses of a second at most while the user
-       must act, or while may_move is 0) until it returns BW_ARM_DONE, which an arm that knows its position
-       returns at once. It should not block. With `may_move` other than 0 the user has kept the room around
-       the arm free, and the arm may move by itself for 90 s. While calibrate() returns BW_ARM_NEEDS_USER, the
-       user reads the text of last_error. */
+    /* Lets the arm find its position. Called every 10 ms until it returns BW_ARM_DONE; return that at once if
+       the position is known. Calls may pause for up to 1 s while the user must act, or while may_move is 0.
+       It should not block. With `may_move` other than 0 the user has kept the room around the arm free, and
+       the arm may move by itself for 90 s. While calibrate() returns BW_ARM_NEEDS_USER, the user reads the
+       text of last_error. */
     int (*calibrate)(struct bw_arm* arm, int may_move);
 
     /* Switches the motors on (1), with zero force, or off (0). Returns BW_ARM_DONE or BW_ARM_ERROR. */
