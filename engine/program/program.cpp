@@ -31,6 +31,13 @@ std::string in_roff(std::string_view text) {
     return written;
 }
 
+// Lets a long list of choices continue on the next line.
+std::string breakable(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 3)
+        text.insert(at + 1, "\\:");
+    return text;
+}
+
 std::vector<const CLI::App*> subcommands(const CLI::App& app) {
     return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
@@ -75,7 +82,7 @@ std::string describe_option(const CLI::Option& option) {
     std::string text = ".TP\n";
     if (option.nonpositional())
         text += fmt::format("\\fB{}\\fR{}\n", in_roff(names(option)),
-                            value.empty() ? "" : fmt::format(" \\fI{}\\fR", in_roff(value)));
+                            value.empty() ? "" : fmt::format(" \\fI{}\\fR", breakable(in_roff(value))));
     else
         text += fmt::format("\\fI{}\\fR\n", in_roff(option.get_name(true)));
     text += in_roff(option.get_description());

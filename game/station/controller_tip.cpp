@@ -45,7 +45,7 @@ Status ControllerTip::wait_for_press() {
         } else if (pressed || (!shown && io_.timer.now() - tracked_time > options_.max_silence)) {
             io_.show(sample.fault.empty()
                          ? fmt::format("The {} is not tracked: {}.", io_.device.name, io_.device.remedy)
-                         : fmt::format("{}.", sample.fault));
+                         : fmt::format("No pose: {}.", sample.fault));
             shown = true;
         }
     }

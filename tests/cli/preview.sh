@@ -233,7 +233,9 @@ check "... and removes it" eventually shows before_all.png
 xdotool mousemove 60 63 click 1
 check "a click on a variant in the panel shows and checks it" eventually grep -qF 'checked room (by_angle): ' log
 xdotool key v
-check "key V shows the next variant" eventually count 'checked room .by_torque.' 2
+check "key V shows the next variant" eventually grep -qF 'checked room (held_heads): ' log
+xdotool key v
+check "... and after the last one the first" eventually count 'checked room .by_torque.' 2
 cp "$sources/content/assemblies/dn200-pn16/assembly.json" room/assembly.json
 check "the check is repeated after a change" eventually grep -qxF 'checked room (by_torque): 12 joints, no problems' log
 check "... and the title follows" eventually has_title 'room - bolt-author preview'

@@ -316,7 +316,7 @@ mkfifo enter
 player=$!
 exec 3> enter
 check 'Enter is asked for, because the tracker has no trigger' eventually grep -q 'Hold the tip of the thumb on a fixed point, press Enter, and turn the stiff hand' log
-check 'a tracker with another role is reported' eventually grep -q 'The Vive tracker is not tracked: no Vive tracker that is switched on has the role right_wrist; there are waist; expected' log
+check 'a tracker with another role is reported' eventually grep -q 'No pose: no Vive tracker that is switched on has the role right_wrist; there are waist; expected' log
 python3 turn_hand.py &
 turner=$!
 check 'and waited for' eventually grep -q 'The Vive tracker is tracked again' log

@@ -10,6 +10,8 @@ own=killed/participants/P01
 begin killed
 check 'the lesson begins' eventually started
 check 'T takes the wrench' eventually taken
+recorded_enough() { [[ $(recorded $own/part-1-lesson-1 2> /dev/null) -gt 500 ]]; }
+check 'the recording has ticks' eventually recorded_enough
 stop KILL
 first=$(recorded $own/part-1-lesson-1)
 check "the killed lesson has kept $first ticks" test "$first" -gt 500
