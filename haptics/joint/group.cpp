@@ -170,11 +170,11 @@ struct NutResistances {
 };
 
 NutResistances resistances(const GroupParameters& group, std::size_t joint, const JointState& state,
-                           double counter_hold) {
+                           double held_part_torque) {
     NutResistances r{resistance(group, joint, state), std::nullopt};
     if (group.law == Law::mechanistic && group.joints[joint].held_part_can_turn &&
-        std::isfinite(counter_hold))
-        r.together = resistance_together(group.joints[joint], state.mechanistic, counter_hold);
+        std::isfinite(held_part_torque))
+        r.together = resistance_together(group.joints[joint], state.mechanistic, held_part_torque);
     return r;
 }
 

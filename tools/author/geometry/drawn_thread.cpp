@@ -19,9 +19,6 @@ constexpr double min_agreement = 0.9;
 
 }  // namespace
 
-// A surface that a screw motion maps to itself contains the direction of that motion. With t: the unit vector
-// about the axis y, its normal n satisfies n · (r t + P/2π y) = 0, so that P = −2π r (n·t)/(n·y) on each
-// triangle.
 std::optional<DrawnThread> measure_drawn_thread(std::span<const Triangle> triangles, double diameter) {
     double product = 0.0, square_sum = 0.0, rising = 0.0, falling = 0.0;
     for (const Triangle& triangle : triangles) {
