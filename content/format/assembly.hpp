@@ -212,7 +212,12 @@ LoadedAssembly load_assembly(const std::filesystem::path& where, std::string_vie
 // joint names as its own.
 std::vector<const Tool*> choosable_tools(const Assembly& assembly);
 
-// Selects one of these tools; empty: the default one. Fails if there is none of this name.
+// Indices in Assembly::tools of the tools that may turn a joint: its own tool, or each of those that a
+// trainee can choose, replaced by the tool that its `instead` names for this joint. The first index is the
+// tool of a lesson whose trainee has chosen none. No repetition.
+std::vector<std::size_t> tools_of_joint(const Assembly& assembly, std::size_t joint);
+
+// Selects one of the choosable tools; empty: the default one. Fails if there is none of this name.
 Status choose_tool(Assembly& assembly, std::string_view name);
 
 // The tools that a lesson needs. A lesson begins with the first one.

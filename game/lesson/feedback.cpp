@@ -24,6 +24,8 @@ constexpr MistakeRow mistake_rows[] = {
     {MistakeKind::over_torque, "mistake.over_torque", "mistake.over_torque.do"},
     {MistakeKind::over_turned, "mistake.over_turned", "mistake.over_turned.do"},
     {MistakeKind::turned_together, "mistake.turned_together", "mistake.turned_together.do"},
+    {MistakeKind::weak_tool, "mistake.weak_tool", "mistake.weak_tool.do"},
+    {MistakeKind::torque_wrench_loosens, "mistake.torque_wrench_loosens", "mistake.torque_wrench_loosens.do"},
     {MistakeKind::tool_bent, "mistake.tool_bent", "mistake.tool_bent.do"},
     {MistakeKind::slipped, "mistake.slipped", "mistake.slipped.do"},
     {MistakeKind::stripped, "mistake.stripped", "mistake.stripped.do"},
@@ -58,7 +60,8 @@ std::optional<Mistake> mistake_of(const Lesson& lesson, const LessonEvent& event
                              {"most", words::torque_number(joint.spec.torque.high)},
                              {"most_angle", words::Number{to_degrees(joint.spec.angle.high), 0}},
                              {"rounded", words::Number{1e3 * event.value, 2}},
-                             {"bent_at", words::torque_number(event.value)}};
+                             {"bent_at", words::torque_number(event.value)},
+                             {"bearable", words::torque_number(event.value)}};
         const LessonStep* due = lesson.due();
         if (due != nullptr) {
             mistake.arguments.push_back({"joint", joints[due->joint].design.id});
@@ -211,6 +214,14 @@ Review review(const content::Assembly& assembly, const LessonResult& result) {
                 deduction.key =
                     once ? TextKey("reason.turned_together.one") : TextKey("reason.turned_together.many");
                 advice = TextKey("mistake.turned_together.do");
+                break;
+            case DeductionKind::weak_tool:
+                deduction.key = TextKey("reason.weak_tool");
+                advice = TextKey("mistake.weak_tool.do");
+                break;
+            case DeductionKind::torque_wrench_loosens:
+                deduction.key = TextKey("reason.torque_wrench_loosens");
+                advice = TextKey("mistake.torque_wrench_loosens.do");
                 break;
             case DeductionKind::tool_bent:
                 deduction.key = once ? TextKey("reason.tool_bent.one") : TextKey("reason.tool_bent.many");

@@ -110,6 +110,11 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
     if (common_turns > 0)
         take_points(result, {1.0 * common_turns, times(common_turns) + " nut and bolt turned together",
                              DeductionKind::turned_together, -1, common_turns});
+    if (lesson.reported_tool_fault == ToolFault::too_weak)
+        take_points(result, {5.0, "the chosen tool is too weak", DeductionKind::weak_tool, -1, 1});
+    if (lesson.reported_tool_fault == ToolFault::torque_wrench_loosens)
+        take_points(result, {5.0, "a torque wrench was used for loosening",
+                             DeductionKind::torque_wrench_loosens, -1, 1});
     if (bent > 0)
         take_points(result,
                     {5.0 * bent, times(bent) + " the tool was bent", DeductionKind::tool_bent, -1, bent});

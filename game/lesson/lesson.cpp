@@ -136,9 +136,26 @@ void release(Lesson& lesson, const world::ReadHaptics& world) {
     if (due != nullptr && due->joint == joint && step_fulfilled(lesson, world)) end_step(lesson, world);
 }
 
-// Called at the first work of a hold: checks that this joint is due.
+// Reports a tool that the trainee should not have chosen, once a lesson.
+void report_tool_choice(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
+    const ToolFault fault = joint < lesson.tool_faults.size() ? lesson.tool_faults[joint] : ToolFault::none;
+    if (fault == ToolFault::none || lesson.reported_tool_fault != ToolFault::none) return;
+    lesson.reported_tool_fault = fault;
+    const content::AssemblyJoint& turned = lesson.assembly->joints[joint];
+    const double bearable = bearable_torque(content::tool_of(*lesson.assembly, turned));
+    if (fault == ToolFault::too_weak)
+        add_mistake(lesson, tick_of(world), MistakeKind::weak_tool, joint, bearable,
+                    fmt::format("{} needs up to {:.0f} N·m, the tool bears {:.0f} N·m", turned.design.id,
+                                turned.spec.torque.high, bearable));
+    else
+        add_mistake(lesson, tick_of(world), MistakeKind::torque_wrench_loosens, joint, bearable,
+                    fmt::format("{} is loosened with a torque wrench", turned.design.id));
+}
+
+// Called at the first work of a hold: checks the tool, and that this joint is due.
 void begin_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     lesson.joints[joint].worked = true;
+    if (lesson.grip == servo::Grip::wrench) report_tool_choice(lesson, joint, world);
     const LessonStep* due = lesson.due();
     if (due == nullptr || due->joint == joint) return;
     const bool due_step_begun =
@@ -386,6 +403,7 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
     for (const content::AssemblyJoint& joint : assembly.joints) {
         JointTrack track;
         track.result.id = joint.design.id;
+        lesson.tool_faults.push_back(fault_of_choice(assembly, lesson.joints.size(), task));
         lesson.joints.push_back(std::move(track));
     }
     return lesson;

@@ -10,6 +10,7 @@
 
 #include "content/format/assembly.hpp"
 #include "game/lesson/result.hpp"
+#include "game/lesson/tool_choice.hpp"
 #include "game/world/world.hpp"
 #include "haptics/servo/setup.hpp"
 #include "haptics/servo/tick.hpp"
@@ -112,7 +113,9 @@ struct Lesson {
     std::vector<LessonStep> steps;
     std::size_t current = 0;  // index of the due step
     std::vector<JointTrack> joints;
-    int held_joint = -1;  // in the hand at the last tick; −1: none
+    std::vector<ToolFault> tool_faults;               // by joint; replays of old sessions have none
+    ToolFault reported_tool_fault = ToolFault::none;  // at most one a lesson, because the choice is one
+    int held_joint = -1;                              // in the hand at the last tick; −1: none
     servo::Grip grip = servo::Grip::none;
     int last_held_joint = -1;                          // the joint that was released last
     std::uint64_t released_at = 0;                     // tick

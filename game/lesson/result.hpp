@@ -59,6 +59,8 @@ enum class DeductionKind : std::uint8_t {
     over_turned,  // the same of an excess angle
     slipped,
     turned_together,
+    weak_tool,
+    torque_wrench_loosens,
     tool_bent,
     unfinished
 };
@@ -90,8 +92,10 @@ enum class MistakeKind : std::uint8_t {
     loosened,   // in a tightening lesson
     tightened,  // in a loosening lesson
     over_torque,
-    over_turned,      // turned further than its angle window
-    turned_together,  // nut and bolt turned together: nothing held the other part
+    over_turned,            // turned further than its angle window
+    turned_together,        // nut and bolt turned together: nothing held the other part
+    weak_tool,              // the chosen tool is too weak (tool_choice.hpp)
+    torque_wrench_loosens,  // a torque wrench was chosen for loosening
     tool_bent,
     slipped,
     stripped,

@@ -298,6 +298,21 @@ GrippingHead gripping_head(const content::WrenchDesign& design) {
             design.head_angle, 0.0};
 }
 
+double nominal_size(const content::WrenchDesign& design) {
+    return design.head == content::ToolHead::open_end ? design.jaw : design.size;
+}
+
+bool suits(const content::WrenchDesign& design, const joint::JointDesign& joint) {
+    constexpr double size_tolerance = 0.02 * mm;
+    constexpr double most_jaw_play = 0.6 * mm;  // a jaw may be wider than the nut by this
+    const joint::TurnedPartSize part = joint::turned_part_size(joint);
+    const bool turns_sockets =
+        design.head == content::ToolHead::hex_key || design.head == content::ToolHead::hex_bit;
+    const double over = nominal_size(design) - part.across_flats;
+    const double play = design.head == content::ToolHead::open_end ? most_jaw_play : 0.0;
+    return turns_sockets == (part.depth > 0.0) && over > -size_tolerance && over < play + size_tolerance;
+}
+
 ToolStrength strength_of(const content::WrenchDesign& design) {
     const ToolParameters p = parameters_of(design);
     const auto kind_of_head = [&] {

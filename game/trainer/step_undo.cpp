@@ -1,6 +1,7 @@
 #include "game/trainer/step_undo.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace bolt::trainer {
 
@@ -26,8 +27,10 @@ void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t step
 }
 
 bool undo_repairs(lesson::MistakeKind mistake) {
-    return mistake != lesson::MistakeKind::none && mistake != lesson::MistakeKind::turned_together &&
-           mistake != lesson::MistakeKind::tool_bent;
+    using lesson::MistakeKind;
+    constexpr std::array beyond_undo{MistakeKind::none, MistakeKind::turned_together, MistakeKind::weak_tool,
+                                     MistakeKind::torque_wrench_loosens, MistakeKind::tool_bent};
+    return std::find(beyond_undo.begin(), beyond_undo.end(), mistake) == beyond_undo.end();
 }
 
 void observe(StepUndo& undo, const lesson::Lesson& lesson, const lesson::LessonEvent& event) {

@@ -93,8 +93,10 @@ void turn_ratchet_head(const WriteHaptics& world, const servo::Setup& setup, con
     const Vec3 tool_axis = servo.output.constrained_tool.orientation * Vec3(0.0, 0.0, 1.0);
     const double about_axis = glm::dot(tool_axis, nut.axis) < 0.0 ? -1.0 : 1.0;
     const double turn = -nut.sense * about_axis * (head - engagement.azimuth);
-    // Takes the shortest equivalent rotation; embossed text may then jump by one period.
-    head_turn += wrap(turn - head_turn, hexagon_period(setup.wrench.head));
+    // The nearest rotation that fits. A head put on at another angle turns to it within 0.06 s.
+    constexpr double highest_speed = 10.0;  // rad/s, more than a handle swings
+    const double left = wrap(turn - head_turn, hexagon_period(setup.wrench.head));
+    head_turn += std::clamp(left, -highest_speed * setup.dt, highest_speed * setup.dt);
 }
 
 const Joint& joint_at(const ReadJoints& world, std::size_t index) {

@@ -94,6 +94,13 @@ expect 0 'score 100' "$bin/boltwright" train --no-pictures held --no-obstacles -
 expect 0 'times nut and bolt turned together' "$bin/boltwright" train --no-pictures held --no-obstacles --headless --operator clumsy --out forgets
 expect 0 'all as they were recorded' "$bin/boltwright" replay forgets/session.boltwright
 
+# The choice of the tool is judged.
+expect 0 'torque wrench was used for loosening' "$bin/boltwright" train --no-pictures cover-m8 --no-obstacles --headless --task loosen --tool torque_wrench --out clicks
+cp -r "$sources/content/assemblies/cover-m8" weak
+sed -i 's/"more_tools": {/& "ring": { "kind": "ring_wrench", "size_mm": 13, "handle_length_mm": 170 },/; s/"class": "8.8"/"class": "12.9"/; s/"friction_\(thread\|bearing\)": 0.12/"friction_\1": 0.3/; s/"target_torque_Nm": 20/"target_torque_Nm": 62/' weak/assembly.json
+expect 0 'the chosen tool is too weak' "$bin/boltwright" train --no-pictures weak --no-obstacles --headless --out is_weak
+expect 0 'score 100' "$bin/boltwright" train --no-pictures weak --no-obstacles --headless --tool ring --out is_strong
+
 # Contacts are simulated if the assembly has contact models, and the files record this. Two runs are equal byte for byte.
 expect 0 'score 100' "$bin/boltwright" train --no-pictures one --headless --quiet --out solid
 expect 0 '"obstacles": true' cat solid/summary.json

@@ -18,6 +18,15 @@ std::string with(const std::string& more) {
 constexpr const char* clicker =
     R"("clicker": { "kind": "click_torque_wrench", "jaw_mm": 13.2, "handle_length_mm": 300 })";
 
+content::Tool tool_named(const char* name) { return {name, {}, {}, {}}; }
+
+content::AssemblyJoint joint_named(const char* id, const char* tool = "") {
+    content::AssemblyJoint joint;
+    joint.design.id = id;
+    joint.tool = tool;
+    return joint;
+}
+
 }  // namespace
 
 TEST_CASE("Tools: a second tool is used when it is chosen") {
@@ -175,6 +184,23 @@ TEST_CASE("Tools: a tool has to fit only the joints that name it") {
     // The key turns no hexagon, and no joint names it, so its size is not checked against these nuts.
     const std::string key = R"("key": { "kind": "hex_key", "size_mm": 5, "handle_length_mm": 90 })";
     CHECK(messages(with(key)).empty());
+}
+
+TEST_CASE("Tools: a joint has its own tool, or those that no joint names, with their replacements") {
+    content::Assembly assembly;
+    for (const char* name : {"wrench", "ring", "key", "ratchet"}) assembly.tools.push_back(tool_named(name));
+    for (const char* id : {"A", "B"}) assembly.joints.push_back(joint_named(id));
+    assembly.joints.push_back(joint_named("C", "key"));
+    assembly.tools[3].instead["B"] = "ring";
+    using Tools = std::vector<std::size_t>;
+    CHECK(content::tools_of_joint(assembly, 0) == Tools{0, 1, 3});
+    CHECK(content::tools_of_joint(assembly, 1) == Tools{0, 1});
+    CHECK(content::tools_of_joint(assembly, 2) == Tools{2});
+    // The default tool is checked on all joints that name none, even if one names it.
+    assembly.joints[2].tool = "wrench";
+    CHECK(content::tools_of_joint(assembly, 0) == Tools{0, 1, 2, 3});
+    assembly.tools[0].instead["A"] = "ratchet";
+    CHECK(content::tools_of_joint(assembly, 0) == Tools{3, 1, 2});
 }
 
 TEST_CASE("Tools: every shipped assembly has a torque wrench, and a name for each tool in each language") {

@@ -68,33 +68,7 @@ bool contains(const std::vector<std::string>& messages, const std::string& text)
     return all(messages).find(text) != std::string::npos;
 }
 
-content::Tool tool_named(const char* name) { return {name, {}, {}, {}}; }
-
-content::AssemblyJoint joint_named(const char* id, const char* tool = "") {
-    content::AssemblyJoint joint;
-    joint.design.id = id;
-    joint.tool = tool;
-    return joint;
-}
-
 }  // namespace
-
-TEST_CASE("Tools: a joint has its own tool, or those that no joint names, with their replacements") {
-    content::Assembly assembly;
-    for (const char* name : {"wrench", "ring", "key", "ratchet"}) assembly.tools.push_back(tool_named(name));
-    for (const char* id : {"A", "B"}) assembly.joints.push_back(joint_named(id));
-    assembly.joints.push_back(joint_named("C", "key"));
-    assembly.tools[3].instead["B"] = "ring";
-    using Tools = std::vector<std::size_t>;
-    CHECK(geometry::tools_of_joint(assembly, 0) == Tools{0, 1, 3});
-    CHECK(geometry::tools_of_joint(assembly, 1) == Tools{0, 1});
-    CHECK(geometry::tools_of_joint(assembly, 2) == Tools{2});
-    // The default tool is checked on all joints that name none, even if one names it.
-    assembly.joints[2].tool = "wrench";
-    CHECK(geometry::tools_of_joint(assembly, 0) == Tools{0, 1, 2, 3});
-    assembly.tools[0].instead["A"] = "ratchet";
-    CHECK(geometry::tools_of_joint(assembly, 0) == Tools{3, 1, 2});
-}
 
 TEST_CASE("Tools: a tool of another kind or size is an error that names a suitable tool") {
     const CheckOutput key_alone = check(Machine(), with_tool(key));
@@ -218,6 +192,11 @@ TEST_CASE("Tools: a target torque above the test torque is an error, above 80 % 
         all(weak.errors) ==
         R"(16:5: /joints/0: the wrench is an open end of 13 mm, which is tested with 64 N·m (ISO 1711-1, from a catalogue), and the target torque of "M8x30" reaches 69 N·m; expected a ring of 13 mm (107 N·m) or a socket of 13 mm (107 N·m))");
     CHECK(all(with_torque(66.0, ring).errors) == "");
+    // A tool that a trainee may choose besides the default one may be a wrong choice.
+    const CheckOutput optional = with_torque(
+        66.0, (std::string(ring) + R"( }, "more_tools": { "open": { )" + open_end + " }").c_str());
+    CHECK(all(optional.errors) == "");
+    CHECK(contains(optional.notes, "reaches 69 N·m; a trainee who chooses it loses points"));
     CHECK(all(with_torque(66.0, ring).notes).find("tested") == std::string::npos);
     const CheckOutput much = with_torque(55.0, open_end);
     CHECK(all(much.errors) == "");

@@ -13,38 +13,10 @@ namespace bolt::geometry {
 
 namespace {
 
-constexpr double size_tolerance = 0.02 * mm;
-constexpr double most_jaw_play = 0.6 * mm;  // a jaw may be wider than the nut by this
-constexpr double beyond_grip = 50.0 * mm;   // from the middle of the grip to the end of the handle
-constexpr double much_torque = 0.8;         // of the test torque, beyond which there is a note
-
-bool is_key(content::ToolHead head) {
-    return head == content::ToolHead::hex_key || head == content::ToolHead::hex_bit;
-}
+constexpr double beyond_grip = 50.0 * mm;  // from the middle of the grip to the end of the handle
+constexpr double much_torque = 0.8;        // of the test torque, beyond which there is a note
 
 }  // namespace
-
-std::vector<std::size_t> tools_of_joint(const content::Assembly& assembly, std::size_t joint) {
-    const auto index_of = [&](const std::string& name) {
-        const auto found = std::find_if(assembly.tools.begin(), assembly.tools.end(),
-                                        [&](const content::Tool& tool) { return tool.name == name; });
-        return static_cast<std::size_t>(found - assembly.tools.begin());
-    };
-    const content::AssemblyJoint& own = assembly.joints[joint];
-    if (!own.tool.empty()) return {index_of(own.tool)};
-    std::vector<std::size_t> tools;
-    for (std::size_t i = 0; i < assembly.tools.size(); ++i) {
-        const content::Tool& tool = assembly.tools[i];
-        const bool is_named =
-            std::any_of(assembly.joints.begin(), assembly.joints.end(),
-                        [&](const content::AssemblyJoint& other) { return other.tool == tool.name; });
-        if (i > 0 && is_named) continue;
-        const auto other = tool.instead.find(own.design.id);
-        const std::size_t used = other == tool.instead.end() ? i : index_of(other->second);
-        if (std::find(tools.begin(), tools.end(), used) == tools.end()) tools.push_back(used);
-    }
-    return tools;
-}
 
 collision::TurnedShape shape_of(const joint::JointDesign& design) {
     const joint::TurnedPartSize part = joint::turned_part_size(design);
@@ -53,12 +25,8 @@ collision::TurnedShape shape_of(const joint::JointDesign& design) {
     return collision::HexagonPrism{part.across_flats, part.height, part.bearing};
 }
 
-double nominal_size(const content::WrenchDesign& design) {
-    return design.head == content::ToolHead::open_end ? design.jaw : design.size;
-}
-
 std::string title_of(const content::WrenchDesign& design) {
-    const double size = nominal_size(design) / mm;
+    const double size = tool_models::nominal_size(design) / mm;
     switch (design.head) {
         case content::ToolHead::open_end:
             return fmt::format("an open end of {:g} mm", tool_models::parameters_of(design).size / mm);
@@ -111,21 +79,13 @@ std::vector<content::WrenchDesign> usual_tools(const joint::JointDesign& design)
     return tools;
 }
 
-bool suits(const content::WrenchDesign& design, const joint::JointDesign& joint) {
-    const joint::TurnedPartSize part = joint::turned_part_size(joint);
-    const double over = nominal_size(design) - part.across_flats;
-    const double play = design.head == content::ToolHead::open_end ? most_jaw_play : 0.0;
-    return is_key(design.head) == (part.depth > 0.0) && over > -size_tolerance &&
-           over < play + size_tolerance;
-}
-
 namespace {
 
 // The tools that can turn a joint, for messages: those of the file, otherwise kinds and sizes.
 std::string suitable_tools(const content::Assembly& assembly, const joint::JointDesign& design) {
     std::string names;
     for (const content::Tool& tool : assembly.tools)
-        if (suits(tool.wrench, design))
+        if (tool_models::suits(tool.wrench, design))
             names += fmt::format("{}{}", names.empty() ? "" : " or ", content::in_quotes(tool.name));
     if (!names.empty()) return fmt::format("{} as \"tool\" of its joint type", names);
     for (const content::WrenchDesign& usual : usual_tools(design))
@@ -156,8 +116,9 @@ std::string origin_of(const tool_models::ToolStrength& strength) {
     }
 }
 
-void check_torque(const content::AssemblyJoint& joint, const content::WrenchDesign& design,
-                  const std::string& name, const std::string& pointer, const Messages& messages) {
+// `optional`: a lesson can be done without this tool, so its choice may be a mistake that the author intends.
+void check_torque(const content::AssemblyJoint& joint, const content::WrenchDesign& design, bool optional,
+                  const std::string& name, const Messages& messages) {
     const tool_models::ToolStrength strength = tool_models::strength_of(design);
     const double torque = joint.spec.torque.high, limit = strength.limit.torque;
     if (strength.limit.source == tool_models::TorqueSource::none || torque <= much_torque * limit) return;
@@ -166,7 +127,10 @@ void check_torque(const content::AssemblyJoint& joint, const content::WrenchDesi
     const std::string what = fmt::format(
         "{} is {}{}, which is tested with {:.0f} N·m ({}), and the target torque of {} reaches {:.0f} N·m",
         name, title_of(design), part, limit, origin_of(strength), content::in_quotes(joint.type), torque);
-    if (torque > limit)
+    const std::string pointer = joint_pointer(joint.index_in_file);
+    if (torque > limit && optional)
+        messages.note(pointer, what + "; a trainee who chooses it loses points");
+    else if (torque > limit)
         messages.error(pointer, what, strong_tools(joint.design, torque));
     else
         messages.note(pointer, fmt::format("{}, {:.0f} % of it", what, 100.0 * torque / limit));
@@ -179,13 +143,14 @@ void check_tools(const content::Assembly& assembly, const Messages& messages) {
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
         const content::AssemblyJoint& joint = assembly.joints[i];
         const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
-        for (const std::size_t tool : tools_of_joint(assembly, i)) {
+        const std::vector<std::size_t> tools = content::tools_of_joint(assembly, i);
+        for (const std::size_t tool : tools) {
             if (!checked.emplace(joint.type, tool, part.across_flats, joint.spec.torque.high).second)
                 continue;
             const content::WrenchDesign& design = assembly.tools[tool].wrench;
             const std::string name = name_of_tool(assembly, tool);
-            if (suits(design, joint.design))
-                check_torque(joint, design, name, joint_pointer(joint.index_in_file), messages);
+            if (tool_models::suits(design, joint.design))
+                check_torque(joint, design, tool != tools.front(), name, messages);
             else
                 messages.error(joint_pointer(joint.index_in_file),
                                fmt::format("{} is {} and does not fit the {} of {}, {} of {:g} mm", name,

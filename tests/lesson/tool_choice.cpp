@@ -1,0 +1,129 @@
+// The judgement of the tool that a trainee chose.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "game/lesson/tool_choice.hpp"
+#include "tests/lesson/played_session.hpp"
+
+namespace bolt::lesson::tool_choice_test {
+
+namespace {
+
+content::Assembly load(const char* name, const char* tool) {
+    content::LoadedAssembly loaded = content::load_assembly(name);
+    REQUIRE(loaded.ok());
+    REQUIRE(content::choose_tool(loaded.assembly, tool));
+    return std::move(loaded.assembly);
+}
+
+content::WrenchDesign tool_of_24(content::ToolKind kind, content::ToolHead head) {
+    content::WrenchDesign tool;
+    tool.kind = kind;
+    tool.head = head;
+    tool.jaw = 24.2 * mm;
+    tool.size = 24.0 * mm;
+    tool.handle_length = 0.3;
+    return tool;
+}
+
+bool has_reason(const LessonResult& result, DeductionKind kind) {
+    return std::any_of(result.reasons.begin(), result.reasons.end(),
+                       [&](const Deduction& reason) { return reason.kind == kind; });
+}
+
+}  // namespace
+
+TEST_CASE("Tool choice: an M16 bolt of class 12.9 is too much for an open end, and not for a ring") {
+    const content::WrenchDesign open =
+        tool_of_24(content::ToolKind::open_end_wrench, content::ToolHead::open_end);
+    const content::WrenchDesign ring = tool_of_24(content::ToolKind::ring_wrench, content::ToolHead::ring);
+    CHECK(bearable_torque(open) == doctest::Approx(359.0));  // ISO 1711-1
+    CHECK(bearable_torque(ring) == doctest::Approx(451.0));
+    content::AssemblyJoint joint;
+    joint.spec.torque = {358.0, 340.1, 375.9};  // 358 N·m ± 5 %
+    for (const Task task : {Task::tighten, Task::loosen}) {
+        CHECK(fault_of(open, joint, task) == ToolFault::too_weak);
+        CHECK(fault_of(ring, joint, task) == ToolFault::none);
+    }
+    joint.spec.torque = {300.0, 285.0, 315.0};
+    CHECK(fault_of(open, joint, Task::tighten) == ToolFault::none);
+}
+
+TEST_CASE("Tool choice: a key bears the torque at which its hexagon yields") {
+    content::WrenchDesign key = tool_of_24(content::ToolKind::hex_key, content::ToolHead::hex_key);
+    key.size = 6.0 * mm;
+    content::AssemblyJoint joint;
+    joint.spec.torque.high = 30.0;
+    CHECK(fault_of(key, joint, Task::tighten) == ToolFault::none);
+    joint.spec.torque.high = 31.0;  // 0.188 · (6 mm)³ · 750 MPa = 30.5 N·m
+    CHECK(fault_of(key, joint, Task::tighten) == ToolFault::too_weak);
+}
+
+TEST_CASE("Tool choice: the trainee is responsible only if a better tool could be chosen") {
+    content::Assembly assembly = load("cover-m8", "torque_wrench");
+    CHECK(fault_of_choice(assembly, 0, Task::tighten) == ToolFault::none);
+    CHECK(fault_of_choice(assembly, 0, Task::loosen) == ToolFault::torque_wrench_loosens);
+    assembly.tools.front().wrench.jaw = 17.2 * mm;  // the other tool does not fit
+    CHECK(fault_of_choice(assembly, 0, Task::loosen) == ToolFault::none);
+    assembly.tools.front().wrench.jaw = 13.2 * mm;
+    assembly.joints[0].tool = "torque_wrench";  // by the author
+    CHECK(fault_of_choice(assembly, 0, Task::loosen) == ToolFault::none);
+    CHECK(fault_of_choice(assembly, 1, Task::loosen) == ToolFault::torque_wrench_loosens);
+}
+
+TEST_CASE("Tool choice: no shipped lesson begins with a tool that is too weak") {
+    for (const std::string& name : content::assembly_names()) {
+        content::LoadedAssembly loaded = content::load_assembly(name);
+        REQUIRE(loaded.ok());
+        for (std::size_t i = 0; i < loaded.assembly.joints.size(); ++i) {
+            CAPTURE(loaded.assembly.joints[i].design.id);
+            const content::AssemblyJoint& joint = loaded.assembly.joints[i];
+            for (const Task task : {Task::tighten, Task::loosen})
+                CHECK(fault_of(content::tool_of(loaded.assembly, joint), joint, task) == ToolFault::none);
+        }
+    }
+}
+
+TEST_CASE(
+    "Tool choice: loosening with a torque wrench costs 5 points once, and the trainee is told at once") {
+    for (const char* tool : {"wrench", "torque_wrench"}) {
+        CAPTURE(tool);
+        const content::Assembly assembly = load("cover-m8", tool);
+        session::LessonOptions options;
+        options.task = Task::loosen;
+        int reported = 0;
+        double first_torque = 0.0;  // N·m, on the nut when the mistake was reported
+        const test::PlayedSession played = test::play_and_replay(
+            assembly, options, "expert", session::restore_setup, [&](const session::ReplayTick& tick) {
+                for (const LessonEvent& event : tick.lesson.events)
+                    if (event.mistake == MistakeKind::torque_wrench_loosens && reported++ == 0)
+                        first_torque = std::abs(tick.output.wrench_torque);
+            });
+        const bool wrong = std::string_view(tool) == "torque_wrench";
+        CHECK(played.mismatches == 0);
+        CHECK(played.result.finished);
+        CHECK(reported == (wrong ? 1 : 0));
+        CHECK(played.result.score == doctest::Approx(wrong ? 95.0 : 100.0));
+        CHECK(has_reason(played.result, DeductionKind::torque_wrench_loosens) == wrong);
+        if (wrong) CHECK(first_torque < 2.0);
+    }
+}
+
+TEST_CASE("Tool choice: a weak tool costs 5 points before it bends") {
+    content::Assembly assembly = load("cover-m8", "torque_wrench");
+    // Another choosable wrench bears the torque; this one is tested with 64.5 N·m.
+    assembly.tools.front().wrench = assembly.wrench;
+    assembly.tools.front().wrench.kind = content::ToolKind::ring_wrench;
+    assembly.tools.front().wrench.head = content::ToolHead::ring;
+    assembly.tools.front().wrench.size = 13.0 * mm;
+    for (content::AssemblyJoint& joint : assembly.joints) joint.spec.torque.high = 65.0;
+    const session::LessonOptions options;
+    const test::PlayedSession played =
+        test::play_and_replay(assembly, options, "expert", test::setup_from_memory(assembly, options));
+    CHECK(has_reason(played.result, DeductionKind::weak_tool));
+    CHECK_FALSE(has_reason(played.result, DeductionKind::tool_bent));
+    CHECK(played.result.score == doctest::Approx(95.0));
+}
+
+}  // namespace bolt::lesson::tool_choice_test
