@@ -194,6 +194,8 @@ void begin_next_action(TraineeState& t) {
         t.nut_angle_at_start = t.servo_state->joints[due->joint].nut.angle;
         t.free_turn = 0.0;
         t.plan = make_step_plan(t.profile, t.random, *t.setup, *t.lesson, *due, t.plan);
+        t.last_common_turn = t.joint().common_turn;
+        t.seen_common_turn = 0.0;
     }
     if (change_tool(t)) return;
     if (t.plan.fingers) {
@@ -408,7 +410,9 @@ void see_free_nut(TraineeState& t) {
 
 void see_common_turn(TraineeState& t) {
     if (!t.lacks_second_wrench()) return;
-    if (std::abs(t.joint().common_turn - t.common_turn_at_stroke) < noticed_turn) return;
+    t.seen_common_turn += std::abs(t.joint().common_turn - t.last_common_turn);
+    t.last_common_turn = t.joint().common_turn;
+    if (t.seen_common_turn < noticed_turn) return;
     t.plan.forgets_second_wrench = false;
     t.second_wrench = static_cast<std::int16_t>(t.plan.joint);
 }

@@ -90,12 +90,13 @@ struct TraineeState {
     double hover_height = 0.0;        // m above the nut, start of the lowering
 
     bool holds_wrench = false;
-    std::uint8_t tool = 0;               // in use, or wanted next: servo::TickInput::tool
-    std::int16_t second_wrench = -1;     // joint on which it has put the second wrench; −1: none
-    double common_turn_at_stroke = 0.0;  // rad, joint::JointState::common_turn at the start of the stroke
-    double caught_time = 0.0;            // s for which an obstacle has held the wrench back
-    int consecutive_catches = 0;         // retreats from an obstacle in a row
-    int consecutive_misses = 0;          // attempts in a row in which the jaw did not slide onto the nut
+    std::uint8_t tool = 0;            // in use, or wanted next: servo::TickInput::tool
+    std::int16_t second_wrench = -1;  // joint on which it has put the second wrench; −1: none
+    double last_common_turn = 0.0;    // rad, joint::JointState::common_turn when it was last seen
+    double seen_common_turn = 0.0;    // rad, in both directions, in the pulls of this step
+    double caught_time = 0.0;         // s for which an obstacle has held the wrench back
+    int consecutive_catches = 0;      // retreats from an obstacle in a row
+    int consecutive_misses = 0;       // attempts in a row in which the jaw did not slide onto the nut
     motion::VisibilityModel visibility;
     motion::ViewHelper view_help;
     Vec3 next_eye{0.0};                       // m, target of the head's movement
@@ -186,7 +187,8 @@ void spin(TraineeState& t, const Percept& felt);
 // These move the handle by one tick; the caller ends the phase. The wrench springs back before it is lifted;
 // a ratchet swings back on the nut, and the open fingers turn back for the next twist.
 void unload(TraineeState& t);
-// Puts the second wrench on plan.joint once the trainee sees that nut and bolt turn together.
+// Puts the second wrench on plan.joint once the trainee sees that nut and bolt turn together, to and fro or
+// on and on.
 void see_common_turn(TraineeState& t);
 // Returns true if a ratchet can pull again without leaving the nut.
 bool pulls_again(const TraineeState& t);

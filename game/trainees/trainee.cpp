@@ -25,7 +25,6 @@ void engage(TraineeState& t, const Pose& pose) {
     if (t.holds_intended_nut()) {
         t.stroke_start = t.handle_angle;
         t.nut_angle_at_stroke = t.joint().nut.angle;
-        t.common_turn_at_stroke = t.joint().common_turn;
         t.consecutive_misses = 0;
         t.enter(t.plan.fingers ? Phase::spin : Phase::pull);
     } else if (t.phase_over()) {

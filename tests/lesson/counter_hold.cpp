@@ -173,4 +173,32 @@ TEST_CASE("Counter-hold: every trainee finishes both tasks, and the session repl
     CHECK(forgotten > 0);
 }
 
+TEST_CASE("Counter-hold: a trainee notices a bolt that a ratchet only turns to and fro") {
+    // The parts beside B10 leave the ratchet a swing of about 30°.
+    content::LoadedAssembly loaded =
+        content::load_assembly(content::assembly_folder("dn200-pn16").string(), "held_heads");
+    REQUIRE(loaded.ok());
+    REQUIRE(content::choose_tool(loaded.assembly, "ratchet"));
+    const auto& joints = loaded.assembly.joints;
+    const auto joint =
+        std::find_if(joints.begin(), joints.end(),
+                     [](const content::AssemblyJoint& candidate) { return candidate.design.id == "B10"; });
+    REQUIRE(joint != joints.end());
+    content::Pass only;
+    only.kind = content::PassKind::loosen;
+    only.order = {static_cast<std::size_t>(joint - joints.begin())};
+    loaded.assembly.loosening = {only};
+    trainees::TrainOptions train;
+    train.lesson.task = Task::loosen;
+    train.lesson.obstacles = session::Obstacles::required;
+    train.trainee = trainees::find_profile("novice").value();
+    train.trainee.forgets_second_wrench = 1.0;
+    const test::Folder folder;
+    const auto outcome = trainees::train(loaded.assembly, train, folder / "lesson.boltwright",
+                                         [](const trainees::TrainingProgress&) { return true; });
+    REQUIRE(outcome);
+    CHECK(outcome->result.finished);
+    CHECK(deductions(outcome->result, DeductionKind::turned_together) > 0);
+}
+
 }  // namespace bolt::lesson::counter_hold
