@@ -95,7 +95,19 @@ struct Pass {
     Instruction instruction = {};
 };
 
-enum class ToolKind : std::uint8_t { open_end_wrench, ring_wrench, hex_key, ratchet, click_torque_wrench };
+enum class ToolKind : std::uint8_t {
+    open_end_wrench,
+    ring_wrench,
+    hex_key,
+    ratchet,
+    click_torque_wrench,
+    electronic_torque_wrench  // displays torque or angle, and lights up at the target; it does not click
+};
+
+// Returns true if the tool measures torque. Such a tool has a choice of heads, and is for tightening only.
+constexpr bool is_torque_wrench(ToolKind kind) {
+    return kind == ToolKind::click_torque_wrench || kind == ToolKind::electronic_torque_wrench;
+}
 
 // The part of a ratchet or a torque wrench that grips; the other kinds have one of their own.
 enum class ToolHead : std::uint8_t { open_end, ring, socket, hex_key, hex_bit };
@@ -116,7 +128,19 @@ struct WrenchDesign {
     // Click-type torque wrenches only; 0 for other tools.
     double click_swing = 0.0;     // rad that the handle swings when it clicks
     double click_accuracy = 0.0;  // relative error of the click torque
+    // m by which an adaptor in line with the handle lengthens its lever, included in handle_length; 0: none.
+    double adaptor_length = 0.0;
 };
+
+// joint::adaptor_ratio() of a torque wrench with its adaptor; 1 without one.
+double adaptor_ratio(const WrenchDesign& wrench);
+
+// m, the width across flats that a tool is made for; of an open end, its opening.
+double nominal_size(const WrenchDesign& wrench);
+
+// Returns true if the tool can grip the part of the joint that is turned, and is made for its size. A jaw may
+// be wider than the nut by its play.
+bool suits(const WrenchDesign& wrench, const joint::JointDesign& joint);
 
 // The name of the tool "tool" of a file. Those of "more_tools" have names of their own.
 inline constexpr std::string_view default_tool_name = "wrench";

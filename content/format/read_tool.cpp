@@ -12,6 +12,7 @@
 
 #include "content/format/json_document.hpp"
 #include "content/format/read_assembly.hpp"
+#include "haptics/joint/nut.hpp"
 
 namespace bolt::content {
 
@@ -21,6 +22,7 @@ constexpr double max_jaw_play = 0.6e-3;  // m, of a jaw on a nut
 constexpr double default_head_angle = to_radians(15.0);
 constexpr double default_click_swing_deg = 4.0;
 constexpr double default_accuracy_percent = 4.0;  // ISO 6789-1: type II, class A, above 10 N·m
+constexpr double shortest_lever_mm = 100.0;       // from the adaptor to the grip
 constexpr double default_teeth = 72.0;
 constexpr std::array ratchets{24.0, 72.0, 90.0};
 
@@ -35,6 +37,7 @@ constexpr std::array kinds{
     KindRow{"hex_key", ToolKind::hex_key, ToolHead::hex_key},
     KindRow{"ratchet", ToolKind::ratchet, ToolHead::socket},
     KindRow{"click_torque_wrench", ToolKind::click_torque_wrench, ToolHead::open_end},
+    KindRow{"electronic_torque_wrench", ToolKind::electronic_torque_wrench, ToolHead::open_end},
 };
 
 struct HeadRow {
@@ -73,27 +76,48 @@ void read_kind(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wren
             wrench.head = row.head;
         }
     if (!head || !kind) return;
-    const bool clicks = wrench.kind == ToolKind::click_torque_wrench;
-    if (!clicks && wrench.kind != ToolKind::ratchet) {
+    const bool measures = is_torque_wrench(wrench.kind);
+    if (!measures && wrench.kind != ToolKind::ratchet) {
         reader.report(head.pointer, fmt::format("{} has no choice of heads", in_quotes(*kind)),
                       "no \"head\"");
         return;
     }
     for (const HeadRow& row : heads)
         if (*head == row.name) wrench.head = row.head;
-    if (!clicks && wrench.head == ToolHead::open_end)
+    if (!measures && wrench.head == ToolHead::open_end)
         reader.report(head.pointer, "a ratchet does not turn an open end", "\"socket\" or \"hex_bit\"");
+}
+
+// Reads the adaptor between a torque wrench and its open end. `wrench.handle_length` includes it.
+void read_adaptor(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wrench) {
+    const auto adaptor = tool.number("adaptor_mm");
+    if (!adaptor) return;
+    if (wrench.head != ToolHead::open_end) {
+        reader.report(adaptor.pointer, "the adaptor lengthens only a torque wrench with an open end",
+                      "the head \"open_end\", or no \"adaptor_mm\"");
+        return;
+    }
+    const auto handle = tool.number("handle_length_mm");
+    if (handle && *handle - *adaptor < shortest_lever_mm)
+        reader.report(
+            adaptor.pointer,
+            fmt::format("an adaptor of {:g} mm leaves a lever of {:g} mm", *adaptor, *handle - *adaptor),
+            fmt::format("at most {:g} mm, the handle length less {:g} mm", *handle - shortest_lever_mm,
+                        shortest_lever_mm));
+    else
+        wrench.adaptor_length = *adaptor * mm;
 }
 
 // Reads the members of a click-type torque wrench. On another tool they are an error.
 void read_click(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wrench) {
     if (wrench.kind != ToolKind::click_torque_wrench) {
-        refuse(reader, tool, {"click_swing_deg", "accuracy_percent"}, "only a torque wrench clicks",
-               "the kind \"click_torque_wrench\", or no such value");
+        refuse(reader, tool, {"click_swing_deg", "accuracy_percent", "adaptor_mm"},
+               "only a torque wrench clicks", "the kind \"click_torque_wrench\", or no such value");
         return;
     }
     wrench.click_swing = to_radians(tool.number("click_swing_deg").value_or(default_click_swing_deg));
     wrench.click_accuracy = tool.number("accuracy_percent").value_or(default_accuracy_percent) / 100.0;
+    read_adaptor(reader, tool, wrench);
 }
 
 // Reads ratchet and extension bar, which only tools with a square drive have.
@@ -126,16 +150,9 @@ bool has_width(const WrenchDesign& wrench, double width, double s) {
     return width > s - 1e-9 && width < s + most_play(wrench) + 1e-9;
 }
 
-bool suits(const WrenchDesign& wrench, const AssemblyJoint& joint) {
-    const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
-    const double width = wrench.head == ToolHead::open_end ? wrench.jaw : wrench.size;
-    return (part.depth > 0.0) == grips_inside(wrench) && part.across_flats > 0.0 &&
-           has_width(wrench, width, part.across_flats);
-}
-
 bool suits_any(const WrenchDesign& wrench, const std::vector<AssemblyJoint>& joints) {
     return std::any_of(joints.begin(), joints.end(),
-                       [&](const AssemblyJoint& joint) { return suits(wrench, joint); });
+                       [&](const AssemblyJoint& joint) { return suits(wrench, joint.design); });
 }
 
 // Reports a tool whose size fits no part, or not the part that its joint has.
@@ -314,6 +331,21 @@ void check_instead(JsonReader& reader, const std::vector<AssemblyJoint>& joints)
 }
 
 }  // namespace
+
+double adaptor_ratio(const WrenchDesign& wrench) {
+    if (wrench.adaptor_length <= 0.0) return 1.0;
+    return joint::adaptor_ratio(wrench.handle_length - wrench.adaptor_length, wrench.adaptor_length);
+}
+
+double nominal_size(const WrenchDesign& wrench) {
+    return wrench.head == ToolHead::open_end ? wrench.jaw : wrench.size;
+}
+
+bool suits(const WrenchDesign& wrench, const joint::JointDesign& joint) {
+    const joint::TurnedPartSize part = joint::turned_part_size(joint);
+    return (part.depth > 0.0) == grips_inside(wrench) && part.across_flats > 0.0 &&
+           has_width(wrench, nominal_size(wrench), part.across_flats);
+}
 
 std::vector<Tool> read_tools(JsonReader& reader, const std::string& variant, const VariantJoints& joints,
                              const ModelFolders& folders) {

@@ -51,6 +51,7 @@ inline constexpr KeyRow key_rows[] = {
     {"hint.pull", "joint torque thread"},
     {"hint.pull_to_yield", "low high thread"},
     {"hint.pull_to_click", "torque thread"},
+    {"hint.pull_to_click_by_adaptor", "torque thread scale fastener"},
     {"hint.turn_on", "joint angle thread"},
     {"hint.set_back", ""},
     {"hint.ease", "torque"},

@@ -35,6 +35,7 @@ constexpr HintRow hint_rows[] = {
     {Situation::pull, "hint.pull", HintMotion::pull_on},
     {Situation::pull_to_yield, "hint.pull_to_yield", HintMotion::pull_on},
     {Situation::pull_to_click, "hint.pull_to_click", HintMotion::pull_on},
+    {Situation::pull_to_click_by_adaptor, "hint.pull_to_click_by_adaptor", HintMotion::pull_on},
     {Situation::turn_on, "hint.turn_on", HintMotion::pull_on},
     {Situation::set_back, "hint.set_back", HintMotion::set_back},
     {Situation::ease, "hint.ease", HintMotion::pull_on},
@@ -106,6 +107,7 @@ std::vector<words::TextArgument> text_arguments(const ObservedLesson& work) {
         {"size", words::Number{1e3 * work.setup.nuts[due->joint].across_flats, 0}},
         {"percent", words::Number{100.0 * due->fraction, 0}},
         {"torque", words::torque_number(due->torque)},
+        {"scale", words::torque_number(wrench_set_torque(work.lesson))},
         {"low", words::torque_number(window.low)},
         {"high", words::torque_number(window.high)},
         {"most", words::torque_number(window.high)},
@@ -265,6 +267,7 @@ WorkPhase phase(Situation s) {
         case Situation::pull:
         case Situation::pull_to_yield:
         case Situation::pull_to_click:
+        case Situation::pull_to_click_by_adaptor:
         case Situation::check:
         case Situation::break_loose:
         case Situation::unscrew:

@@ -30,6 +30,24 @@ void take_points(LessonResult& result, Deduction reason) {
 
 }  // namespace
 
+ToolReading tool_reading(const Lesson& lesson, const world::ReadHaptics& world) {
+    if (lesson.held_joint < 0 || lesson.grip != servo::Grip::wrench) return {};
+    const auto held = static_cast<std::size_t>(lesson.held_joint);
+    const content::Assembly& assembly = *lesson.assembly;
+    const double ratio = content::adaptor_ratio(content::tool_of(assembly, assembly.joints[held]));
+    ToolReading reading{std::abs(world::joint_at(world, held).torque) / ratio};
+    const LessonStep* due = lesson.due();
+    if (due == nullptr || due->joint != held || due->kind == StepKind::loosen) return reading;
+    const bool by_angle = due->kind == StepKind::turn;
+    const content::ToleranceWindow window =
+        by_angle ? angle_window(assembly, *due) : torque_window(lesson, *due);
+    const double measured = by_angle ? angle_from_mark(lesson, world, held) : ratio * reading.value;
+    if (by_angle) reading.value = to_degrees(measured);
+    if (window.high > 0.0 && measured >= window.low)
+        reading.target = measured > window.high ? world::TargetState::exceeded : world::TargetState::reached;
+    return reading;
+}
+
 JointResult judge_joint(const Lesson& lesson, std::size_t index, const world::ReadJoints& world) {
     const JointTrack& track = lesson.joints[index];
     const content::Specification& spec = lesson.assembly->joints[index].spec;

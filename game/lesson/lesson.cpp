@@ -363,8 +363,9 @@ double wrench_set_torque(const Lesson& lesson) {
     const LessonStep* step = lesson.due();
     if (step == nullptr) return 0.0;
     const content::Assembly& assembly = *lesson.assembly;
-    if (content::tool_of(assembly, assembly.joints[step->joint]).click_swing <= 0.0) return 0.0;
-    return step->kind == StepKind::tighten || step->kind == StepKind::recheck ? step->torque : 0.0;
+    const content::WrenchDesign& wrench = content::tool_of(assembly, assembly.joints[step->joint]);
+    const bool to_torque = step->kind == StepKind::tighten || step->kind == StepKind::recheck;
+    return to_torque && wrench.click_swing > 0.0 ? step->torque / content::adaptor_ratio(wrench) : 0.0;
 }
 
 bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world) {

@@ -150,7 +150,8 @@ bool needs_second_wrench(const content::Assembly& assembly);  // any of its join
 // False if a wrench within its tolerance might not click at this set torque (sessions before format 6).
 bool requires_click(const Lesson& lesson, const LessonStep& step);
 
-// Set torque of the torque wrench for the due step, N·m; 0 for other tools and for steps without a torque.
+// Set torque of the torque wrench for the due step, N·m on its scale (content::adaptor_ratio); 0 for other
+// tools and for steps without a torque.
 double wrench_set_torque(const Lesson& lesson);
 
 // A step is due until it is done. The hand may leave the nut in between (an open-end wrench comes off for
@@ -175,6 +176,14 @@ void observe(Lesson& lesson, const world::ReadHaptics& world);
 // has already restored the joints of the servo and the world. Mistakes stay counted, and a held nut is
 // released. Returns false, without a change, in assessment or if there is no such step.
 bool undo_steps(Lesson& lesson, const world::ReadHaptics& world, std::size_t steps);
+
+// What an electronic torque wrench displays: the torque on the nut, N·m on the scale of the wrench, or in a
+// step of kind `turn` the angle from the mark, degrees. `target` refers to the window of the due step.
+struct ToolReading {
+    double value = 0.0;
+    world::TargetState target = world::TargetState::below;
+};
+ToolReading tool_reading(const Lesson& lesson, const world::ReadHaptics& world);
 
 // The current result of one joint.
 JointResult judge_joint(const Lesson& lesson, std::size_t joint, const world::ReadJoints& world);

@@ -78,7 +78,8 @@ Situation tightening(const ObservedLesson& s, const LessonStep& due, const world
     if (turns_off(due, joint)) return Situation::other_way_on;
     if (out_of_room(s)) return Situation::set_back;
     if (checks) return Situation::check;
-    if (wrench_set_torque(s.lesson) > 0.0) return Situation::pull_to_click;
+    if (const double set = wrench_set_torque(s.lesson); set > 0.0)
+        return set < due.torque ? Situation::pull_to_click_by_adaptor : Situation::pull_to_click;
     const bool eases = joint.torque > last_part * window.low;
     if (to_yield) return eases ? Situation::ease_to_yield : Situation::pull_to_yield;
     return eases ? Situation::ease : Situation::pull;

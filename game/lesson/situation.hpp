@@ -30,11 +30,12 @@ enum class Situation : std::uint8_t {
     pull,
     pull_to_yield,
     pull_to_click,
-    turn_on,        // pull until the nut has turned by the step's angle
-    set_back,       // the handle has no room left to swing
-    ease,           // the target is near: pull gently
-    ease_to_yield,  // yield is near: pull gently
-    ease_to_angle,  // the same for the angle
+    pull_to_click_by_adaptor,  // the wrench is set lower than the torque at the nut
+    turn_on,                   // pull until the nut has turned by the step's angle
+    set_back,                  // the handle has no room left to swing
+    ease,                      // the target is near: pull gently
+    ease_to_yield,             // yield is near: pull gently
+    ease_to_angle,             // the same for the angle
     stop,
     stop_at_yield,
     stop_at_click,
@@ -64,7 +65,7 @@ enum class Situation : std::uint8_t {
     pass_loosen,
     all_done,
 };
-inline constexpr std::size_t situation_count = 49;
+inline constexpr std::size_t situation_count = 50;
 
 // The lesson after observe(), and the world that it observed in this tick.
 struct ObservedLesson {

@@ -13,8 +13,7 @@ double bearable_torque(const content::WrenchDesign& tool) {
 }
 
 ToolFault fault_of(const content::WrenchDesign& tool, const content::AssemblyJoint& joint, Task task) {
-    if (task == Task::loosen && tool.kind == content::ToolKind::click_torque_wrench)
-        return ToolFault::torque_wrench_loosens;
+    if (task == Task::loosen && content::is_torque_wrench(tool.kind)) return ToolFault::torque_wrench_loosens;
     const double bearable = bearable_torque(tool);
     return bearable > 0.0 && joint.spec.torque.high > bearable ? ToolFault::too_weak : ToolFault::none;
 }
@@ -26,7 +25,7 @@ ToolFault fault_of_choice(const content::Assembly& assembly, std::size_t joint, 
     const std::vector<std::size_t> tools = content::tools_of_joint(assembly, joint);
     const bool has_better = std::any_of(tools.begin(), tools.end(), [&](std::size_t tool) {
         const content::WrenchDesign& design = assembly.tools[tool].wrench;
-        return tool_models::suits(design, turned.design) && fault_of(design, turned, task) == ToolFault::none;
+        return content::suits(design, turned.design) && fault_of(design, turned, task) == ToolFault::none;
     });
     return has_better ? fault : ToolFault::none;
 }

@@ -144,8 +144,10 @@ void place_tool(SceneWorld& world, std::size_t tool, const ToolAndHand& state) {
         [&](ecs::Entity entity, const ToolPart& part, Transform& transform) {
             transform.world = glm::mat4((part.in_head ? head : pose) * part.tool_from_mesh);
             Appearance* appearance = world.find<Appearance>(entity);
-            if (appearance == nullptr && part.tool != tool) appearance = &world.add<Appearance>(entity);
-            if (appearance != nullptr) appearance->hidden = part.tool != tool;
+            const bool off = part.display && !tool_models::is_on(*part.display, state.reading);
+            const bool hidden = part.tool != tool || off;
+            if (appearance == nullptr && hidden) appearance = &world.add<Appearance>(entity);
+            if (appearance != nullptr) appearance->hidden = hidden;
         });
 }
 
@@ -185,7 +187,9 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     ToolAndHand held;
     held.tool = hand.wrench ? world.only<world::ConstrainedTool>().pose : hand.pose;
     held.wrench = hand.wrench;
-    held.head_turn = world.only<world::ToolState>().head_turn;
+    const world::ToolState& tool = world.only<world::ToolState>();
+    held.head_turn = tool.head_turn;
+    held.reading = {tool.displayed, static_cast<tool_models::DisplayLight>(tool.target)};
     held.rest = hand.rest;
     held.pinches = hand.pinches;
     held.closing = hand.closing;

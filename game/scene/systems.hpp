@@ -9,12 +9,13 @@ namespace bolt::scene {
 
 // The state of tool and hand in a frame. Poses are in the assembly's frame.
 struct ToolAndHand {
-    Pose tool;               // limited by obstacles
-    bool wrench = false;     // the wrench is in the hand
-    double head_turn = 0.0;  // rad, world::ToolState::head_turn
-    Pose rest;               // of a wrench that is not in the hand
-    bool pinches = false;    // without a wrench: the fingers are closed on a nut
-    Pose fingers;            // without a wrench: the frame of the hand
+    Pose tool;                            // limited by obstacles
+    bool wrench = false;                  // the wrench is in the hand
+    double head_turn = 0.0;               // rad, world::ToolState::head_turn
+    tool_models::DisplayReading reading;  // of an electronic torque wrench
+    Pose rest;                            // of a wrench that is not in the hand
+    bool pinches = false;                 // without a wrench: the fingers are closed on a nut
+    Pose fingers;                         // without a wrench: the frame of the hand
     // Without a wrench: the measured pose of the joint hand::palm. It determines the drawn hand away from
     // nuts, `fingers` at a nut.
     std::optional<Pose> palm;

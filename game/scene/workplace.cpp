@@ -246,6 +246,11 @@ bool is_in_ratchet_head(const assets::Model& model, int node) {
     return name == "drive" || name == "bit" || name.starts_with("socket") || name.starts_with("bar_");
 }
 
+std::optional<tool_models::DisplayElement> display_element(const assets::Model& model, int node) {
+    if (node < 0) return std::nullopt;
+    return tool_models::display_element(model.nodes[static_cast<std::size_t>(node)].name);
+}
+
 void add_tool(Workplace& workplace, std::size_t index, const ToolModel& tool,
               const render::GpuModel& on_gpu) {
     if (tool.model.meshes.empty()) return;
@@ -255,8 +260,10 @@ void add_tool(Workplace& workplace, std::size_t index, const ToolModel& tool,
         const ecs::Entity entity = view::add_drawable(workplace.world, object);
         workplace.world.get<Drawable>(entity).moves = true;
         const glm::dmat4 tool_from_mesh = matrix(tool.turn) * glm::dmat4(object.world);
+        const auto display = display_element(tool.model, object.node);
         workplace.world.add<ToolPart>(entity, tool_from_mesh, index,
-                                      is_in_ratchet_head(tool.model, object.node));
+                                      is_in_ratchet_head(tool.model, object.node), display);
+        if (display) continue;  // a ghost of the tool measures nothing
         const ecs::Entity ghost = view::add_drawable(workplace.world, object);
         workplace.world.get<Drawable>(ghost).moves = true;
         workplace.world.add<GhostPart>(ghost, tool_from_mesh, false, index);

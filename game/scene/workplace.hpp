@@ -13,6 +13,7 @@
 #include "engine/base/result.hpp"
 #include "game/scene/hand_clearance.hpp"
 #include "game/session/lesson_session.hpp"
+#include "game/tool_models/display.hpp"
 #include "game/view/drawables.hpp"
 #include "game/view/loaded_model.hpp"
 #include "game/world/world.hpp"
@@ -55,6 +56,7 @@ struct ToolPart {
     glm::dmat4 tool_from_mesh{1.0};
     std::size_t tool = 0;  // index in servo::Setup::tools
     bool in_head = false;  // turns with the head of a ratchet, not with its handle
+    std::optional<tool_models::DisplayElement> display;  // it is on the display of a torque wrench
 };
 
 // The displayed hand.

@@ -23,6 +23,7 @@ servo::ToolDescription describe(const content::WrenchDesign& design) {
     tool.handle_length = design.handle_length;
     tool.click_swing = design.click_swing;
     tool.click_accuracy = design.click_accuracy;
+    tool.adaptor_ratio = content::adaptor_ratio(design);
     return tool;
 }
 
@@ -152,6 +153,9 @@ void lesson_system(const world::WriteHaptics& world, TickContext& tick) {
     lesson::observe(lesson, world);
     for (const lesson::LessonEvent& event : lesson.events)
         tracker.steps_begun += event.kind == lesson::EventKind::step_begin ? 1U : 0U;
+    const lesson::ToolReading reading = lesson::tool_reading(lesson, world);
+    world.only<world::ToolState>().displayed = reading.value;
+    world.only<world::ToolState>().target = reading.target;
     const std::uint8_t undone = tick.servo.output.undone;
     if (undone == 0) return;
     const std::uint32_t saved = tick.servo.state.checkpoint_count;

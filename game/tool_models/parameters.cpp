@@ -138,7 +138,7 @@ double standard_length(const ToolParameters& p) {
         case ModelKind::hex_bit:
             return 55.0 * mm;
         default:
-            return std::max(8.2 * s + 290.0 * mm, 380.0 * mm);
+            return std::max(8.2 * s + 290.0 * mm, 380.0 * mm) + p.adaptor_length;
     }
 }
 
@@ -167,6 +167,12 @@ Status check_head(const ToolParameters& p) {
     if (p.extension != 0.0 && !(p.extension > 39.9 * mm && p.extension < 600.1 * mm))
         return usage(fmt::format("an extension bar of {} mm is impossible", in_mm(p.extension)),
                      "40 to 600 mm");
+    if (p.adaptor_length != 0.0 && (!is_torque_wrench(p.kind) || has_ratchet(p)))
+        return usage(fmt::format("{} takes no adaptor that lengthens it", name),
+                     "a torque wrench with an open end");
+    if (p.adaptor_length != 0.0 && !(p.adaptor_length > 19.9 * mm && p.adaptor_length < 300.1 * mm))
+        return usage(fmt::format("an adaptor of {} mm is impossible", in_mm(p.adaptor_length)),
+                     "20 to 300 mm");
     return {};
 }
 
@@ -209,7 +215,7 @@ double shortest_length(const ToolParameters& p) {
             return 5.2 * p.size + 30.0 * mm;
         case ModelKind::click_torque_wrench:
         case ModelKind::electronic_torque_wrench:
-            return has_ratchet(p) ? 8.0 * p.drive + 150.0 * mm : 3.0 * p.size + 130.0 * mm;
+            return has_ratchet(p) ? 8.0 * p.drive + 150.0 * mm : 3.0 * p.size + 130.0 * mm + p.adaptor_length;
         default:
             return 3.8 * p.size + 30.0 * mm;
     }
@@ -317,6 +323,7 @@ std::string description(const ToolParameters& p) {
     if (p.head == ModelHead::socket) text += ", socket";
     if (p.head == ModelHead::hex_bit) text += ", hexagon bit";
     add("extension bar", p.extension);
+    add("adaptor in line", p.adaptor_length);
     return text;
 }
 

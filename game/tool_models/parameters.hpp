@@ -60,6 +60,8 @@ struct ToolParameters {
     int teeth = 0;         // of the ratchet
     ModelHead head = ModelHead::standard;
     double extension = 0.0;  // length of the bar between a ratchet and its socket or bit; 0: none
+    // By which an adaptor, in line between a torque wrench and its open end, lengthens the wrench; 0: none.
+    double adaptor_length = 0.0;
     // Open ends and the inserts of torque wrenches; jaw dimensions as in haptics/collision/jaw.hpp.
     std::optional<double> head_angle = {};
     double head_thickness = 0.0, jaw_depth = 0.0, jaw_tip = 0.0;

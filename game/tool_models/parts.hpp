@@ -11,8 +11,8 @@
 
 namespace bolt::tool_models {
 
-// Appearances of content/materials.json, and the screen and the light of an electronic torque wrench.
-enum class Finish : std::uint8_t { chrome_vanadium, black_oxide, rubber, signal_red, screen, light };
+// Appearances of content/materials.json, and the screen and the lights of an electronic torque wrench.
+enum class Finish : std::uint8_t { chrome_vanadium, black_oxide, rubber, signal_red, screen, light, alarm };
 
 enum class Detail : std::uint8_t { drawn, contact };
 

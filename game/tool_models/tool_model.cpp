@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "engine/assets/gltf.hpp"
 #include "engine/base/hash.hpp"
@@ -50,6 +51,11 @@ assets::Material material_of(Finish finish) {
             assets::Material light = metal("light", {0.05F, 0.4F, 0.12F}, 0.0F, 0.4F);
             light.emissive = {0.1F, 0.9F, 0.3F};
             return light;
+        }
+        case Finish::alarm: {
+            assets::Material alarm = metal("alarm", {0.4F, 0.03F, 0.02F}, 0.0F, 0.4F);
+            alarm.emissive = {1.0F, 0.06F, 0.03F};
+            return alarm;
         }
         default:
             return metal("chrome_vanadium", {0.48514995F, 0.5028865F, 0.5394795F}, 1.0F, 0.22F, 0.2F, 0.15F);
@@ -189,10 +195,16 @@ namespace {
 
 constexpr double beyond_grip = 50.0 * mm;  // half the width of a hand
 
+std::optional<ModelKind> torque_wrench_model(content::ToolKind kind) {
+    if (kind == content::ToolKind::click_torque_wrench) return ModelKind::click_torque_wrench;
+    if (kind == content::ToolKind::electronic_torque_wrench) return ModelKind::electronic_torque_wrench;
+    return std::nullopt;
+}
+
 ToolParameters open_end_parameters(const content::WrenchDesign& design) {
     constexpr double click_beyond_grip = 73.5 * mm, click_parts = 330.0 * mm;  // as in torque_wrenches.cpp
     ToolParameters p;
-    p.kind = design.click_swing > 0.0 ? ModelKind::click_torque_wrench : ModelKind::open_end_wrench;
+    p.kind = torque_wrench_model(design.kind).value_or(ModelKind::open_end_wrench);
     p.opening = design.jaw;
     // The nominal size is the greatest whole or half millimetre that the jaw fits with play.
     p.size = std::floor(2.0 * (design.jaw / mm - 0.05)) / 2.0 * mm;
@@ -202,13 +214,14 @@ ToolParameters open_end_parameters(const content::WrenchDesign& design) {
     p.head_thickness = design.head_thickness;
     p.jaw_depth = design.jaw_depth;
     p.jaw_tip = design.jaw_tip;
+    p.adaptor_length = design.adaptor_length;
     const OpenEndHead head = open_end_head(p);
     const double reach = (head.middle + head.radius) * mm;
     if (p.kind == ModelKind::open_end_wrench) {
         p.length = std::max(design.handle_length + beyond_grip, 1.6 * reach + 30.0 * mm);
         return p;
     }
-    const double insert = std::max(62.0 * mm, reach + 12.0 * mm);
+    const double insert = std::max(62.0 * mm, reach + 12.0 * mm) + design.adaptor_length;
     const double whole = design.handle_length + click_beyond_grip, share = click_beyond_grip / click_parts;
     p.length =
         whole - insert >= click_parts ? whole : (design.handle_length - share * insert) / (1.0 - share);
@@ -217,8 +230,9 @@ ToolParameters open_end_parameters(const content::WrenchDesign& design) {
 }
 
 double adjusted_length(const ToolParameters& p, double handle_length) {
-    const bool clicks = p.kind == ModelKind::click_torque_wrench;
-    return std::clamp(handle_length + (clicks ? 73.5 * mm : beyond_grip), shortest_length(p), longest_tool);
+    const bool measures =
+        p.kind == ModelKind::click_torque_wrench || p.kind == ModelKind::electronic_torque_wrench;
+    return std::clamp(handle_length + (measures ? 73.5 * mm : beyond_grip), shortest_length(p), longest_tool);
 }
 
 }  // namespace
@@ -241,7 +255,7 @@ ToolParameters parameters_of(const content::WrenchDesign& design) {
             p.kind = ModelKind::ratchet;
             break;
         default:
-            p.kind = ModelKind::click_torque_wrench;
+            p.kind = torque_wrench_model(design.kind).value_or(ModelKind::click_torque_wrench);
             if (p.head == ModelHead::standard) p.head = ModelHead::socket;
             break;
     }
@@ -296,21 +310,6 @@ GrippingHead gripping_head(const content::WrenchDesign& design) {
     return {collision::make_jaw(design.jaw, design.head_angle, design.head_thickness, design.jaw_depth,
                                 design.jaw_tip),
             design.head_angle, 0.0};
-}
-
-double nominal_size(const content::WrenchDesign& design) {
-    return design.head == content::ToolHead::open_end ? design.jaw : design.size;
-}
-
-bool suits(const content::WrenchDesign& design, const joint::JointDesign& joint) {
-    constexpr double size_tolerance = 0.02 * mm;
-    constexpr double most_jaw_play = 0.6 * mm;  // a jaw may be wider than the nut by this
-    const joint::TurnedPartSize part = joint::turned_part_size(joint);
-    const bool turns_sockets =
-        design.head == content::ToolHead::hex_key || design.head == content::ToolHead::hex_bit;
-    const double over = nominal_size(design) - part.across_flats;
-    const double play = design.head == content::ToolHead::open_end ? most_jaw_play : 0.0;
-    return turns_sockets == (part.depth > 0.0) && over > -size_tolerance && over < play + size_tolerance;
 }
 
 ToolStrength strength_of(const content::WrenchDesign& design) {

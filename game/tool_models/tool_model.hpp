@@ -36,12 +36,6 @@ Result<GrippingHead> gripping_head(const ToolParameters& completed);
 // The same for the tool of an assembly, whose model may be an author's.
 GrippingHead gripping_head(const content::WrenchDesign& design);
 
-// m, the width across flats that the head of a tool is made for; of an open end, its opening.
-double nominal_size(const content::WrenchDesign& design);
-
-// Returns true if the tool can grip the part of the joint that is turned, and is made for its size.
-bool suits(const content::WrenchDesign& design, const joint::JointDesign& joint);
-
 // The test torque of a tool, or that of its square drive if the drive bears less.
 struct ToolStrength {
     TestTorque limit;

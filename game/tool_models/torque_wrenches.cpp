@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "game/tool_models/display.hpp"
 #include "game/tool_models/glyphs.hpp"
 #include "game/tool_models/parts.hpp"
 
@@ -17,16 +18,16 @@ constexpr double tube_radius = 12.5, flat_height = tube_radius - 1.2;
 
 // The x of the far end of each part, mm. A short wrench has short parts.
 struct TorqueWrenchEnds {
-    double insert, holder, tube, ring, sleeve, grip, knob;
+    double insert, adaptor, holder, tube, ring, sleeve, grip, knob;
 };
 
-// `head_end`: the far end of its head.
-TorqueWrenchEnds ends_of(double head_end, double length) {
-    const double insert = std::max(62.0, head_end + 12.0);
-    const double rest = length - insert, share = std::min(1.0, rest / 330.0);
+// `head_end`: the far end of its head. `adaptor`: length of an adaptor between insert and holder.
+TorqueWrenchEnds ends_of(double head_end, double adaptor, double length) {
     TorqueWrenchEnds x{};
-    x.insert = insert;
-    x.holder = insert + 50.0 * share;
+    x.insert = std::max(62.0, head_end + 12.0);
+    x.adaptor = x.insert + adaptor;
+    const double rest = length - x.adaptor, share = std::min(1.0, rest / 330.0);
+    x.holder = x.adaptor + 50.0 * share;
     x.knob = length;
     x.grip = x.knob - 16.0 * share;
     x.sleeve = x.grip - 115.0 * share;
@@ -65,6 +66,16 @@ ToolPart insert_part(const OpenEndHead& head, double end, Detail detail) {
     }
     return {
         "insert", Finish::chrome_vanadium, {open_end_shell(head, edge, detail), handle_shell(shank, detail)}};
+}
+
+// The adaptor: a socket for the insert's shank and a shank of its own, which reaches into the holder.
+ToolPart adaptor_part(double from, double to, double thickness, Detail detail) {
+    const int steps = detail == Detail::drawn ? 4 : 2;
+    const double high = std::max(11.5, 0.5 * thickness + 1.5), socket = std::min(30.0, 0.6 * (to - from));
+    return {"adaptor",
+            Finish::chrome_vanadium,
+            {block({from, -15.0, -high}, {from + socket, 15.0, high}, 3.0, 1.8, steps),
+             block({from + socket - 2.0, -10.0, -8.0}, {to + 6.0, 10.0, 8.0}, 2.0, 1.2, steps)}};
 }
 
 ToolPart holder_part(double from, double to, double thickness, Detail detail) {
@@ -191,15 +202,8 @@ ToolParts electronic_parts(const TorqueWrenchEnds& x, Detail detail) {
     parts.push_back({"screen",
                      Finish::screen,
                      {block({screen_from, -13.0, 17.0}, {screen_to, 13.0, 19.4}, 2.0, 0.3, steps)}});
-    if (fine) {
-        ToolPart digits{"digits", Finish::light, {}};
-        const double height = std::min(13.0, 0.28 * (screen_to - screen_from));
-        for (Shell& stroke : text_shells("0.0", height, 0.13 * height, 19.2, 19.55))
-            digits.shells.push_back(moved(std::move(stroke), [&](const Vec3& p) {
-                return p + Vec3(0.5 * (screen_from + screen_to), 0.0, 0.0);
-            }));
-        parts.push_back(std::move(digits));
-    }
+    if (fine)
+        for (ToolPart& part : number_parts(screen_from, screen_to, 19.4)) parts.push_back(std::move(part));
     ToolPart keys{"keys", Finish::signal_red, {}};
     for (const double y : {-7.0, 7.0}) {
         const double key = from + 0.82 * (to - from), wide = 0.06 * (to - from);
@@ -207,13 +211,7 @@ ToolParts electronic_parts(const TorqueWrenchEnds& x, Detail detail) {
             block({key - wide, y - 4.0, 18.0}, {key + wide, y + 4.0, 20.2}, 2.0, 0.6, steps));
     }
     parts.push_back(std::move(keys));
-    // A ring of light between the tube and the housing shows that the torque is reached.
-    parts.push_back({"light",
-                     Finish::light,
-                     {lathe_x(
-                         std::vector<ProfilePoint>{
-                             {from - 5.0, 13.2}, {from - 4.2, 14.4}, {from - 0.8, 14.4}, {from + 0.5, 13.6}},
-                         fine ? 64 : 24)}});
+    for (ToolPart& part : light_parts(from, detail)) parts.push_back(std::move(part));
     parts.push_back({"grip", Finish::rubber, {grip_shell(x.sleeve - 0.5, x.grip, detail)}});
     parts.push_back(
         {"knob",
@@ -234,7 +232,7 @@ ToolParts body_parts(const ToolParameters& p, const TorqueWrenchEnds& x, Detail 
 // A torque wrench with a ratchet head; its handle is at the height of this head.
 ToolParts ratchet_torque_wrench_parts(const ToolParameters& p, Detail detail) {
     RatchetWithAttachment head = ratchet_with_attachment(p, detail);
-    const TorqueWrenchEnds x = ends_of(head.radius, p.length / mm);
+    const TorqueWrenchEnds x = ends_of(head.radius, 0.0, p.length / mm);
     ToolParts body = body_parts(p, x, detail);
     const double thickness = 0.8 * head.high;
     body.push_back(holder_part(0.7 * head.radius, x.holder, thickness, detail));
@@ -252,13 +250,14 @@ ToolParts ratchet_torque_wrench_parts(const ToolParameters& p, Detail detail) {
 ToolParts torque_wrench_parts(const ToolParameters& p, Detail detail) {
     if (has_ratchet(p)) return ratchet_torque_wrench_parts(p, detail);
     const OpenEndHead head = open_end_head(p);
-    const TorqueWrenchEnds x = ends_of(head.middle + head.radius, p.length / mm);
+    const TorqueWrenchEnds x = ends_of(head.middle + head.radius, p.adaptor_length / mm, p.length / mm);
     ToolParts parts = body_parts(p, x, detail);
     parts.insert(parts.begin(), {insert_part(head, x.insert, detail),
-                                 holder_part(x.insert, x.holder, head.thickness, detail)});
-    const double holder = x.insert + 0.38 * (x.holder - x.insert),
+                                 holder_part(x.adaptor, x.holder, head.thickness, detail)});
+    if (x.adaptor > x.insert) parts.push_back(adaptor_part(x.insert, x.adaptor, head.thickness, detail));
+    const double holder = x.adaptor + 0.38 * (x.holder - x.adaptor),
                  top = std::max(13.0, 0.5 * head.thickness + 2.5);
-    if (x.holder - x.insert > 30.0) {
+    if (x.holder - x.adaptor > 30.0) {
         add_text(parts, size_text(head.size), 9.0, holder, top, detail);
     }
     return parts;

@@ -44,6 +44,9 @@ struct ConstrainedTool {
     Pose pose;
 };
 
+// How far a torque wrench has come in the due step: below the step's window, in it or above it.
+enum class TargetState : std::uint8_t { below, reached, exceeded };
+
 // The tool in the hand: its contact with nuts and obstacles, and its state. A joint is −1 if there is none.
 struct ToolState {
     std::int16_t joint = -1;               // engaged joint
@@ -58,6 +61,10 @@ struct ToolState {
     // rad about the tool's +Z, rotation of a ratchet's head relative to its handle. turn_ratchet_head()
     // computes it, for drawing only.
     double head_turn = 0.0;
+    // The display of an electronic torque wrench: N·m, or degrees in a step that ends at an angle. The lesson
+    // writes these two.
+    double displayed = 0.0;
+    TargetState target = TargetState::below;
 };
 
 // The force that guides the tool to a nut, before the limits of the output stage.

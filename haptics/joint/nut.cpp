@@ -124,6 +124,10 @@ NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const 
 
 }  // namespace
 
+double adaptor_ratio(double lever, double adaptor, double angle) {
+    return (lever + adaptor * std::cos(angle)) / lever;
+}
+
 double wound_torque(const NutDrive& drive, double nut_angle) {
     if (!drive.engaged) return 0.0;
     const double gap = drive.angle - drive.swung - nut_angle;

@@ -34,6 +34,11 @@ struct Click {
     [[nodiscard]] bool trips() const { return set_torque > 0.0 && swing > 0.0; }
 };
 
+// Torque at the nut, divided by that on the scale of a torque wrench: (L + e cos φ) / L for an adaptor of the
+// length e (m) on a wrench with the lever L (m, from the drive to the mark on the grip), at the angle φ (rad)
+// to the handle. In line, the adaptor lengthens the lever; at a right angle it changes nothing.
+double adaptor_ratio(double lever, double adaptor, double angle = 0.0);
+
 // State of the mechanism after a step.
 struct ClickStep {
     double swung = 0.0;    // rad, 0 … swing

@@ -96,6 +96,7 @@ Wrench make_wrench(const SetupDescription& d, const ToolDescription& tool, std::
         wrench.stiffness = 1.0 / (1.0 / wrench.stiffness + 1.0 / tool.twist_stiffness);
     wrench.yield_torque = tool.yield_torque;
     wrench.click.swing = tool.click_swing;
+    wrench.adaptor_ratio = tool.adaptor_ratio;
     Random random(d.seed, tool_stream + number);
     wrench.deviation = random.uniform(-tool.click_accuracy, tool.click_accuracy);
     return wrench;

@@ -80,10 +80,11 @@ struct Wrench {
     double handle_length = 0.0;  // m
     double half_play = 0.0;      // rad of free rotation of the head on the hexagon, to either side
     Ratchet ratchet;
-    double stiffness = 0.0;     // N·m/rad, wrench and hand in series
-    double yield_torque = 0.0;  // N·m at which the tool bends for good; 0: never
-    joint::Click click;         // without its set torque, which is an input
-    double deviation = 0.0;     // relative deviation of the click torque from the set torque
+    double stiffness = 0.0;      // N·m/rad, wrench and hand in series
+    double yield_torque = 0.0;   // N·m at which the tool bends for good; 0: never
+    joint::Click click;          // without its set torque, which is an input
+    double deviation = 0.0;      // relative deviation of the click torque from the set torque
+    double adaptor_ratio = 1.0;  // torque at the nut / torque on the scale; above 1 with an adaptor
 };
 
 // rad of free rotation of the head on a hexagon or in a socket of this size (m) to either side, if its
@@ -128,7 +129,8 @@ struct ToolDescription {
     double twist_stiffness = 0.0;  // N·m/rad, of an extension bar; 0: none
     double yield_torque = 0.0;     // N·m, as Wrench::yield_torque
     double handle_length = 0.0;    // m
-    double click_swing = 0.0;  // rad that a click-type torque wrench swings at its click; 0: a plain wrench
+    double click_swing = 0.0;    // rad that a click-type torque wrench swings at its click; 0: a plain wrench
+    double adaptor_ratio = 1.0;  // as Wrench::adaptor_ratio
     double click_accuracy = 0.0;  // relative bound of Wrench::deviation, which is drawn from the seed
 };
 

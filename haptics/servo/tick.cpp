@@ -55,7 +55,7 @@ joint::NutDrive drive_of(const Setup& setup, const State& state, int second_wren
     joint::NutDrive drive = drive_without_click(setup, state);
     drive.held_part_torque = held_part_torque(setup, e, second_wrench);
     drive.click = setup.wrench.click;
-    drive.click.set_torque = e.set_torque * (1.0 + setup.wrench.deviation);
+    drive.click.set_torque = e.set_torque * setup.wrench.adaptor_ratio * (1.0 + setup.wrench.deviation);
     drive.swung = e.swung;
     return drive;
 }

@@ -6,6 +6,9 @@
 expect 0 '"preload_kN":80\.8' "$bin/bolt-author" torque --size M16 --class 8.8 --mu 0.12 --json
 expect 0 '"preload_kN":87\.5' "$bin/bolt-author" torque --size M16 --pitch 1.5 --class 8.8 --mu 0.12 --json
 expect 0 'torque_Nm 205\.8' "$bin/bolt-author" torque --size M16 --class 8.8 --mu 0.12
+expect 0 '^torque_wrench_set_to_Nm 179\.0$' "$bin/bolt-author" torque --size M16 --class 8.8 --mu 0.12 --lever 400 --adaptor 60
+expect 0 '^torque_wrench_set_to_Nm 205\.8$' "$bin/bolt-author" torque --size M16 --class 8.8 --mu 0.12 --lever 400 --adaptor 60 --adaptor-angle 90
+expect 2 'lever' "$bin/bolt-author" torque --size M16 --class 8.8 --adaptor 60
 expect 2 'did you mean "M16"' "$bin/bolt-author" torque --size N16 --class 8.8
 expect 2 'did you mean "8.8"' "$bin/bolt-author" torque --size M16 --class 88
 expect 2 '' "$bin/bolt-author" torque --size M16 --class 8.8 --mu -1
@@ -100,6 +103,12 @@ cp -r "$sources/content/assemblies/cover-m8" weak
 sed -i 's/"more_tools": {/& "ring": { "kind": "ring_wrench", "size_mm": 13, "handle_length_mm": 170 },/; s/"class": "8.8"/"class": "12.9"/; s/"friction_\(thread\|bearing\)": 0.12/"friction_\1": 0.3/; s/"target_torque_Nm": 20/"target_torque_Nm": 62/' weak/assembly.json
 expect 0 'the chosen tool is too weak' "$bin/boltwright" train --no-pictures weak --no-obstacles --headless --out is_weak
 expect 0 'score 100' "$bin/boltwright" train --no-pictures weak --no-obstacles --headless --tool ring --out is_strong
+
+# A torque wrench with an adaptor: the scale is set lower, so the joints get their torque.
+cp -r "$sources/content/assemblies/cover-m8" longer
+sed -i '/"kind": "click_torque_wrench"/,/"model"/{s/"handle_length_mm": 140,/"handle_length_mm": 240, "adaptor_mm": 60/;/"model"/d}' longer/assembly.json
+expect 0 'adaptor in line 60 mm' "$bin/bolt-author" validate longer
+expect 0 'score 100' "$bin/boltwright" train --no-pictures longer --headless --quiet --tool torque_wrench --out lengthened
 
 # Contacts are simulated if the assembly has contact models, and the files record this. Two runs are equal byte for byte.
 expect 0 'score 100' "$bin/boltwright" train --no-pictures one --headless --quiet --out solid

@@ -19,6 +19,9 @@ for row in "${sizes[@]}"; do
     expect 0 "first/$kind-drawn.png" "$bin/boltwright" render "first/$kind.glb" --size 160x120 --png "first/$kind-drawn.png"
 done
 expect 0 'ring.png' "$author" tool ring --size 24 -o second/ring
+expect 0 'adaptor in line 60 mm' "$author" tool torque_wrench --size 24 --adaptor 60 -o first/with-adaptor
+check "an adaptor is drawn" grep -aq '"adaptor"' first/with-adaptor.glb
+expect 2 'a torque wrench with an open end' "$author" tool ring --size 24 --adaptor 60 -o second/ring
 check "the same picture every time" cmp first/ring.png second/ring.png
 check "all kinds are tried" [ "${#sizes[@]}" = "$("$author" tools | sed '/^$/q' | grep -c .)" ]
 validator=$sources/tools/gltf-validator
@@ -27,7 +30,7 @@ if [[ -d $validator/node_modules/gltf-validator ]] && command -v node >/dev/null
     check "the Khronos validator finds no mistake" python3 -c '
 import json
 reports = json.load(open("messages.json"))
-assert len(reports) == 20
+assert len(reports) == 22
 assert not any(report["messages"] for report in reports), reports'
 else
     skip_part "the glTF validator is not installed; expected tools/install-node-tools.sh to have installed it"

@@ -40,7 +40,7 @@ std::string_view everything() {
     "transition_width_deg": 30, "contact_end_mm2": 0.01,
     "target_torque_Nm": 71, "min_torque_Nm": 68, "max_torque_Nm": 76, "snug_torque_Nm": 18
   },
-  "tool": {"kind": "open_end_wrench", "jaw_mm": 18.1, "head_thickness_mm": 9, "jaw_depth_mm": 11, "jaw_tip_mm": 12.5, "head_angle_deg": 15, "handle_length_mm": 180, "model": "wrench_18.glb"}, "more_tools": {"clicker": {"title": {"en": "Torque wrench"}, "kind": "click_torque_wrench", "jaw_mm": 18.1, "handle_length_mm": 400, "click_swing_deg": 5, "accuracy_percent": 3},
+  "tool": {"kind": "open_end_wrench", "jaw_mm": 18.1, "head_thickness_mm": 9, "jaw_depth_mm": 11, "jaw_tip_mm": 12.5, "head_angle_deg": 15, "handle_length_mm": 180, "model": "wrench_18.glb"}, "more_tools": {"clicker": {"title": {"en": "Torque wrench"}, "kind": "click_torque_wrench", "jaw_mm": 18.1, "handle_length_mm": 400, "click_swing_deg": 5, "accuracy_percent": 3, "adaptor_mm": 50},
     "socket set": {"kind": "ratchet", "head": "socket", "size_mm": 18, "teeth": 90, "extension_mm": 125, "handle_length_mm": 200, "instead": {"A": "clicker"}}},
   "flange": {"thickness_mm": 20, "E_GPa": 70, "poisson": 0.33, "interface_stiffness_GPa_per_m": 500, "joint_types": ["M12x1.25"]},
   "materials": {"grey iron": {"E_GPa": 105}},

@@ -46,6 +46,16 @@ TEST_CASE("Tools: a second tool is used when it is chosen") {
     CHECK(a.wrench.click_swing == 0.0);
 }
 
+TEST_CASE("Tools: an adaptor is a part of the handle, and the scale of its wrench shows less torque") {
+    content::LoadedAssembly loaded =
+        content::parse_assembly(with(edited(clicker, "300", R"(300, "adaptor_mm": 60)")), "f");
+    REQUIRE(loaded.ok());
+    CHECK(content::adaptor_ratio(loaded.assembly.wrench) == 1.0);
+    REQUIRE(content::choose_tool(loaded.assembly, "clicker"));
+    CHECK(loaded.assembly.wrench.adaptor_length == doctest::Approx(0.06));
+    CHECK(content::adaptor_ratio(loaded.assembly.wrench) == doctest::Approx(1.25));  // 300 / 240
+}
+
 TEST_CASE("Tools: an unknown tool gives the nearest name") {
     content::LoadedAssembly loaded = content::parse_assembly(with(clicker), "f");
     REQUIRE(loaded.ok());
@@ -73,6 +83,15 @@ TEST_CASE("Tools: mistakes of a tool are reported at their position") {
                           R"(300, "click_swing_deg": 3)"))) ==
           "/more_tools/clicker/click_swing_deg: only a torque wrench clicks; expected the kind "
           "\"click_torque_wrench\", or no such value");
+    CHECK(one(with(edited(clicker, "300", R"(300, "adaptor_mm": 220)"))) ==
+          "/more_tools/clicker/adaptor_mm: an adaptor of 220 mm leaves a lever of 80 mm; expected at most "
+          "200 mm, the "
+          "handle length less 100 mm");
+    CHECK(one(with(R"("s": { "kind": "click_torque_wrench", "head": "socket", "size_mm": 13,
+                             "handle_length_mm": 300, "adaptor_mm": 60 })")) ==
+          "/more_tools/s/adaptor_mm: the adaptor lengthens only a torque wrench with an open end; expected "
+          "the head "
+          "\"open_end\", or no \"adaptor_mm\"");
     CHECK(one(with(edited(clicker, "clicker", "wrench"))) ==
           "/more_tools/wrench: \"wrench\" is the name of \"tool\"; expected another name");
 }

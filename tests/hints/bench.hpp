@@ -12,9 +12,9 @@ using namespace bolt::lesson;
 inline bool at_work(Situation s) {
     for (const Situation work :
          {Situation::run_down, Situation::run_down_by_wrench, Situation::pull, Situation::pull_to_yield,
-          Situation::pull_to_click, Situation::check, Situation::break_loose, Situation::unscrew,
-          Situation::ease, Situation::ease_to_yield, Situation::turn_on, Situation::ease_to_angle,
-          Situation::turn_back})
+          Situation::pull_to_click, Situation::pull_to_click_by_adaptor, Situation::check,
+          Situation::break_loose, Situation::unscrew, Situation::ease, Situation::ease_to_yield,
+          Situation::turn_on, Situation::ease_to_angle, Situation::turn_back})
         if (s == work) return true;
     return false;
 }

@@ -113,6 +113,14 @@ inline const Case cases[] = {
          b.seat_both();
          b.turn(0, 30.0);
      }},
+    {Situation::pull_to_click_by_adaptor, "hint.pull_to_click_by_adaptor", HintMotion::pull_on,
+     [](Bench& b) {
+         b.assembly.wrench.click_swing = 0.07;
+         b.assembly.wrench.handle_length = 0.3;
+         b.assembly.wrench.adaptor_length = 0.06;
+         b.seat_both();
+         b.turn(0, 30.0);
+     }},
     {Situation::stop_at_click, "hint.stop_at_click", HintMotion::lift,
      [](Bench& b) {
          b.assembly.wrench.click_swing = 0.07;

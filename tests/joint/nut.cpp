@@ -38,6 +38,14 @@ struct Tight {
 
 }  // namespace
 
+TEST_CASE("Nut: an adaptor in line lengthens the lever of a torque wrench, at a right angle it does not") {
+    // The scale is set to T L / (L + e).
+    CHECK(206.0 / joint::adaptor_ratio(0.4, 0.06) == doctest::Approx(206.0 * 400.0 / 460.0));
+    CHECK(joint::adaptor_ratio(0.4, 0.06, pi / 2.0) == doctest::Approx(1.0).epsilon(1e-12));
+    CHECK(joint::adaptor_ratio(0.4, 0.06, pi / 4.0) == doctest::Approx(1.10607).epsilon(1e-5));
+    CHECK(joint::adaptor_ratio(0.4, 0.0) == 1.0);
+}
+
 TEST_CASE("Nut: the angle is unchanged to the bit until the torque exceeds the resistance") {
     Tight tight;
     const double stands_at = tight.joints[0].nut.angle;

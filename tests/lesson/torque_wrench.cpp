@@ -41,7 +41,7 @@ LessonRun play_through(const content::Assembly& assembly, const char* trainee, s
     while (lesson.due() != nullptr && state.tick < 1'200'000) {
         servo::TickInput input = hand.act(setup, state, lesson);
         input.set_torque = static_cast<float>(wrench_set_torque(lesson));
-        const double trips = wrench_set_torque(lesson) * (1.0 + run.deviation);
+        const double trips = wrench_set_torque(lesson) * setup.wrench.adaptor_ratio * (1.0 + run.deviation);
         const servo::Output output = servo::tick(setup, state, input);
         if (output.clicked) {
             ++run.clicks;
@@ -73,6 +73,38 @@ TEST_CASE("Torque wrench: set to the step's torque, and to 0 for steps without a
     s.pull(0, 70.0);
     s.pull(1, 70.0);
     CHECK(wrench_set_torque(s.lesson) == 0.0);  // all steps are done
+}
+
+TEST_CASE("Torque wrench: with an adaptor the scale is set lower, and the joints get their torque") {
+    content::Assembly assembly = cover_with("torque_wrench");
+    assembly.wrench.handle_length = 0.2;
+    assembly.wrench.adaptor_length = 0.04;
+    const LessonRun expert = play_through(assembly, "expert", 3);
+    CHECK(expert.finished);
+    CHECK(expert.in_window == 4);
+    CHECK(expert.clicks >= 8);
+    Lesson lesson = begin(assembly, Mode::practice, Task::tighten);
+    while (lesson.due()->kind != StepKind::tighten || lesson.due()->fraction < 1.0) ++lesson.current;
+    CHECK(wrench_set_torque(lesson) == doctest::Approx(16.0));  // 20 N·m · 160 / 200
+}
+
+TEST_CASE("Torque wrench: an electronic one displays the torque on its scale, and where the step stands") {
+    Script s;
+    s.idle();
+    CHECK(tool_reading(s.lesson, s.components).value == 0.0);
+    s.seat_both();
+    const auto reads = [&](double torque) {
+        s.tick(0, servo::Grip::wrench, torque);
+        return tool_reading(s.lesson, s.components);
+    };
+    CHECK(reads(20.0).value == doctest::Approx(20.0));
+    CHECK(reads(20.0).target == world::TargetState::below);
+    CHECK(reads(35.0).target == world::TargetState::reached);
+    CHECK(reads(50.0).target == world::TargetState::exceeded);
+    s.assembly.wrench.handle_length = 0.3;
+    s.assembly.wrench.adaptor_length = 0.06;
+    CHECK(reads(35.0).value == doctest::Approx(28.0));  // 240 / 300
+    CHECK(reads(35.0).target == world::TargetState::reached);
 }
 
 TEST_CASE("Torque wrench: a click gives one event with its torque") {

@@ -69,6 +69,18 @@ TEST_CASE("Click: the wrench clicks at its set torque plus its deviation, at any
         }
 }
 
+TEST_CASE("Click: with an adaptor the nut gets more than the scale says") {
+    Setup setup = with_torque_wrench(0.02);
+    setup.wrench.adaptor_ratio = joint::adaptor_ratio(0.4, 0.06);
+    Bench bench(setup);
+    bench.hold(0.0);
+    const double greatest = bench.pull(60.0);
+    CHECK(bench.last.clicked);
+    const double trips = static_cast<double>(set_torque) * 1.15 * 1.02;  // (400 + 60) / 400
+    CHECK(greatest <= trips * (1.0 + 1e-9));
+    CHECK(greatest > 0.95 * trips);
+}
+
 TEST_CASE("Click: none without a set torque, with a plain wrench or with fingers") {
     SUBCASE("no setting") {
         Bench bench(with_torque_wrench());

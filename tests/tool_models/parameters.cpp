@@ -70,6 +70,43 @@ TEST_CASE("Tool parameters: impossible values are refused with the nearest valid
     p = tool(ModelKind::adaptor, 10);
     p.drive = 10.0 * mm;
     CHECK(error_of(p) == "an adaptor from 10 mm to the same drive; expected another drive");
+    p = tool(ModelKind::ring_wrench, 24);
+    p.adaptor_length = 60.0 * mm;
+    CHECK(error_of(p) ==
+          "ring takes no adaptor that lengthens it; expected a torque wrench with an open end");
+    p = tool(ModelKind::click_torque_wrench, 24);
+    p.adaptor_length = 10.0 * mm;
+    CHECK(error_of(p) == "an adaptor of 10 mm is impossible; expected 20 to 300 mm");
+}
+
+TEST_CASE("Tool parameters: an adaptor lengthens a torque wrench between its insert and its holder") {
+    const auto end_of = [](const ToolParts& parts, const char* name, bool far) {
+        double end = far ? -1e9 : 1e9;
+        for (const ToolPart& part : parts)
+            for (const Shell& shell : part.shells)
+                for (const Vec3& point : shell.points)
+                    if (part.name == name) end = far ? std::max(end, point.x) : std::min(end, point.x);
+        return end;
+    };
+    for (const ModelKind kind : {ModelKind::click_torque_wrench, ModelKind::electronic_torque_wrench})
+        for (const double size : {8.0, 24.0, 46.0})
+            for (const double adaptor : {20.0, 60.0, 300.0})
+                for (const Detail detail : {Detail::drawn, Detail::contact}) {
+                    ToolParameters p = tool(kind, size);
+                    const ToolParameters plain = *completed(p);
+                    p.adaptor_length = adaptor * mm;
+                    const ToolParameters longer = *completed(p);
+                    CAPTURE(description(longer));
+                    CHECK(longer.length - plain.length == doctest::Approx(adaptor * mm));
+                    const ToolParts parts = parts_of(longer, detail), without = parts_of(plain, detail);
+                    CHECK(end_of(parts, "insert", true) == doctest::Approx(end_of(without, "insert", true)));
+                    CHECK(end_of(parts, "holder", false) - end_of(without, "holder", false) ==
+                          doctest::Approx(adaptor));
+                    CHECK(end_of(parts, "adaptor", true) > end_of(parts, "holder", false));
+                    CHECK(end_of(parts, "adaptor", false) < end_of(parts, "insert", true));
+                    for (const ToolPart& part : parts)
+                        for (const Shell& shell : part.shells) CHECK(unpaired_edges(shell) == 0);
+                }
 }
 
 TEST_CASE("Tool parameters: the shortest and a long tool of each kind are closed too") {

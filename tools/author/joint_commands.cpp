@@ -20,6 +20,7 @@
 #include "game/plot/svg.hpp"
 #include "haptics/joint/design.hpp"
 #include "haptics/joint/group.hpp"
+#include "haptics/joint/nut.hpp"
 #include "haptics/joint/tapped_thread.hpp"
 #include "tools/author/commands.hpp"
 
@@ -178,6 +179,7 @@ struct TorqueOptions {
     double pitch_mm = 0.0;
     double utilisation = 0.9;
     double engagement_mm = 0.0;
+    double lever_mm = 0.0, adaptor_mm = 0.0, adaptor_angle_deg = 0.0;  // of a torque wrench; 0: no adaptor
     bool locking = false;
     bool json = false;
 };
@@ -221,6 +223,10 @@ std::vector<AnswerValue> torque_values(const TorqueOptions& options, const joint
         joint::assembly_preload(design.thread.thread, design.bolt_class, options.mu, options.mu,
                                 design.bearing_diameter(), options.utilisation);
     std::vector<AnswerValue> values = {{"preload_kN", preload.force / 1e3}, {"torque_Nm", preload.torque}};
+    if (options.adaptor_mm > 0.0)
+        values.push_back({"torque_wrench_set_to_Nm",
+                          preload.torque / joint::adaptor_ratio(options.lever_mm, options.adaptor_mm,
+                                                                to_radians(options.adaptor_angle_deg))});
     if (design.is_tapped()) {
         constexpr double vdi_surplus = 1.2;  // joint::needed_engagement() explains it
         const joint::TappedHole& hole = design.hole;
@@ -308,6 +314,23 @@ void add_torque(CLI::App& app, int& exit_code) {
         ->needs(tapped);
     torque->add_flag("--locking", options->locking,
                      "Adds the prevailing torques of a locking nut (ISO 2320)");
+    CLI::Option* lever =
+        torque
+            ->add_option("--lever", options->lever_mm,
+                         "Lever of a torque wrench without its adaptor in mm, to the grip's mark")
+            ->check(CLI::Range(50.0, 3000.0));
+    CLI::Option* adaptor =
+        torque
+            ->add_option("--adaptor", options->adaptor_mm,
+                         "Length of an adaptor on the torque wrench in mm: adds the setting of its scale")
+            ->check(CLI::Range(1.0, 1000.0))
+            ->needs(lever);
+    lever->needs(adaptor);
+    torque
+        ->add_option("--adaptor-angle", options->adaptor_angle_deg,
+                     "Angle of the adaptor in degrees: 0 lengthens the lever, 90 changes nothing")
+        ->check(CLI::Range(0.0, 90.0))
+        ->needs(adaptor);
     torque->add_flag("--json", options->json, "One JSON object");
     torque->callback([options, &exit_code] { exit_code = run_torque(*options); });
 }

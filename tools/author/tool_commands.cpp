@@ -30,6 +30,7 @@ namespace fs = std::filesystem;
 struct ToolOptions {
     std::string kind, out, picture_size = "640x400";
     double size_mm = 0.0, length_mm = 0.0, drive_mm = 0.0;
+    double adaptor_mm = 0.0;
     int teeth = 0;
     bool no_picture = false;
 };
@@ -141,6 +142,7 @@ Status make_tool_files(const ToolOptions& options) {
     parameters.length = options.length_mm * mm;
     parameters.drive = options.drive_mm * mm;
     parameters.teeth = options.teeth;
+    parameters.adaptor_length = options.adaptor_mm * mm;
     BOLT_TRY_ASSIGN(const auto tool, tool_models::completed(parameters));
     const assets::Model drawn = tool_models::drawn_model(tool), contact = tool_models::contact_model(tool);
 
@@ -190,6 +192,8 @@ void add_tool(CLI::App& app, int& exit_code) {
                         "From the bolt's axis, or from the middle of what grips, to the far end, mm");
     command->add_option("--drive", options->drive_mm, "Width of the square drive, mm");
     command->add_option("--teeth", options->teeth, "Teeth of the ratchet: 24, 72 or 90");
+    command->add_option("--adaptor", options->adaptor_mm,
+                        "Length of an adaptor between a torque wrench and its open end, mm");
     command->add_option("-o,--out", options->out, "Name of the files without their endings")->required();
     command->add_option("--picture-size", options->picture_size, "WIDTHxHEIGHT of the picture in pixels")
         ->capture_default_str();

@@ -26,7 +26,7 @@ collision::TurnedShape shape_of(const joint::JointDesign& design) {
 }
 
 std::string title_of(const content::WrenchDesign& design) {
-    const double size = tool_models::nominal_size(design) / mm;
+    const double size = content::nominal_size(design) / mm;
     switch (design.head) {
         case content::ToolHead::open_end:
             return fmt::format("an open end of {:g} mm", tool_models::parameters_of(design).size / mm);
@@ -85,7 +85,7 @@ namespace {
 std::string suitable_tools(const content::Assembly& assembly, const joint::JointDesign& design) {
     std::string names;
     for (const content::Tool& tool : assembly.tools)
-        if (tool_models::suits(tool.wrench, design))
+        if (content::suits(tool.wrench, design))
             names += fmt::format("{}{}", names.empty() ? "" : " or ", content::in_quotes(tool.name));
     if (!names.empty()) return fmt::format("{} as \"tool\" of its joint type", names);
     for (const content::WrenchDesign& usual : usual_tools(design))
@@ -149,7 +149,7 @@ void check_tools(const content::Assembly& assembly, const Messages& messages) {
                 continue;
             const content::WrenchDesign& design = assembly.tools[tool].wrench;
             const std::string name = name_of_tool(assembly, tool);
-            if (tool_models::suits(design, joint.design))
+            if (content::suits(design, joint.design))
                 check_torque(joint, design, tool != tools.front(), name, messages);
             else
                 messages.error(joint_pointer(joint.index_in_file),

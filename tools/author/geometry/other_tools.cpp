@@ -60,7 +60,7 @@ std::string JointRooms::fitting_tool_of_file(std::size_t tool) {
             const content::WrenchDesign& design = assembly.tools[i].wrench;
             const bool clicks = design.click_swing > 0.0;
             if (i == tool || (clicks == (assembly.tools[tool].wrench.click_swing > 0.0)) != same_use ||
-                !tool_models::suits(design, joint.design) || !room_of(tools_.shapes()[i]).enough)
+                !content::suits(design, joint.design) || !room_of(tools_.shapes()[i]).enough)
                 continue;
             names +=
                 fmt::format("{}{}", names.empty() ? "" : " or ", content::in_quotes(assembly.tools[i].name));

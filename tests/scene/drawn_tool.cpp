@@ -1,9 +1,10 @@
-// The drawn socket of a ratchet over a scripted swing, in the workplace that windows, headsets, walls and
-// films draw.
+// The drawn tool over a scripted swing, in the workplace that windows, headsets, walls and films draw.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <glm/gtc/quaternion.hpp>
 #include <map>
+#include <set>
 #include <string>
 
 #include "game/scene/systems.hpp"
@@ -15,7 +16,7 @@ using namespace bolt;
 
 namespace {
 
-struct RatchetWorkplace {
+struct ToolWorkplace {
     session::SessionSetup at;
     scene::LessonModels models;
     std::unique_ptr<scene::GpuLessonModels> on_gpu = std::make_unique<scene::GpuLessonModels>();
@@ -23,9 +24,7 @@ struct RatchetWorkplace {
     scene::Postures postures;
     std::optional<session::LessonTracker> tracker;
 
-    RatchetWorkplace() {
-        content::Assembly assembly = trainer_test::assembly("dn200-pn16");
-        REQUIRE(content::choose_tool(assembly, "ratchet"));
+    explicit ToolWorkplace(const content::Assembly& assembly) {
         auto prepared = session::prepare_session(assembly, {});
         REQUIRE(prepared);
         at = std::move(*prepared);
@@ -94,13 +93,27 @@ struct RatchetWorkplace {
             });
         return found;
     }
+    // The names of the visible nodes of the tool in use.
+    [[nodiscard]] std::set<std::string> visible() {
+        std::set<std::string> found;
+        const assets::Model& model = models.tools[at.setup.tool].model;
+        workplace.world.view<const scene::ToolPart, const scene::Drawable>().each(
+            [&](ecs::Entity entity, const scene::ToolPart& part, const scene::Drawable& drawn) {
+                const scene::Appearance* appearance = workplace.world.find<scene::Appearance>(entity);
+                if (part.tool == at.setup.tool && (appearance == nullptr || !appearance->hidden))
+                    found.insert(model.nodes[static_cast<std::size_t>(drawn.node)].name);
+            });
+        return found;
+    }
 };
 
 }  // namespace
 
 TEST_CASE(
     "Ratchet: the drawn socket stands still while the handle swings back, and turns with it in a pull") {
-    RatchetWorkplace fixture;
+    content::Assembly assembly = trainer_test::assembly("dn200-pn16");
+    REQUIRE(content::choose_tool(assembly, "ratchet"));
+    ToolWorkplace fixture(assembly);
     double handle = to_radians(20.0);
     for (int i = 0; i < 50; ++i) fixture.step(handle);
     REQUIRE(fixture.at.state.engagement.joint == 0);
@@ -137,4 +150,49 @@ TEST_CASE(
         CHECK(pulled.at(name) > 1.0);  // the nut turns, less by the twist of the tool
         CHECK(pulled.at(name) == doctest::Approx(pulled.at("socket")));
     }
+}
+
+TEST_CASE("Electronic torque wrench: its display shows the torque, and its light the step's window") {
+    content::Assembly assembly = trainer_test::assembly("dn200-pn16");
+    assembly.wrench.kind = content::ToolKind::electronic_torque_wrench;
+    assembly.wrench.model.clear();  // it is generated
+    ToolWorkplace fixture(assembly);
+    double handle = to_radians(15.0);
+    for (int i = 0; i < 50; ++i) fixture.step(handle);
+    REQUIRE(fixture.at.state.engagement.joint == 0);
+    lesson::Lesson& lesson = fixture.tracker->lesson;
+    while (lesson.due()->kind != lesson::StepKind::tighten || lesson.due()->joint != 0) ++lesson.current;
+    const content::ToleranceWindow window = lesson::torque_window(lesson, *lesson.due());
+    const auto shows_torque = [&] {
+        const std::set<std::string> visible = fixture.visible();
+        const double torque = fixture.at.state.joints[0].torque;
+        bool right = visible.contains("decimal_point") && visible.contains("grip");
+        for (int digit = 0; digit < 4; ++digit)
+            for (int segment = 0; segment < 7; ++segment) {
+                using Kind = tool_models::DisplayElement::Kind;
+                const bool on = tool_models::is_on({Kind::segment, digit, segment}, {torque, {}});
+                right = right && on == visible.contains(fmt::format("segment_{}_{}", digit, segment));
+            }
+        return right;
+    };
+    CHECK(shows_torque());
+    double torque = 0.0;
+    const auto pull_to = [&](double goal) {
+        for (int i = 0; i < 100000 && torque < goal; ++i) {
+            fixture.step(handle += to_radians(0.05));
+            torque = fixture.at.state.joints[0].torque;
+        }
+        REQUIRE(torque >= goal);
+        CHECK(shows_torque());
+        return fixture.visible();
+    };
+    const std::set<std::string> below = pull_to(0.5 * window.low);
+    CHECK_FALSE(below.contains("light"));
+    CHECK_FALSE(below.contains("light_exceeded"));
+    const std::set<std::string> reached = pull_to(window.target);
+    CHECK(reached.contains("light"));
+    CHECK_FALSE(reached.contains("light_exceeded"));
+    const std::set<std::string> exceeded = pull_to(1.02 * window.high);
+    CHECK_FALSE(exceeded.contains("light"));
+    CHECK(exceeded.contains("light_exceeded"));
 }

@@ -1,0 +1,41 @@
+// The display of an electronic torque wrench: a number of four digits with seven segments each, and two rings
+// of light. Every segment and ring is a node of its own, so that a program shows a reading by hiding the
+// others.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "game/tool_models/parts.hpp"
+
+namespace bolt::tool_models {
+
+enum class DisplayLight : std::uint8_t { off, reached, exceeded };
+
+struct DisplayReading {
+    double value = 0.0;  // shown with one decimal place, 0 to 999.9
+    DisplayLight light = DisplayLight::off;
+};
+
+// A node of the display. `digit`: from 0, the hundreds, to 3, the tenths. `segment`: from 0 at the top,
+// clockwise to 5, and 6 in the middle.
+struct DisplayElement {
+    enum class Kind : std::uint8_t { segment, point, reached, exceeded };
+    Kind kind = Kind::point;
+    int digit = 0, segment = 0;
+};
+
+// The element whose node has this name; none: the node is not a part of a display.
+std::optional<DisplayElement> display_element(std::string_view node);
+
+// Returns true if the element is visible with this reading. Leading zeros before the units are not.
+bool is_on(const DisplayElement& element, const DisplayReading& reading);
+
+// The parts of the number on a screen from x = `from` to `to` whose face is at the height z. Millimetres.
+ToolParts number_parts(double from, double to, double z);
+
+// The rings of light around a handle along +X, between two parts that end at x.
+ToolParts light_parts(double x, Detail detail);
+
+}  // namespace bolt::tool_models
