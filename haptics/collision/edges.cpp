@@ -46,8 +46,8 @@ struct EdgeGathering {
 
 // Largest cosine between an inward direction of an edge and the common perpendicular away from that edge's
 // solid: `normal` for `edge`, −`normal` for `piece`. At most 0: the perpendicular points out of both solids,
-// so the edges face each other. Above 0: a face, a vertex or another edge is nearer.
-// Returns the smaller one for the two senses of the perpendicular, whose products differ only in sign.
+// so the edges face each other. Above 0: a face, a vertex or another edge is nearer. The sense of `normal` is
+// arbitrary, so the smaller of the cosines for `normal` and −`normal` is returned.
 double facing_excess(const Ridge& edge, const EdgePiece& piece, const Vec3& normal) {
     double with = -1.0, against = -1.0;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -108,9 +108,9 @@ EdgePair edge_pair(const EdgeGathering& g, const Ridge& edge) {
     return pair;
 }
 
-// Returns true if the edges do not face each other. It then lowers `g.clear_turn` to the turn (rad) of the
-// piece up to which that stays so: a turn φ of the piece, below `sine`/3, turns the common perpendicular by
-// at most 1.5 φ/`sine`.
+// Returns true if the edges do not face each other, and lowers `g.clear_turn` to the turn (rad) of the piece
+// before which they cannot: a turn φ of the piece, below `sine`/3, turns the common perpendicular by at most
+// 1.5 φ/`sine`. Otherwise sets `pair.at`.
 bool faces_away(EdgeGathering& g, EdgePair& pair, const Vec3& normal) {
     const double excess = facing_excess(pair.edge, *g.piece, normal);
     const double turn = excess * pair.sine / 3.0;
@@ -134,8 +134,8 @@ void bound_feet(EdgeGathering& g, const EdgePair& pair, const Vec3& normal, doub
     const double on_piece = glm::dot(glm::cross(between, pair.half), pair.across) / (pair.size * pair.size);
     const double on_edge =
         glm::dot(glm::cross(between, g.piece->half), pair.across) / (pair.size * pair.size);
-    // m by which the feet lie beyond the ends. A displacement moves them by at most 1.12 times itself, a turn
-    // by at most 4.8 times the distance times the turn, both divided by the sine.
+    // m by which the feet lie beyond the ends. A displacement d moves the feet by at most 1.12 d/sine, a turn
+    // φ by at most 4.8 `apart` φ/sine.
     const double over =
         std::max((std::abs(on_piece) - 1.0) * g.half_length, (std::abs(on_edge) - 1.0) * pair.half_length);
     double clear = std::min(apart, 0.4 * over * pair.sine);

@@ -81,9 +81,9 @@ struct GripSolids {
     std::span<const Convex> head, turned_part;
 };
 
-// Writes the contacts of the solids up to `band` (m) and returns their number. Poses are to the assembly;
-// `obstacle` is copied to the contacts. Distances are separations as in convex.hpp: exact if a face or two
-// edges are nearest.
+// Writes contacts of the solids up to `band` (m) and returns their number; each pair of solids gets an equal
+// share of `out`, for its nearest ones. Poses are to the assembly; `obstacle` is copied to the contacts.
+// Distances are separations as in convex.hpp: exact if a face or two edges are nearest.
 std::size_t solid_contacts(const GripSolids& solids, const Pose& tool, const Pose& turned_part, double band,
                            ObstacleId obstacle, std::span<Contact, max_grip_contacts> out);
 

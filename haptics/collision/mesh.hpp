@@ -26,7 +26,7 @@ struct SharpEdge {
     bool convex;                       // only convex edges can be touched by other edges
 };
 
-// An edge of a finely tessellated round face that is longer than the permitted spacing of samples.
+// A long edge between facets of a round face: it exceeds the permitted spacing of samples.
 struct RoundEdge {
     std::array<std::uint32_t, 2> vertices;
     std::uint32_t triangle;
@@ -46,9 +46,9 @@ struct ContactMesh {
     std::vector<SharpEdge> sharp_edges;
     std::vector<RoundEdge> round_edges;
 
-    // For each corner of each triangle the unit normal of the round surface that the facets approximate: the
-    // mean of the normals of the faces around the vertex that are connected across edges blunter than
-    // `crease`, weighted by angle and area.
+    // By corner of each triangle: the unit normal of the round surface that the facets approximate. It is the
+    // mean, weighted by angle and area, of the normals of those faces around the vertex that are connected
+    // to this one across edges blunter than `crease`.
     std::vector<std::array<glm::vec3, 3>> smooth_normals;
     // By triangle, one bit per Region (closest.hpp): set for corners at which a crease ends and for edges
     // that are creases, where no smooth surface is defined.

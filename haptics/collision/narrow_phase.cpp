@@ -67,13 +67,13 @@ struct PoseMatrix {
 // Queries the samples of one solid against the surface of the other.
 class SurfaceQueryPass {
   public:
-    SurfaceQueryPass(const CollisionWorld& world, const Body& body, std::uint32_t pair, const Solid& tool,
-                     const SurfaceSamples& samples, const Solid& surface, const TriangleOctree& octree,
-                     const Pose& to_surface, const Pose& to_assembly, bool of_tool, double band,
-                     ContactCollector& collected)
+    SurfaceQueryPass(const CollisionWorld& world, const Body& body, std::uint32_t body_index,
+                     const Solid& tool, const SurfaceSamples& samples, const Solid& surface,
+                     const TriangleOctree& octree, const Pose& to_surface, const Pose& to_assembly,
+                     bool of_tool, double band, ContactCollector& collected)
         : world_(world),
           body_(body),
-          pair_(pair),
+          body_index_(body_index),
           tool_(tool),
           samples_(samples),
           surface_(surface),
@@ -97,12 +97,12 @@ class SurfaceQueryPass {
     bool resolve(const DeferredContact& one, SurfaceQueryCache& cache, Contact& contact) const {
         const Vec3 at = to_surface_ * samples_.samples[one.sample].at;
         const OctreeQuery octree_query = query(octree_, at);
-        std::array<SeparatingPlane, 1> side;
-        const auto near = query_listed(surface_, octree_, octree_query, at, band_, side);
+        std::array<SeparatingPlane, 1> plane;
+        const auto near = query_listed(surface_, octree_, octree_query, at, band_, plane);
         if (!near) return false;
         store_bound(cache, one.sample, at, near->distance, one.accumulated);
         if (near->planes == 0) return false;
-        contact = contact_of(one.sample, at, side[0]);
+        contact = contact_of(one.sample, at, plane[0]);
         return true;
     }
 
@@ -288,17 +288,18 @@ class SurfaceQueryPass {
         store_bound(cache, index, at, distance, accumulated);
         for (std::size_t i = 0; i < near.planes; ++i) collected_.add(contact_of(index, at, planes[i]));
     }
-    [[nodiscard]] Contact contact_of(std::uint32_t index, const Vec3& at, const SeparatingPlane& side) const {
-        const Vec3 on_surface = to_assembly_ * side.point;
+    [[nodiscard]] Contact contact_of(std::uint32_t index, const Vec3& at,
+                                     const SeparatingPlane& plane) const {
+        const Vec3 on_surface = to_assembly_ * plane.point;
         const Vec3 on_sample = to_assembly_ * at;
-        const Vec3 normal = to_assembly_.turned(side.normal);
+        const Vec3 normal = to_assembly_.turned(plane.normal);
         return {.on_tool = of_tool_ ? on_sample : on_surface,
                 .on_obstacle = of_tool_ ? on_surface : on_sample,
                 .normal = of_tool_ ? normal : -normal,
-                .distance = side.distance,
-                .obstacle = obstacle_at(index, side.triangle),
+                .distance = plane.distance,
+                .obstacle = obstacle_at(index, plane.triangle),
                 .feature = of_tool_ ? index : index | of_obstacle,
-                .triangle = side.triangle};
+                .triangle = plane.triangle};
     }
     [[nodiscard]] ObstacleId obstacle_at(std::uint32_t index, std::uint32_t triangle) const {
         return obstacle_of(world_, body_, of_tool_ ? triangle : samples_.samples[index].triangle);
@@ -319,7 +320,7 @@ class SurfaceQueryPass {
                                  .obstacle = obstacle_at(index, octree_.triangles[octree_query.leaf->begin]),
                                  .sample = index,
                                  .accumulated = accumulated,
-                                 .body = pair_,
+                                 .body = body_index_,
                                  .of_tool = of_tool_});
     }
 
@@ -354,7 +355,7 @@ class SurfaceQueryPass {
 
     const CollisionWorld& world_;
     const Body& body_;
-    std::uint32_t pair_;
+    std::uint32_t body_index_;
     const Solid& tool_;
     const SurfaceSamples& samples_;
     const Solid& surface_;
@@ -409,10 +410,10 @@ ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& t
     const auto surface_pass = [&](std::size_t i, bool of_tool, const Pose& to_body, const Pose& to_tool) {
         const Body& body = world.bodies[i];
         const CollisionShape& shape = world.shapes[body.shape];
-        const auto pair = static_cast<std::uint32_t>(i);
-        return of_tool ? SurfaceQueryPass(world, body, pair, tool.solid, tool.samples, shape.solid,
+        const auto index = static_cast<std::uint32_t>(i);
+        return of_tool ? SurfaceQueryPass(world, body, index, tool.solid, tool.samples, shape.solid,
                                           shape.octree, to_body, body.pose, true, band, collected)
-                       : SurfaceQueryPass(world, body, pair, tool.solid, shape.samples, tool.solid,
+                       : SurfaceQueryPass(world, body, index, tool.solid, shape.samples, tool.solid,
                                           tool.octree, to_tool, pose, false, band, collected);
     };
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {

@@ -16,8 +16,8 @@
 
 namespace bolt::collision {
 
-// A conservative distance bound, stored with the motion accumulated when it was computed. Subtract the motion
-// since then to get the bound that holds now.
+// A conservative bound plus the motion (PairCache) that was accumulated when the bound was computed. Subtract
+// the present accumulated motion to get the bound that holds now.
 struct DistanceBound {
     double lower;  // m: signed distance of a point, or `EdgeQueryResult::clear_distance` of an edge piece
     double turn;   // rad: `EdgeQueryResult::clear_turn`; infinite for points
@@ -37,7 +37,7 @@ struct CachedQuery {
 struct SurfaceQueryCache {
     std::vector<std::vector<DistanceBound>> levels;  // by level and cluster; valid for all samples in it
     std::vector<std::vector<CachedQuery>> level_queries;
-    std::vector<DistanceBound> samples;
+    std::vector<DistanceBound> samples;       // by sample
     std::vector<CachedQuery> sample_queries;  // by sample
     std::vector<EdgeCache> edges;             // by piece
 };

@@ -162,7 +162,7 @@ struct PointGathering {
     float query_radius2_float;  // square of Embree's search radius
     static constexpr double limit = std::numeric_limits<double>::infinity();
     Candidate nearest{limit, 0xffffffffU, 6, {}};
-    // Among coincident surfaces of several parts, the nearest that the point is inside of.
+    // Among coincident surfaces of several parts, the nearest with the point on its inner side.
     Candidate inside = nearest;
     std::array<Candidate, capacity> kept;
     std::size_t count = 0;

@@ -106,7 +106,8 @@ double angle_off(const Pose& tool, double corner, double period) {
     return wrap(std::atan2(x.y, x.x), period);
 }
 
-struct Hold {
+// A prism that is to fit a hole: a nut in a ring or socket, or a key in its socket.
+struct PrismInHole {
     HexagonHole hole;
     HexagonEdges prism;
     double corner = 0.0;  // rad, of a corner of the head to the tool's +X
@@ -114,7 +115,7 @@ struct Hold {
     bool hole_in_tool = true;
 };
 
-Hold hold_of(const Ring& ring, const HexagonPrism& prism) {
+PrismInHole prism_in_hole(const Ring& ring, const HexagonPrism& prism) {
     return {{0.5 * ring.opening, 0.0, flats_of(ring)},
             edges_of(prism),
             0.0,
@@ -122,34 +123,34 @@ Hold hold_of(const Ring& ring, const HexagonPrism& prism) {
             true};
 }
 
-Hold hold_of(const Key& key, const HexagonSocket& socket) {
+PrismInHole prism_in_hole(const Key& key, const HexagonSocket& socket) {
     return {hole_of(socket), edges_of(key), key_corner, sixth, false};
 }
 
 // The tool with its head turned in the ratchet so that it fits; without a ratchet as it is.
-Pose with_fitting_head(const Hold& hold, double tooth_angle, const Pose& tool) {
+Pose with_fitting_head(const PrismInHole& pair, double tooth_angle, const Pose& tool) {
     if (tooth_angle <= 0.0) return tool;
-    const double off = angle_off(tool, hold.corner, hold.period);
+    const double off = angle_off(tool, pair.corner, pair.period);
     return {tool.position, tool.orientation * glm::angleAxis(-off, Vec3(0, 0, 1))};
 }
 
 // A hole with 12 points is two hexagons. Chooses the one that is nearest to the nut.
-void choose_hexagon(Hold& hold, const Pose& tool) {
-    if (hold.period == sixth) return;
+void choose_hexagon(PrismInHole& pair, const Pose& tool) {
+    if (pair.period == sixth) return;
     const double off = angle_off(tool, 0.0, sixth);
-    if (std::abs(off) > 0.5 * twelfth) hold.hole.corner = twelfth;
+    if (std::abs(off) > 0.5 * twelfth) pair.hole.corner = twelfth;
 }
 
-HeadFit fit_of(Hold hold, double tooth_angle, const Pose& given) {
-    const Pose tool = with_fitting_head(hold, tooth_angle, given);
-    choose_hexagon(hold, tool);
-    HeadFit fit = fit_in_hole(hold.hole, hold.prism, hold.hole_in_tool ? inverse(tool) : tool);
-    fit.misalignment = -angle_off(tool, hold.corner, hold.period);
+HeadFit fit_of(PrismInHole pair, double tooth_angle, const Pose& given) {
+    const Pose tool = with_fitting_head(pair, tooth_angle, given);
+    choose_hexagon(pair, tool);
+    HeadFit fit = fit_in_hole(pair.hole, pair.prism, pair.hole_in_tool ? inverse(tool) : tool);
+    fit.misalignment = -angle_off(tool, pair.corner, pair.period);
     return fit;
 }
 
-// A contact between a point of the prism and a plane of the hole, or two levels, in the hole's frame.
-// `out`: unit normal of the plane, away from the prism.
+// A contact between a point of the prism and a plane of the hole, in the hole's frame: a wall, the floor or
+// the shoulder. `out`: unit normal of the plane, away from the prism.
 struct HoleContact {
     Vec3 point{0.0}, out{0.0};
     double distance = 0.0;
@@ -166,17 +167,17 @@ struct HoleContacts {
 };
 
 // The nearest corner at each wall, at both ends of the edges.
-void add_wall_contacts(const Hold& hold, const Pose& to_hole, double band, HoleContacts& out) {
+void add_wall_contacts(const PrismInHole& pair, const Pose& to_hole, double band, HoleContacts& out) {
     std::array<HoleContact, 12> nearest;
     nearest.fill({{}, {}, 1e9, 0});
     for (int edge = 0; edge < 6; ++edge) {
-        const auto inside = edge_in_hole(hold.hole, hold.prism, to_hole, edge);
+        const auto inside = edge_in_hole(pair.hole, pair.prism, to_hole, edge);
         if (!inside) continue;
         for (const bool high : {false, true}) {
             const Vec3& point = high ? inside->high : inside->low;
             for (std::uint32_t wall = 0; wall < 6; ++wall) {
-                const Vec3 normal = direction(hold.hole.corner + (wall + 0.5) * sixth);
-                const double distance = hold.hole.apothem - glm::dot(normal, point);
+                const Vec3 normal = direction(pair.hole.corner + (wall + 0.5) * sixth);
+                const double distance = pair.hole.apothem - glm::dot(normal, point);
                 HoleContact& best = nearest[2 * wall + (high ? 1 : 0)];
                 if (distance < best.distance) best = {point, normal, distance, 2 * wall + (high ? 1U : 0U)};
             }
@@ -185,8 +186,8 @@ void add_wall_contacts(const Hold& hold, const Pose& to_hole, double band, HoleC
     for (const HoleContact& one : nearest) out.add(one, band);
 }
 
-// Six points of a level ring of the prism, at `height` in its own frame, against the level `floor` of the
-// hole.
+// Six points on a circle about the prism's axis, at `height` in its own frame, against the plane z = `floor`
+// of the hole.
 void add_floor_contacts(double radius, double height, double floor, const Vec3& out_of_hole,
                         const Pose& to_hole, double band, HoleContacts& out) {
     for (std::uint32_t k = 0; k < 6; ++k) {
@@ -195,19 +196,19 @@ void add_floor_contacts(double radius, double height, double floor, const Vec3& 
     }
 }
 
-std::size_t contacts_in_hole(const GripQuery& query, const Hold& hold, const Pose& tool, const Pose& shape,
-                             std::span<Contact, max_grip_contacts> out) {
-    const Pose& hole_frame = hold.hole_in_tool ? tool : shape;
-    const Pose to_hole = hold.hole_in_tool ? inverse(tool) * shape : inverse(shape) * tool;
+std::size_t contacts_in_hole(const GripQuery& query, const PrismInHole& pair, const Pose& tool,
+                             const Pose& shape, std::span<Contact, max_grip_contacts> out) {
+    const Pose& hole_frame = pair.hole_in_tool ? tool : shape;
+    const Pose to_hole = pair.hole_in_tool ? inverse(tool) * shape : inverse(shape) * tool;
     HoleContacts found;
-    add_wall_contacts(hold, to_hole, query.band, found);
+    add_wall_contacts(pair, to_hole, query.band, found);
     if (const Ring* ring = std::get_if<Ring>(&query.head); ring != nullptr && ring->closed_above) {
         const auto& prism = std::get<HexagonPrism>(query.shape);
         add_floor_contacts(0.5 * prism.bearing, prism.height, ring->high, {0, 0, 1}, to_hole, query.band,
                            found);
     }
     if (const Key* key = std::get_if<Key>(&query.head))
-        add_floor_contacts(corner_radius(key->width) - key->chamfer, key->tip, hold.hole.flats.low,
+        add_floor_contacts(corner_radius(key->width) - key->chamfer, key->tip, pair.hole.flats.low,
                            {0, 0, -1}, to_hole, query.band, found);
     for (std::size_t i = 0; i < found.count; ++i) {
         const HoleContact& one = found.all[i];
@@ -215,9 +216,9 @@ std::size_t contacts_in_hole(const GripQuery& query, const Hold& hold, const Pos
         const Vec3 on_wall = point + one.distance * outward;
         Contact& c = out[i];
         c = {};
-        c.on_tool = hold.hole_in_tool ? on_wall : point;
-        c.on_obstacle = hold.hole_in_tool ? point : on_wall;
-        c.normal = hold.hole_in_tool ? outward : -outward;
+        c.on_tool = pair.hole_in_tool ? on_wall : point;
+        c.on_obstacle = pair.hole_in_tool ? point : on_wall;
+        c.normal = pair.hole_in_tool ? outward : -outward;
         c.distance = one.distance;
         c.obstacle = query.obstacle;
         c.feature = one.feature;
@@ -225,8 +226,7 @@ std::size_t contacts_in_hole(const GripQuery& query, const Hold& hold, const Pos
     return found.count;
 }
 
-// Sectors of a wall around a hole. `flanks`: angles of the normals of the flats in each sector, relative to
-// its beginning.
+// The wall around a hole, which is divided into convex sectors.
 struct WallShape {
     double apothem = 0.0, outside = 0.0;  // m; the outside as a diameter
     Range range;
@@ -335,10 +335,10 @@ double grip_height(const ToolHead& head, const TurnedShape& shape) {
 
 HeadFit head_fit(const ToolHead& head, const TurnedShape& shape, const Pose& tool) {
     if (const auto* key = std::get_if<Key>(&head))
-        return fit_of(hold_of(*key, std::get<HexagonSocket>(shape)), key->tooth_angle, tool);
+        return fit_of(prism_in_hole(*key, std::get<HexagonSocket>(shape)), key->tooth_angle, tool);
     const auto& prism = std::get<HexagonPrism>(shape);
     if (const auto* ring = std::get_if<Ring>(&head))
-        return fit_of(hold_of(*ring, prism), ring->tooth_angle, tool);
+        return fit_of(prism_in_hole(*ring, prism), ring->tooth_angle, tool);
     return jaw_fit(std::get<Jaw>(head), prism, tool);
 }
 
@@ -394,14 +394,15 @@ std::size_t grip_contacts(const GripQuery& query, const Pose& tool, const Pose& 
     if (std::holds_alternative<Jaw>(query.head))
         return solid_contacts(query.solids, tool, shape, query.band, query.obstacle, out);
     const Key* key = std::get_if<Key>(&query.head);
-    Hold hold = key != nullptr ? hold_of(*key, std::get<HexagonSocket>(query.shape))
-                               : hold_of(std::get<Ring>(query.head), std::get<HexagonPrism>(query.shape));
-    const Pose in_shape = with_fitting_head(hold, tooth_angle(query.head), inverse(shape) * tool);
+    PrismInHole pair = key != nullptr
+                           ? prism_in_hole(*key, std::get<HexagonSocket>(query.shape))
+                           : prism_in_hole(std::get<Ring>(query.head), std::get<HexagonPrism>(query.shape));
+    const Pose in_shape = with_fitting_head(pair, tooth_angle(query.head), inverse(shape) * tool);
     const Pose turned = shape * in_shape;
-    choose_hexagon(hold, in_shape);
-    const HeadFit fit = fit_in_hole(hold.hole, hold.prism, hold.hole_in_tool ? inverse(in_shape) : in_shape);
+    choose_hexagon(pair, in_shape);
+    const HeadFit fit = fit_in_hole(pair.hole, pair.prism, pair.hole_in_tool ? inverse(in_shape) : in_shape);
     if (fit.surrounds(width_across_flats(query.head)))
-        return contacts_in_hole(query, hold, turned, shape, out);
+        return contacts_in_hole(query, pair, turned, shape, out);
     return solid_contacts(query.solids, turned, shape, query.band, query.obstacle, out);
 }
 

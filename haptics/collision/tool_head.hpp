@@ -82,7 +82,7 @@ Result<std::vector<Convex>> head_solids(const ToolHead& head);
 Result<std::vector<Convex>> shape_solids(const TurnedShape& shape);
 
 // Returns true if a point of the tool's mesh lies inside one of the solids of the head. Both are in the
-// tool's frame. A real head may be broader than its solids and has fillets.
+// tool's frame. Points of fillets, and of a head that is broader than its solids, can lie outside.
 bool covered(std::span<const Convex> head, const Vec3& point);
 
 // One query of the contacts between a head and a shape that the head can turn.
@@ -99,9 +99,9 @@ struct GripQuery {
 //
 // A jaw is always tested with solid_contacts(). So is a ring, a socket or a key until all six edges of the
 // hexagon reach into the hole. From then on the hole, which is convex, is tested in closed form: the hexagon
-// touches no wall if none of its corners is beyond a wall. For each wall, and for each end of the edges
-// within the hole, the contact of the nearest corner is written. Six more points test the shoulder of a
-// socket or the floor under a key.
+// touches no wall if none of its corners is beyond a wall. Each wall gets two contacts, one at each end of
+// the edges within the hole: that of the nearest corner. Six more points test the shoulder of a socket or the
+// floor under a key.
 std::size_t grip_contacts(const GripQuery& query, const Pose& tool, const Pose& shape,
                           std::span<Contact, max_grip_contacts> out);
 

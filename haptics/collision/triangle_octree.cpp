@@ -162,23 +162,23 @@ class OctreeBuilder {
 TriangleOctree make_triangle_octree(const Solid& solid, double cell) {
     TriangleOctree octree;
     if (!(cell > 0.0)) return octree;
-    octree.root = cell * (1 << levels);
-    octree.per_root = 1.0 / octree.root;
+    octree.root_size = cell * (1 << levels);
+    octree.inverse_root_size = 1.0 / octree.root_size;
     for (std::size_t i = 0; i < octree.sizes.size(); ++i)
-        octree.sizes[i] = std::ldexp(octree.root, -static_cast<int>(i));
-    octree.low = solid.box.low - octree.root;
-    const Vec3 size = (solid.box.high - solid.box.low) / octree.root;
-    octree.rounding = 1e-6 * (1.0 + glm::length(solid.box.high - solid.box.low) + 8.0 * octree.root);
+        octree.sizes[i] = std::ldexp(octree.root_size, -static_cast<int>(i));
+    octree.low = solid.box.low - octree.root_size;
+    const Vec3 size = (solid.box.high - solid.box.low) / octree.root_size;
+    octree.rounding = 1e-6 * (1.0 + glm::length(solid.box.high - solid.box.low) + 8.0 * octree.root_size);
     for (int k = 0; k < 3; ++k)
-        octree.roots[static_cast<std::size_t>(k)] = static_cast<int>(std::ceil(size[k])) + 2;
-    const auto [nx, ny, nz] = octree.roots;
+        octree.root_counts[static_cast<std::size_t>(k)] = static_cast<int>(std::ceil(size[k])) + 2;
+    const auto [nx, ny, nz] = octree.root_counts;
     std::vector<std::vector<std::uint32_t>> candidates(static_cast<std::size_t>(nx * ny * nz));
     for (std::uint32_t t = 0; t < solid.corners.size(); ++t) {
         const auto& c = solid.corners[t];
         const Vec3 low(glm::min(glm::min(c[0], c[1]), c[2]));
         const Vec3 high(glm::max(glm::max(c[0], c[1]), c[2]));
-        const glm::ivec3 from((low - listing_distance - octree_rounding - octree.low) / octree.root);
-        const glm::ivec3 to((high + listing_distance + octree_rounding - octree.low) / octree.root);
+        const glm::ivec3 from((low - listing_distance - octree_rounding - octree.low) / octree.root_size);
+        const glm::ivec3 to((high + listing_distance + octree_rounding - octree.low) / octree.root_size);
         for (int z = std::max(0, from.z); z <= std::min(nz - 1, to.z); ++z)
             for (int y = std::max(0, from.y); y <= std::min(ny - 1, to.y); ++y)
                 for (int x = std::max(0, from.x); x <= std::min(nx - 1, to.x); ++x)
@@ -191,8 +191,8 @@ TriangleOctree make_triangle_octree(const Solid& solid, double cell) {
     for (int z = 0; z < nz; ++z)
         for (int y = 0; y < ny; ++y)
             for (int x = 0; x < nx; ++x, ++node)
-                builder.fill(node, candidates[node], octree.low + octree.root * (Vec3(x, y, z) + 0.5),
-                             octree.root, 0, infinite_distance);
+                builder.fill(node, candidates[node], octree.low + octree.root_size * (Vec3(x, y, z) + 0.5),
+                             octree.root_size, 0, infinite_distance);
     return octree;
 }
 
@@ -200,14 +200,13 @@ namespace {
 
 // Descends to the leaf that contains a point; the node is null outside the octree.
 OctreeCursor find_leaf(const TriangleOctree& octree, const Vec3& from_low) {
-    const Vec3 at = from_low * octree.per_root;
+    const Vec3 at = from_low * octree.inverse_root_size;
     for (int k = 0; k < 3; ++k)
-        if (!(at[k] >= 0.0 && at[k] < static_cast<double>(octree.roots[static_cast<std::size_t>(k)])))
+        if (!(at[k] >= 0.0 && at[k] < static_cast<double>(octree.root_counts[static_cast<std::size_t>(k)])))
             return {};
     const glm::ivec3 cell(at);
-    const OctreeNode* node =
-        &octree
-             .nodes[static_cast<std::size_t>((cell.z * octree.roots[1] + cell.y) * octree.roots[0] + cell.x)];
+    const OctreeNode* node = &octree.nodes[static_cast<std::size_t>(
+        (cell.z * octree.root_counts[1] + cell.y) * octree.root_counts[0] + cell.x)];
     // Index of the smallest cell within the root cell; its bits, from the highest, select the child at each
     // level.
     const glm::ivec3 fine((at - Vec3(cell)) * static_cast<double>(1 << levels));
@@ -220,7 +219,7 @@ OctreeCursor find_leaf(const TriangleOctree& octree, const Vec3& from_low) {
     const double size = octree.sizes[static_cast<std::size_t>(level)];
     const int rest = levels - level;
     const Vec3 whole(fine.x >> rest, fine.y >> rest, fine.z >> rest);
-    return {octree.root * Vec3(cell) + size * (whole + 0.5), 0.5 * size, node};
+    return {octree.root_size * Vec3(cell) + size * (whole + 0.5), 0.5 * size, node};
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ struct OctreeLeaf {
     double height = 0.0;
     float spread = 0.0F;
     bool front = false;  // the part of the cell in front of the plane is outside the solid
-    // All triangles belong to one part, and no triangle rises above the plane of another within
-    // listing_distance. A point outside the part then has exactly one separating plane.
+    // All triangles belong to one part, and none rises above another's plane (within listing_distance). A
+    // point outside the part then has exactly one separating plane.
     bool convex = false;
 };
 
@@ -38,11 +38,11 @@ struct OctreeNode {
 
 struct TriangleOctree {
     Vec3 low{0.0};                                  // m, lowest corner of the first root cell
-    double root = 0.0;                              // m, size of a root cell
-    double per_root = 0.0;                          // 1 / root
+    double root_size = 0.0;                         // m, of a root cell
+    double inverse_root_size = 0.0;                 // 1/m
     std::array<double, octree_levels + 1> sizes{};  // m, cell size by level
     double rounding = 0.0;                          // m; exceeds the error of points and distances in float
-    std::array<int, 3> roots{};                     // root cells along each axis; 0: the octree is empty
+    std::array<int, 3> root_counts{};               // root cells along each axis; 0: the octree is empty
     std::vector<OctreeNode> nodes;                  // root cells first, x fastest
     std::vector<OctreeLeaf> leaves;                 // the first is not used: index 0 means empty
     std::vector<std::uint32_t> triangles;

@@ -51,7 +51,7 @@ Result<CollisionWorld> make_world(std::span<const Obstacle> obstacles, const Wor
                         fmt::format("{} {} has no contact mesh", o.id.is_nut() ? "nut" : "fixed obstacle",
                                     o.id.index()),
                         "a mesh with triangles");
-        if (o.moves) continue;
+        if (o.own_body) continue;
         fixed.push_back(transformed(*o.mesh, o.pose));
         ids.push_back(o.id);
     }
@@ -63,7 +63,7 @@ Result<CollisionWorld> make_world(std::span<const Obstacle> obstacles, const Wor
     // Used for lookup only, so the order of addresses does not affect the result.
     std::map<const ContactMesh*, std::size_t> shapes;
     for (const Obstacle& o : obstacles) {
-        if (!o.moves) continue;
+        if (!o.own_body) continue;
         const auto [at, is_new] = shapes.try_emplace(o.mesh, world.shapes.size());
         if (is_new)
             if (const Status added = add_shape(world, {o.mesh, 1}, {}, options); !added)

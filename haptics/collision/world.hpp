@@ -33,7 +33,8 @@ struct Obstacle {
     ObstacleId id;                      // copied to its contacts
     const ContactMesh* mesh = nullptr;  // may be shared; must live until make_world returns
     Pose pose;                          // to the assembly
-    bool moves = false;                 // also true for a part that may be disabled or that overlaps others
+    // It gets a body of its own: necessary if it moves, may be disabled or overlaps others.
+    bool own_body = false;
 };
 
 struct WorldOptions {
@@ -45,7 +46,7 @@ struct CollisionShape {
     Solid solid;
     TriangleOctree octree;
     SurfaceSamples samples;
-    std::vector<ObstacleId> part_ids;  // of the fixed obstacles; empty for the shape of a moving body
+    std::vector<ObstacleId> part_ids;  // of the fixed obstacles; empty for the shape of any other body
 };
 
 struct Body {
@@ -63,7 +64,7 @@ struct CollisionWorld {
 // Fails if an obstacle has no mesh or its mesh has no triangles.
 Result<CollisionWorld> make_world(std::span<const Obstacle> obstacles, const WorldOptions& options = {});
 
-// The index in `bodies` of the moving body with this id.
+// The index in `bodies` of the body with this id; not of the fixed obstacles.
 std::optional<std::size_t> find_body(const CollisionWorld& world, ObstacleId id);
 
 // The obstacle that a triangle of a body's mesh belongs to.
