@@ -148,13 +148,16 @@ class SimulatedArmDevice final : public DeviceDriver {
     void jump(const Pose& pose) {
         ArmModel& arm = shared_->arm;
         arm.pose = pose;
-        arm.velocity = arm.angular_velocity = arm.intention_velocity = arm.intention_angular_velocity =
-            Vec3(0.0);
+        arm.velocity = arm.angular_velocity = Vec3(0.0);
         relax();
     }
 
-    // A hand that releases the handle stays at its pose.
-    void relax() { commanded_intention_ = shared_->arm.intention = shared_->arm.pose; }
+    // A hand that releases the handle, or is no longer measured, stays at the arm's pose.
+    void relax() {
+        ArmModel& arm = shared_->arm;
+        commanded_intention_ = arm.intention = arm.pose;
+        arm.intention_velocity = arm.intention_angular_velocity = Vec3(0.0);
+    }
 
     void advance() {
         ArmModel& arm = shared_->arm;

@@ -75,7 +75,8 @@ class SimulatedArm {
     SimulatedArm& operator=(SimulatedArm&&) noexcept;
     ~SimulatedArm();
 
-    // Call once a frame, from one thread. Never waits. After 0.25 s without a call the buttons are released.
+    // Call once a frame, from one thread. Never waits. After 0.25 s without a call the buttons are released
+    // and the gripper is open.
     void set_motion(const HandMotion& motion);
 
     // Devices that the factory opened may outlive the arm; their buttons are then released.

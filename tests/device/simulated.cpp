@@ -1,6 +1,7 @@
 // Devices without hardware: simulated, recorded, mouse and keyboard.
 #include <doctest/doctest.h>
 
+#include "haptics/device/simulated_arm.hpp"
 #include "haptics/device/virtual_devices.hpp"
 #include "tests/device/driver_contract.hpp"
 #include "tests/device/support.hpp"
@@ -200,4 +201,22 @@ TEST_CASE("Devices: simulated, recorded and virtual devices keep the driver cont
     test::check_driver_contract(recorded(test::arm(), forever, virtual_timer(time)), by_itself);
     VirtualPuck puck({}, virtual_timer(time));
     test::check_driver_contract(puck.factory(), [&] { puck.set_input({Vec3(1, 0, 0), Vec3(0, 1, 0), 1}); });
+}
+
+TEST_CASE("SimulatedArm: a hand that is no longer measured stops where the arm is") {
+    VirtualTime time;
+    SimulatedArm arm(simulated_arm_description(), simulated_arm_parameters(), virtual_timer(time));
+    const auto device = opened(arm.factory());
+    HandMotion motion;
+    for (int i = 0; i < 200; ++i) {  // the hand moves at 0.5 m/s
+        motion.target = Pose{Vec3(0.5e-3 * i, 0.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)};
+        arm.set_motion(motion);
+        read_until(*device, time, time.now + 1e-3);
+    }
+    motion.target.reset();
+    arm.set_motion(motion);
+    const double lost_at = read_until(*device, time, time.now + 1e-3).back().pose.position.x;
+    const Sample rest = read_until(*device, time, time.now + 2.0).back();
+    // The intended pose is the arm's pose in that moment; dry friction holds the arm within 0.05 N / 300 N/m.
+    CHECK(std::abs(rest.pose.position.x - lost_at) < 1e-3);
 }
