@@ -111,8 +111,8 @@ bool has_current_data(const Description& d, const DeviceLink& link) {
     return d.sensing == Sensing::pose || renders(d) ? link.fresh : link.usable;
 }
 
-// Factor on the angular velocity that a device senses: above 1 with fingers, and the lower the more torque
-// the wrench transmits, which is the only feedback of torque with such a device.
+// Factor on the angular velocity that a device senses. Above 1 with fingers. With a wrench it falls with the
+// transmitted torque; a device that senses velocity gives no other feedback of the torque.
 double angular_velocity_factor(const servo::Setup& setup, const StationState& s) {
     if (s.output.joint < 0) return 1.0;
     if (s.input.grip == servo::Grip::fingers) return finger_velocity_factor;
@@ -406,8 +406,12 @@ DeviceCommands pause_tick(const DeviceLayout& layout, const servo::Setup& setup,
     s.stopped_in_pause = merge_buttons(layout, s, inputs, elapsed).stop;
     if (layout.mover) move_by_mover(layout, setup, s, inputs.mover, inputs.controls.view, true, elapsed);
     if (layout.wheel) {
-        if (s.wheel.fresh) s.wheel_angle = inputs.wheel.sample.angle;
-        s.wheel.connection_number = inputs.wheel.connection_number;
+        // A reopened wheel may send its first sample after the pause; turn_by_wheel() must then detect the
+        // new connection.
+        if (s.wheel.fresh) {
+            s.wheel_angle = inputs.wheel.sample.angle;
+            s.wheel.connection_number = inputs.wheel.connection_number;
+        }
     }
     s.restarting = true;
     s.wheel_fade = s.mover.force_share = s.wheel.force_share = 0.0;

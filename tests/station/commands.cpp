@@ -49,6 +49,28 @@ TEST_CASE("Station: a pause renders no force and moves nothing; afterwards force
     }
 }
 
+TEST_CASE("Station: a wheel that is reopened in a pause turns the wrench from its new angle") {
+    DeviceLayout layout = with_arm();
+    layout.wheel = test::wheel_of(10.0);
+    Rig rig = on_nut(layout);
+    const Pose before = rig.tool();
+    rig.wheel_speaks = false;  // a wheel at rest sends nothing
+    rig.inputs.wheel.connection_number = 2;
+    for (int i = 0; i < 10; ++i) {
+        ++rig.inputs.mover.number;
+        pause_tick(rig.layout, rig.setup, rig.state, rig.inputs);
+    }
+    rig.ticks(10);
+    rig.inputs.wheel.sample.angle = 1.0;  // the first sample of the new connection
+    ++rig.inputs.wheel.number;
+    rig.ticks(1);
+    CHECK(glm::length(turn_between(before.orientation, rig.tool().orientation)) < 1e-9);
+    rig.inputs.wheel.sample.angle = 1.1;
+    ++rig.inputs.wheel.number;
+    rig.ticks(1);
+    CHECK(glm::length(turn_between(before.orientation, rig.tool().orientation)) == doctest::Approx(0.1));
+}
+
 TEST_CASE(
     "Station commands: checkpoints are saved one a tick, a restore stays pending until the servo permits "
     "it") {
