@@ -14,8 +14,8 @@ constexpr double max_step = 3e-3;                       // m, of the spring's ce
 constexpr double early_begin = 0.05, early_end = 0.30;  // s of a level
 constexpr double late_begin = 0.60;                     // s; the late part lasts until the end of the level
 
-// A swing counts if it is larger than min_swing, the criterion of tests/stability, and than the swing that a
-// hand at rest causes on the spring by its tremor.
+// A swing counts if it is larger than min_swing (the criterion of tests/stability) and larger than the swing
+// that the tremor of a resting hand causes on the spring.
 constexpr double min_swing = 100e-6, tremor_force = 0.15;  // m, N
 constexpr double lasting_share = 0.3;                      // late swing as a share of the early swing
 constexpr double large_swing = 0.5e-3;  // m; a larger late swing counts whatever the early swing was
@@ -98,7 +98,7 @@ void begin_level(StiffnessTrial& t, const Vec3& position) {
 }
 
 // Positions and energy of a tick with a new sample.
-void record_sample(StiffnessTrial& t, const Vec3& position, double stored, double dt) {
+void record_sample(StiffnessTrial& t, const Vec3& position, double stored) {
     if (!t.moved_at && std::abs(glm::dot(position - t.centre, t.direction)) > visible_motion)
         t.moved_at = t.time;
     if (t.time >= early_begin && t.time < early_end) t.early.push_back(position);
@@ -110,7 +110,6 @@ void record_sample(StiffnessTrial& t, const Vec3& position, double stored, doubl
         t.late.push_back(position);
     }
     t.energy_before = stored;
-    t.time += dt;
 }
 
 }  // namespace
@@ -156,7 +155,9 @@ force::OutputCommand step(StiffnessTrial& t, const force::DeviceInput& given, do
     const Vec3 stretch = t.centre + t.offset - position;
     request.command.force = stiffness * stretch;
     request.stored_energy = stored_energy(stiffness, stretch);
-    if (at_full_force && given.fresh) record_sample(t, position, request.stored_energy, dt);
+    if (at_full_force && given.fresh) record_sample(t, position, request.stored_energy);
+    // Time passes without a sample too: an arm may send fewer than one a tick.
+    if (at_full_force) t.time += dt * (1.0 + given.missed);
     const force::OutputCommand command = force::render(t.limits, t.output_stage, input, request, dt);
     if (t.end != TrialEnd::none) return command;
     if (at_full_force && t.output_stage.watchdog.fault != force::Fault::none) {

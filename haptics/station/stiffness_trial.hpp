@@ -46,7 +46,7 @@ struct StiffnessTrial {
     std::optional<double> moved_at;  // s from the step until the handle moved visibly
     std::vector<Vec3> early, late;   // m, positions right after the step and at the end of the level
     double generated = 0.0;          // J that the spring has given to the hand in the late part
-    double energy_before = 0.0;      // J, stored at the last tick
+    double energy_before = 0.0;      // J, stored at the last sample
     bool has_centre = false;
 };
 

@@ -41,6 +41,7 @@ struct Bench {
     StiffnessTrial trial;
     double time = 0.0;           // s
     double largest_force = 0.0;  // N
+    int ticks_per_sample = 1;
 
     explicit Bench(const device::HandAndArmParameters& parameters, int late = 0,
                    const device::Description& description = announced())
@@ -51,7 +52,10 @@ struct Bench {
     // Returns the force, N.
     double tick(bool enabled) {
         force::DeviceInput input;
-        input.pose = device::encoder_pose(arm);
+        input.fresh = ticks_ % ticks_per_sample == 0;
+        if (input.fresh) sampled_ = device::encoder_pose(arm);
+        ++ticks_;
+        input.pose = sampled_;
         input.dead_man = enabled;
         const force::OutputCommand command = step(trial, input, dt);
         under_way_.push_back(command);
@@ -64,6 +68,8 @@ struct Bench {
 
   private:
     std::deque<force::OutputCommand> under_way_;
+    Pose sampled_;
+    int ticks_ = 0;
 };
 
 struct Measured {
@@ -90,6 +96,17 @@ TEST_CASE("Stiffness trial: a good arm renders all that it announces, with a fif
     CHECK(m.seconds == doctest::Approx(0.5 + stiffness_levels * stiffness_level_time).epsilon(0.01));
     REQUIRE(median_response(m.trial));
     CHECK(*median_response(m.trial) <= 5e-3);
+}
+
+TEST_CASE("Stiffness trial: levels and responses last as long on an arm that sends every second tick") {
+    Bench every_tick(arm_with(0.3, 12.0), 4), every_second(arm_with(0.3, 12.0), 4);
+    every_second.ticks_per_sample = 2;
+    for (Bench* bench : {&every_tick, &every_second})
+        while (bench->trial.level == 0 && bench->time < 5.0) bench->tick(true);
+    CHECK(every_second.time == doctest::Approx(every_tick.time).epsilon(0.01));
+    REQUIRE(every_second.trial.responses.size() == 1);
+    CHECK(every_second.trial.responses[0] >= every_tick.trial.responses[0]);
+    CHECK(every_second.trial.responses[0] <= every_tick.trial.responses[0] + 2.0 * dt);
 }
 
 TEST_CASE("Stiffness trial: the later the forces arrive, the lower the figure, and the response shows it") {
