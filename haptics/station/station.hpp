@@ -112,6 +112,7 @@ class Station {
     [[nodiscard]] const servo::Setup& setup() const;
     [[nodiscard]] hand::GloveDriver* glove();  // null: no glove, or a gloved hand uses it
     [[nodiscard]] servo::ServoThread& servo();
+    // Stops the servo; the device threads release the forces when its commands stop.
     void stop();
 
   private:
