@@ -12,7 +12,7 @@
 namespace bolt::device {
 
 struct ArmBackend {
-    std::string_view name;  // an arm's id is NAME:INDEX, or NAME:PLUG-IN:INDEX
+    std::string_view name;  // begins the ids of its arms: NAME:INDEX, or plugin:NAME_OF_PLUG_IN:INDEX
     // Returns the arms that are connected now. An absent library gives an empty list, not an error, because a
     // computer without an arm needs no library. A library that cannot be used is listed as an arm with an
     // error.

@@ -1,5 +1,5 @@
-// Lists the connected devices and opens them: HID devices (hidapi), and arms through their vendors'
-// libraries. The thread that opens a device must be the one that uses it.
+// Lists the connected devices and opens them: HID devices (hidapi), and arms (arms.hpp). The thread that
+// opens a device must be the one that uses it.
 #pragma once
 
 #include <optional>
@@ -30,8 +30,8 @@ struct ListedDevice {
     // HID device: its node, for example /dev/hidraw3; changes when the device is replugged. Arm: its library
     // or service.
     std::string path;
-    // An arm: VENDOR:INDEX, for example force-dimension:0. Others: VENDOR:PRODUCT[:SERIAL], for example
-    // 256f:c62e; #2 is appended for a second identical device.
+    // An arm: BACKEND:INDEX, for example force-dimension:0, or plugin:NAME:INDEX. Others:
+    // VENDOR:PRODUCT[:SERIAL], for example 256f:c62e; #2 is appended for a second identical device.
     std::string id;
     std::string name;
     DeviceKind kind = DeviceKind::other;

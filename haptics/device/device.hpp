@@ -77,7 +77,7 @@ struct Sample {
     Vec3 velocity{0.0};          // m/s; with Sensing::velocity
     Vec3 angular_velocity{0.0};  // rad/s
     double angle = 0.0;          // rad, right-handed about the axis; with Sensing::angle
-    std::uint32_t buttons = 0;   // bit i: button i is pressed
+    std::uint32_t buttons = 0;   // bit i: button i, from 0, is pressed
     double gripper = 1.0;        // 0 closed … 1 fully open; with Description::senses_gripper
     double time = 0.0;           // s, when it was read, on the caller's clock
 };

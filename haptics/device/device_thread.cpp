@@ -259,7 +259,8 @@ Result<DeviceThread> DeviceThread::start(DeviceFactory open, const DeviceThreadO
     try {
         shared->thread = std::jthread([s = shared.get()](const std::stop_token& stop) { s->run(stop); });
     } catch (const std::system_error& error) {
-        return fail(ErrorCode::failed, fmt::format("cannot start the device thread: {}", error.what()));
+        return fail(ErrorCode::failed, fmt::format("cannot start the device thread: {}", error.what()),
+                    "a system that permits another thread");
     }
     return DeviceThread(std::move(shared));
 }

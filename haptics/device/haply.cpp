@@ -123,7 +123,8 @@ class HaplyArm final : public DeviceDriver {
         try {
             thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
         } catch (const std::system_error& error) {
-            return fail(ErrorCode::failed, fmt::format("cannot start the arm's thread: {}", error.what()));
+            return fail(ErrorCode::failed, fmt::format("cannot start the arm's thread: {}", error.what()),
+                        "a system that permits another thread");
         }
         return {};
     }

@@ -98,6 +98,7 @@ Status can_open_hid(const std::filesystem::path& node) {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = fmt::format("cannot open {}: {}", node.string(), std::strerror(why));
+    error.expected = "a device that can be opened";
     if (why == EACCES || why == EPERM)
         error.expected = permission_remedy;
     else if (why == ENOENT || why == ENODEV || why == ENXIO) {

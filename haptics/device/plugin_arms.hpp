@@ -41,8 +41,9 @@ struct PluginArmOptions {
 // - permission: the arm must move by itself, and `may_move` is false;
 // - user: the user must act;
 // - wait: the arm still calibrates after 0.5 s. Without `unfinished_calibrations`, or with `may_move`, the
-// call waits instead. For user and wait, the arm stays open in `unfinished_calibrations` and continues its
-// calibration at the next opening.
+//   call does not return then, but waits up to 90 s.
+// With the needs user and wait, the arm stays open in `unfinished_calibrations` and continues its calibration
+// at the next opening.
 Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& options, Timer timer);
 
 }  // namespace bolt::device

@@ -93,7 +93,8 @@ double normalized_value(const ReportField& field, std::int64_t value);
 // One-bit fields of the Button page, sorted by button number.
 std::vector<ReportField> find_button_fields(const ReportDescriptor& descriptor);
 
-// Decodes a report without its id into `pressed` (bit i: button i). Returns false if it contains no buttons.
+// Decodes a report without its id into `pressed` (bit 0: HID button 1). Returns false if it contains no
+// buttons.
 bool decode_buttons(const std::vector<ReportField>& buttons, std::uint8_t id,
                     std::span<const std::uint8_t> report, std::uint32_t& pressed);
 

@@ -50,6 +50,7 @@ Error socket_error(const SocketAddress& address, const ErrorOfBoost& error) {
     Error result;
     result.code = ErrorCode::no_device;
     result.what = fmt::format("{}: {}", address.text(), error.message());
+    result.expected = "a service that answers at this address";
     return result;
 }
 

@@ -30,13 +30,14 @@ tl::unexpected<Error> port_lost(const char* what) {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = fmt::format("the glove's port is lost: {} ({})", what, std::strerror(errno));
+    error.expected = "an adapter that stays plugged in";
     error.lost = true;
     return fail(std::move(error));
 }
 
 tl::unexpected<Error> cannot_open(const std::filesystem::path& path) {
     const int why = errno;
-    std::string expected;
+    std::string expected = "a serial port that can be opened";
     if (why == EACCES || why == EPERM)
         expected = "a user in the port's group (usually dialout), or the udev rule in tools/udev";
     else if (why == ENOENT || why == ENXIO || why == ENODEV)
@@ -74,7 +75,8 @@ Result<SerialPort> SerialPort::open(const std::filesystem::path& path) {
     cfsetspeed(&settings, B115200);
     if (tcsetattr(file, TCSANOW, &settings) != 0)
         return fail(ErrorCode::no_device,
-                    fmt::format("{} cannot be set to 115200 baud: {}", path.string(), std::strerror(errno)));
+                    fmt::format("{} cannot be set to 115200 baud: {}", path.string(), std::strerror(errno)),
+                    "a port that supports 115200 baud");
     request_low_latency(file);
     tcflush(file, TCIOFLUSH);
     return serial;
