@@ -62,8 +62,8 @@ struct CalibrationResult {
 inline constexpr double poor_span = 12.0;
 inline constexpr double poor_noise = 3.0 * pi / 180.0;
 
-// Least-squares fit through the medians of the postures. Errors: flat hand or fist is missing, or a posture
-// has no samples.
+// Least-squares fit through the medians of the postures. Errors: flat hand or fist is missing, a posture has
+// no samples, or no sensor has readings in two postures.
 Result<CalibrationResult> calibrate(std::span<const PostureSamples> postures);
 
 // Parses the calibration file of the vendor's software: a title line, then a heading and four lines for each

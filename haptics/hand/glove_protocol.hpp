@@ -109,8 +109,8 @@ struct GloveHandshakeOptions {
     double rate = 80.0;          // requested samples per second
     double quiet_time = 0.06;    // s without a byte until streaming counts as stopped
     double reply_timeout = 0.3;  // s until a reply times out
-    int tries = 3;               // attempts per query
-    double quiet_timeout = 1.0;  // s until a line that keeps sending is rejected
+    int tries = 3;               // attempts per step
+    double quiet_timeout = 1.0;  // s until stop is repeated on a line that keeps sending, up to `tries` times
 };
 
 // The handshake with a glove: reads its identity and configures the stream.
