@@ -25,10 +25,10 @@ struct WorkspaceMap {
     double scale = 1.0;                 // m of the tool per m of the device
     double power_ratio = 1.0;           // power at the device / power at the tool
     double fade = 0.05;                 // s in which forces fade out and in with the clutch
-    // s. Finite: the mapping is absolute, for a tracked hand that the picture shows. This is the time
-    // constant with which WorkspaceState::centre decays to 0 and, while the lever arm is 0, tool_to_device
-    // decays to the identity. A wrench (lever arm > 0) keeps its orientation in the hand. Infinite: the
-    // mapping is relative, and both keep the values of realign().
+    // s, time constant with which WorkspaceState::centre decays to 0 and, while the lever arm is 0,
+    // tool_to_device decays to the identity. A wrench (lever arm > 0) keeps its orientation in the hand.
+    // Finite: the mapping is absolute, for a tracked hand that the picture shows. Infinite: the mapping is
+    // relative; centre and tool_to_device keep the values of realign().
     double return_time = std::numeric_limits<double>::infinity();
 };
 

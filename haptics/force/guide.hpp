@@ -76,7 +76,7 @@ struct GuidePath {
 // - over the target at several heights;
 // - around one side.
 // Returns the shortest free candidate. If none is free, returns the straight segment if it is free in spite
-// of its direction, otherwise an empty path. Queries `free` at most 100 times.
+// of its direction, otherwise an empty path. Queries `free` less than 200 times.
 GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree free);
 
 // The lowest height above the target, m, to which the tool may be led from its present position. A segment

@@ -51,7 +51,7 @@ struct WatchdogState {
     Fault fault = Fault::none;                        // reason for which the output is held at zero
     std::array<std::uint64_t, fault_kinds> counts{};  // occurrences of each fault
     std::uint64_t ticks_since_sample = 0;             // ticks since the last sample
-    std::uint64_t ticks_without_fault = 0;            // ticks since the last fault
+    std::uint64_t ticks_without_fault = 0;            // since the cause of `fault` has gone
     bool has_last = false;                            // `last` is valid
     Pose last;
     Motion motion;

@@ -144,7 +144,7 @@ struct JointDesign {
     double misfit = 5e-6;          // m, scale over which the seat closes (non-parallel faces, thread draw-in)
     double embedding_time = 5.0;   // s, time constant of embedding
     double prevailing_torque = 0;  // N·m, of a locking nut
-    bool locking_insert = false;   // a non-metallic insert (ISO 7040), which acts from its end on and wears
+    bool locking_insert = false;   // non-metallic (ISO 7040): acts once the bolt's end is in it, and wears
     double running_drag = 0.02;    // N·m, mean drag of the free thread; it fluctuates with the angle
     double start_gap = 0.0;        // m, nut face to seat when the nut is hand-started (angle 0)
     double nut_mass = 0.0;         // kg, of the turned part; 0: from its volume

@@ -59,8 +59,8 @@ PlasticCurve::LoadSlope PlasticCurve::at(double u) const {
 
 namespace {
 
-constexpr double gravity = 9.81;  // m/s²
-constexpr double steel_density = 7850.0;
+constexpr double gravity = 9.81;          // m/s²
+constexpr double steel_density = 7850.0;  // kg/m³
 
 // VDI 2230-1 table 5, shear-loaded joints, metres: thread; each of head and nut; each inner interface.
 struct EmbeddingFaces {
@@ -228,9 +228,9 @@ Stage stage_of(const MechanisticParameters& p, const MechanisticState& s, double
 }
 
 // The insert fills the last third of the nut (ours): the bolt's end reaches it when it has passed the metal
-// thread, and is through it after three pitches. The nut is hand-started at angle 0, so that the bolt's end
-// is then `start_gap` short of where it is with the nut on its seat. The wear between two uses is that of the
-// smallest torques that ISO 2320 allows at the first and the fifth removal.
+// thread, and is through it after three pitches. At angle 0 the nut is `start_gap` above its seat, so the
+// bolt's end is `start_gap` less deep in the nut than with the nut on its seat. The wear between two uses
+// follows from the smallest torques that ISO 2320 allows at the first and the fifth removal.
 void derive_insert(const JointDesign& design, MechanisticParameters& p) {
     const LockingNut* const nut = design.locking_insert ? locking_nut(design.thread.size.name) : nullptr;
     if (!nut) return;
@@ -241,9 +241,9 @@ void derive_insert(const JointDesign& design, MechanisticParameters& p) {
     p.insert_wear = std::pow(nut->least_off_5th / nut->least_off, 0.25);
 }
 
-// Draws from `random` only if the held part can turn, so that the random values of all other joints stay the
-// same. The bolt's weight rests on its head, or in its hole if the bolt is level. d/2 is our value between
-// these two friction radii.
+// Draws from `random` last, and only if the held part can turn, so that the other values of a joint stay the
+// same. The bolt's weight rests on its head, or in its hole if the bolt is level. The friction radius d/2 is
+// our value between the radii of head and hole.
 void derive_held_part(const JointDesign& design, Random& random, MechanisticParameters& p) {
     p.held_part_can_turn = design.counter_hold == CounterHold::second_wrench;
     if (!p.held_part_can_turn) return;

@@ -73,10 +73,10 @@ struct MechanisticParameters {
     double wear_early = 0.0;      // relative change of friction that saturates over the first re-uses
     double wear_early_uses = 1;
     double wear_per_use = 0.0;       // relative change of friction with every use, without end
-    double prevailing_torque = 0.0;  // N·m, in its first use
+    double prevailing_torque = 0.0;  // N·m, of a locking nut in its first use
     double insert_angle = 0.0;   // rad, nut angle at which the bolt's end reaches a locking insert; 0: none
-    double insert_ramp = 1.0;    // rad over which the bolt's end then enters it
-    double insert_wear = 1.0;    // factor on its torque with every use
+    double insert_ramp = 1.0;    // rad over which the bolt's end then enters the insert
+    double insert_wear = 1.0;    // factor on the insert's torque with every use
     double running_drag = 0.0;   // N·m, mean drag of the free thread
     double weight_lead = 0.0;    // N·m, weight of the nut along the lead; negative if it helps tightening
     double weight_friction = 0;  // N·m
@@ -92,7 +92,7 @@ struct MechanisticParameters {
 MechanisticParameters derive(const JointDesign& design, Random& random, double own_compliance = 0.0);
 
 struct MechanisticState {
-    double angle = 0.0;      // rad, nut from hand-started
+    double angle = 0.0;      // rad, of the nut; 0 where the hand starts it on its thread
     double plastic = 0.0;    // m, permanent elongation of the bolt, never falls
     double stripped = 0.0;   // m, travel of sheared nut threads, never falls
     double embedding = 0.0;  // m, flattened roughness, never falls

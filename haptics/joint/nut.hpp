@@ -53,8 +53,9 @@ struct NutMotion {
 // The drive of the nut: a spring with play between the angles of hand and nut.
 struct NutDrive {
     bool engaged = false;  // false: no drive
-    // rad. step_nut(): the nut's angle at the grip, plus the hand's rotation since. step_group(): the nut's
-    // rotation (JointState::rotation) at the grip, plus the hand's since.
+    // rad. step_nut(): the nut's angle when it was gripped, plus the hand's rotation since then.
+    // step_group(): the nut's rotation (JointState::rotation) when it was gripped, plus the hand's since
+    // then.
     double angle = 0.0;
     double half_play = 0.0;     // rad, backlash to either side
     double stiffness = 0.0;     // N·m/rad

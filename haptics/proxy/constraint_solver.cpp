@@ -169,8 +169,8 @@ Vec6 negative_gradient(const Problem& p) {
     return rhs;
 }
 
-// Derivative of the cost at the fraction t of a direction: the line slope_at_start + curvature · t, and what
-// the contacts add.
+// Derivative of the cost along a direction, at the fraction t of it: slope_at_start + curvature · t, plus the
+// contributions of the contacts.
 double slope(Problem& p, double slope_at_start, double curvature, double t) {
     double sum = slope_at_start + curvature * t;
     for (std::size_t k = 0; k < p.count; ++k) {

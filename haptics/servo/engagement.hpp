@@ -94,8 +94,8 @@ void settle_ratchet(const Wrench& wrench, double rotation, double play, Engageme
 Pose pose_in_nut_frame(const NutGeometry& nut, const joint::JointState& joint, const ToolPose& tool);
 
 // One tick. The head engages a nut that it can turn if the head surrounds the hexagon and the two are aligned
-// within the play. At that moment the flats of head and hexagon must overlap by the bevel of a jaw, or by
-// 0.5 mm for other heads. Releases the nut if the head no longer surrounds the hexagon or turns by more than
+// within the play. To engage, the flats of head and hexagon must overlap by at least Jaw::bevel, or by 0.5 mm
+// for other heads. Releases the nut if the head no longer surrounds the hexagon or turns by more than
 // a hand can turn in a tick, or if the command is not a pose. `rounded`, by joint: m
 // (joint::CornerGrip::rounded).
 void update_contact_engagement(const Setup& setup, std::span<const joint::JointState> joints,

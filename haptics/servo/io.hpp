@@ -77,7 +77,7 @@ struct Output {
     std::int16_t joint = -1;  // engaged joint; −1: none
     joint::Stage stage = joint::Stage::navigation;
     double wrench_torque = 0.0;  // N·m about the bolt's axis, tightening positive
-    double nut_angle = 0.0;      // rad, tightening positive; 0: the nut as started by hand
+    double nut_angle = 0.0;      // rad, tightening positive; 0 where the hand starts the nut on its thread
     double clamp = 0.0;          // clamp force, N
 
     std::int16_t slipped = -1;  // joint over whose corners the jaw slipped in this tick; −1: none

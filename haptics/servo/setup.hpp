@@ -35,8 +35,7 @@ struct NutGeometry {
     double socket_depth = 0.0;      // m, of the head's hexagonal socket; 0: the tool grips it from outside
     double head_diameter = 0.0;     // m, of a head with a socket
     std::size_t tool = 0;           // index in Setup::tools of the tool that turns it
-    // m, height above the bearing face of the tool's origin when the tool is on the nut; also that of the
-    // fingertips.
+    // m above the bearing face, at which the tool's origin, or the fingertips, are when they hold the nut.
     double grip_height = 0.0;
     double corner_pressure = 0.0;    // Pa at which the corners yield (haptics/joint/nut.hpp)
     double start_gap = 0.0;          // m from bearing face to seat at nut angle 0
@@ -74,8 +73,9 @@ collision::TurnedShape shape_of(const NutGeometry& nut);
 
 struct Wrench {
     collision::ToolHead head;
-    // rad between the handle and the direction of the head that aligns with a corner of the hexagon: the
-    // throat of a jaw. Turning an open-end wrench over mirrors it.
+    // rad from the handle to the direction of the head that points to a corner of a fitting hexagon; of a jaw
+    // the direction to the throat, which is parallel to two flats. Turning an open-end wrench over negates
+    // it.
     double head_angle = 0.0;
     double handle_length = 0.0;  // m
     double half_play = 0.0;      // rad of free rotation of the head on the hexagon, to either side
@@ -110,7 +110,7 @@ struct Setup {
     std::size_t tool = 0;  // index in `tools`
     Wrench wrench;
     double finger_stiffness = 5.0;   // N·m/rad
-    double finger_force = 65.0;      // N across the flats at which the fingertips slip
+    double finger_force = 65.0;      // N, sum of the tangential forces at which the fingertips slip
     double hold_stiffness = 1000.0;  // N/m between an engaged tool and the nut's centre
     double hold_torsion = 5.0;       // N·m/rad that keeps an engaged wrench square to the bolt
     force::TorqueRendering torque_rendering;

@@ -273,13 +273,13 @@ force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& commanded_tool,
                                       bool held, int engaged_joint) {
     update_nut_poses(setup, contact, joints, held);
-    const int in_jaw_before = contact.joint_in_tool;
+    const int in_tool_before = contact.joint_in_tool;
     if (engaged_joint >= 0)
         contact.joint_in_tool = engaged_joint;
     else if (contact.joint_in_tool >= 0 &&
              (!held || head_is_clear(setup, contact, static_cast<std::size_t>(contact.joint_in_tool))))
         contact.joint_in_tool = -1;
-    contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && contact.joint_in_tool == in_jaw_before;
+    contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && contact.joint_in_tool == in_tool_before;
     if (!held || !contact.in_hand) {
         contact.god_object = proxy::start_god_object(commanded_tool);
         contact.last_step = {};

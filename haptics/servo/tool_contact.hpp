@@ -28,7 +28,8 @@ struct ToolContactDescription {
     double friction_coefficient = 0.15;  // steel on painted iron with a film of oil
 };
 
-// The contacts of the last query with its pose and band: the head's with nuts first, then those of meshes.
+// The last query: its pose and band, and its contacts, first those of the head with nuts, then those of
+// meshes.
 struct ContactCache {
     // No nut has moved since the query, so the head's contacts are still valid.
     bool nuts_unchanged = false;

@@ -1,6 +1,6 @@
-// Vibration of a hand controller, computed from what a tick publishes. A controller renders no force; its
-// motor only hints at one, so vibration repeats what picture and sound show. Pure: no clock, no allocation,
-// no I/O; equal inputs give equal bits. docs/vibration.md has the table of cues.
+// Vibration of a hand controller, computed from what a tick publishes. A controller renders no force, and its
+// motor only suggests forces, so vibration repeats what picture and sound show. Pure: no clock, no
+// allocation, no I/O; equal inputs give equal bits. docs/vibration.md has the table of cues.
 //
 //   advance_vibration(state, options, input, dt);        // each tick
 //   if (const auto command = next_vibration(state, options)) ...   // each frame
