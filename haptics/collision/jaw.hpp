@@ -55,8 +55,8 @@ Result<Convex> hexagon(const HexagonPrism& prism);
 
 // The position of the head of a tool on a hexagon (tool_head.hpp), described for a jaw.
 struct HeadFit {
-    // rad, −30° … 30°, by which the jaw is turned off the hexagon, clockwise positive, seen against +Z: the
-    // direction that tightens a right-hand thread
+    // rad, −30° … 30°, by which the jaw is turned off the hexagon. Clockwise, seen from +Z, is positive: the
+    // direction that tightens a right-hand thread.
     double misalignment = 0.0;
     double overlap = 0.0;  // m, height over which the flats bear at each loaded corner
     // m along the flats from the axis to the two ends of the contact.

@@ -1,5 +1,5 @@
 // The needs of an arm before it can be used, such as the user's permission that the arm may move by itself.
-// The thread that shows the question and the thread that opens the arm share the permission.
+// The thread that asks the user and the thread that opens the arm share the permission.
 #pragma once
 
 #include <atomic>

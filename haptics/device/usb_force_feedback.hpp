@@ -1,8 +1,8 @@
 // USB force feedback (usage page "Physical Interface Device", PID) with one constant force: its messages, and
 // UsbForceFeedback, which sends them.
 //
-// Source: USB-IF, Device Class Definition for Physical Interface Devices 1.0. Deviations of real devices
-// follow Linux' hid-pidff.c.
+// Source: USB-IF, Device Class Definition for Physical Interface Devices 1.0. Where real
+// devices deviate, this code does as Linux' hid-pidff.c.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // Calibration of a glove: maps readings to angles by one linear fit per sensor, angle = gain × (raw −
-// offset), the form that the vendor's software uses. The fits come from postures of the trainee, which a
-// session guides, or from the vendor's calibration file.
+// offset), the form that the vendor's software uses. The fits come from postures through which a
+// CalibrationSession guides the trainee, or from the vendor's calibration file.
 //
 // Angles in rad. Flexion: 0 with the hand flat, positive towards the palm. Abduction: 0 with the fingers side
 // by side, positive apart; the thumb's is 0 at the index finger. Thumb roll: 0 in the palm's plane, positive

@@ -94,8 +94,8 @@ GodObjectState start_god_object(const Pose& pose);
 
 // Advances by one tick of `dt` (s). A motion is accepted in one of two cases. Either no point of the tool
 // travels further than the distance to the nearest obstacle, less the skin. Or no point travels further than
-// `stride`, and the query at the end of the motion finds no contact that is nearer than a fifth of the skin
-// and that the motion approached. A contact that the motion did not approach is tolerated if it was at most
+// `stride`, and the query at the end of the motion finds no contact that the motion has approached to less
+// than a fifth of the skin. A contact that the motion did not approach is tolerated if it was at most
 // 0.25 mm deep at the start, because the finder can have missed it there. Ignores a pose that is not finite.
 // Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,

@@ -68,7 +68,7 @@ struct Output {
     force::Fault fault = force::Fault::none;  // reason for which the output is zero
 
     Pose constrained_tool;       // pose that contacts permit, in the assembly's frame
-    std::uint16_t contacts = 0;  // contacts within the band of the tick's last query
+    std::uint16_t contacts = 0;  // contacts that the tick's last contact query has found
     // The obstacle in contact at the pose of the tick's last contact query. That pose can differ
     // from `constrained_tool`.
     collision::ObstacleId touched;

@@ -196,7 +196,7 @@ void place_tool(const DeviceLayout& layout, StationState& s, const Pose& tool) {
 }
 
 // +1 if the wheel's angle counts counter-clockwise as the user sees it, −1 otherwise. The user looks at the
-// wheel along −z or from above, and at a nut against the bolt's axis.
+// wheel along −z or from above, and at a nut from the side to which the bolt's axis points.
 double rotation_sense(const Description& wheel) {
     return glm::dot(wheel.axis, Vec3(0.0, 1.0, 1.0)) < 0.0 ? -1.0 : 1.0;
 }
