@@ -96,7 +96,7 @@ Result<joint::ThreadSize> read_thread(std::string_view text) {
         if (first_number(known) == first_number(normal_text)) same_diameter.push_back(std::move(known));
     const std::string best = nearest_name(normal_text, same_diameter);
     return fail(ErrorCode::bad_content, fmt::format("{} is not a known thread size", in_quotes(text)),
-                best.empty() ? "one of M4 to M39, a fine pitch as in \"M16x1.5\""
+                best.empty() ? "M4 to M39, or a fine thread such as \"M16x1.5\""
                              : fmt::format("did you mean {}?", in_quotes(best)));
 }
 

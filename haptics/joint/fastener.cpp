@@ -158,7 +158,7 @@ Result<ThreadSize> parse_thread(std::string_view text) {
                     fmt::format("{} with a pitch of {} mm", name, pitches_text(size)));
     }
     return unknown(fmt::format("\"{}\" is not a known thread size", text), text, thread_names(),
-                   "one of M4 to M39, a fine pitch as in \"M16x1.5\"");
+                   "M4 to M39, or a fine thread such as \"M16x1.5\"");
 }
 
 std::vector<std::string> property_class_names() {

@@ -85,7 +85,7 @@ TEST_CASE("Errors: a thread in another notation gives the correct spelling, neve
     for (const char* unknown :
          {"M9", "M7x1", "M1 6", "M13 x 1.75", "M88", "M1O", "M", "", "x", "M12.5", "16M"}) {
         CAPTURE(unknown);
-        CHECK(expected(unknown) == "one of M4 to M39, a fine pitch as in \"M16x1.5\"");
+        CHECK(expected(unknown) == "M4 to M39, or a fine thread such as \"M16x1.5\"");
     }
 }
 

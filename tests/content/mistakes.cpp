@@ -20,7 +20,7 @@ struct FileMistake {
 // clang-format off
 const FileMistake mistakes[] = {
     {R"("size": "M8")", R"("size": "M9")",
-     {R"(22:15: /joint_types/M8x30/size: "M9" is not a known thread size; expected one of M4 to M39, a fine pitch as in "M16x1.5")"}},
+     {R"(22:15: /joint_types/M8x30/size: "M9" is not a known thread size; expected M4 to M39, or a fine thread such as "M16x1.5")"}},
     {R"("size": "M8")", R"("size": "M8x1.2")",
      {R"(22:15: /joint_types/M8x30/size: "M8x1.2" is not a known thread; expected M8 with a pitch of 1.25, 1 or 0.75 mm)"}},
     {R"("size": "M8")", R"("size": "M8x1-LH")",
