@@ -269,11 +269,14 @@ WorkPhase phase(Situation s) {
         case Situation::pull_to_click:
         case Situation::pull_to_click_by_adaptor:
         case Situation::check:
+        case Situation::turn_on:
         case Situation::break_loose:
         case Situation::unscrew:
+        case Situation::turn_back:
             return WorkPhase::work;
         case Situation::ease:
         case Situation::ease_to_yield:
+        case Situation::ease_to_angle:
             return WorkPhase::end_of_work;
         default:
             return WorkPhase::approach;

@@ -130,6 +130,44 @@ TEST_CASE("Hints: the hint stays between two finger twists; a hand that stays aw
     CHECK(b.wait(1.0)->situation == Situation::grip_nut);
 }
 
+TEST_CASE("Hints: in steps by angle the hint stays between two strokes") {
+    Bench on;
+    on.by_angle();
+    on.near(0);
+    on.wait(4.0);
+    for (int stroke = 0; stroke < 3; ++stroke) {
+        on.turn_by(0, 10.0);
+        CHECK(on.wait(0.6)->situation == Situation::turn_on);
+        on.idle();
+        CHECK(on.wait(0.8)->situation == Situation::turn_on);
+    }
+    CHECK(on.wait(1.0)->situation == Situation::set_on_again);
+
+    Bench back(Mode::guided, content::Strategy::torque, Task::loosen);
+    back.turned_back();
+    back.wrench = true;
+    back.near(1);
+    back.wait(4.0);
+    for (int stroke = 0; stroke < 3; ++stroke) {
+        back.turn_by(1, -10.0, -50.0);
+        CHECK(back.wait(0.6)->situation == Situation::turn_back);
+        back.idle();
+        CHECK(back.wait(0.8)->situation == Situation::turn_back);
+    }
+    CHECK(back.wait(1.0)->situation == Situation::set_on_again);
+}
+
+TEST_CASE("Hints: near the step's angle the request to pull gently soon replaces the one to turn on") {
+    Bench b;
+    b.by_angle();
+    b.near(0);
+    b.wait(4.0);
+    b.turn_by(0, 30.0);
+    REQUIRE(b.wait(0.3)->situation == Situation::turn_on);
+    b.tick(0, Grip::wrench, 50.0, to_radians(15.0) / 1e-3);
+    CHECK(b.wait(min_duration_when_fulfilled + 0.1)->situation == Situation::ease_to_angle);
+}
+
 TEST_CASE("Hints: with rapidly changing situations the hint is updated after some seconds") {
     Searching b;
     b.wait(4.0);
