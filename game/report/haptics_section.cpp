@@ -193,9 +193,9 @@ void put_servo(std::string& out, const analysis::SessionData& s) {
     put(out, "<p>{} {}</p>\n",
         faults.empty() ? "The output was never switched off."
                        : "The output was switched off: " + plot::escape(faults) + ".",
-        f.timing ? "The servo ran on a thread: " + plot::escape(f.servo_text) + "."
-                 : "There are no wake-up, compute and period times: the servo ran in " +
-                       plot::escape(f.servo_text) + ".");
+        f.timing
+            ? "The servo ran on a thread: " + plot::escape(f.servo_text) + "."
+            : "There are no wake-up, compute and period times. Servo: " + plot::escape(f.servo_text) + ".");
     if (!f.timing) return;
     out +=
         "<div class=\"scroll\"><table><thead><tr><th>µs</th><th class=\"n\">median</th><th class=\"n\">99 "

@@ -167,7 +167,10 @@ TEST_CASE("Haptics section: shows all metrics, and names those that an old sessi
     CHECK(has("✓ even"));
     CHECK(has("7.5\u00a0%"));
     CHECK(has("casing &lt;upper&gt;"));
-    CHECK(has("There are no wake-up, compute and period times"));
+    CHECK(has("There are no wake-up, compute and period times. Servo: virtual time."));
+    session.metrics.servo_text = session::servo_text(1000.0);
+    html = haptics_section(session);
+    CHECK(has("There are no wake-up, compute and period times. Servo: 1000 Hz."));
     session.metrics.timing.emplace();
     servo::add(session.metrics.timing->wake_up, 12'000);
     session.metrics.force.at_limit = 2;
