@@ -167,7 +167,7 @@ struct WayOut {
     double length = 0.0;
 };
 
-// The box around all obstacles and what a wrench at its faces needs to turn, m.
+// The box around all obstacles, enlarged by the room that a wrench needs to turn at its faces, m.
 collision::BoundingBox box_to_go_around(const FreeSpace& space) {
     collision::BoundingBox box{Vec3(1e9), Vec3(-1e9)};
     for (const collision::Body& body : space.contact.world.bodies) {
@@ -277,11 +277,12 @@ ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contac
     return path_over(lifts.back());
 }
 
-GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
-                      const joint::JointState& state, double preferred, double sign, double stroke) {
+HandleAngle choose_handle_angle(const servo::Setup& setup, const servo::ToolContact* contact,
+                                std::size_t joint, const joint::JointState& state, double preferred,
+                                double sign, double stroke) {
     std::optional<FreeSpace> space;
     if (contact != nullptr) space.emplace(setup, *contact);
-    GripAngle best;
+    HandleAngle best;
     double lowest_cost = 1e9;
     const double period = collision::fitting_angle(setup.wrench.head);
     const double step = std::max(period, pi / 6.0);
@@ -311,10 +312,10 @@ GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* conta
 }
 
 double hover_height(const servo::Setup& setup, const servo::ToolContact& contact, std::size_t joint,
-                    double nut_angle, const GripAngle& grip, double max_height) {
+                    double nut_angle, const HandleAngle& handle, double max_height) {
     const FreeSpace space(setup, contact);
     const servo::NutGeometry& nut = setup.nuts[joint];
-    const Quat held = tool_orientation(nut, grip.handle, grip.flipped);
+    const Quat held = tool_orientation(nut, handle.angle, handle.flipped);
     for (double above = max_height; above > min_hover_height; above -= hover_height_step) {
         const Pose pose{servo::nut_centre(nut, nut_angle) + above * nut.axis, held};
         if (space.step_is_free(pose, pose, 0.5 * hover_height_step)) return above;

@@ -57,22 +57,24 @@ struct ReachPath {
 ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contact, const Pose& from,
                      const Pose& to, const Vec3& up, double min_bulge);
 
-struct GripAngle {
-    double handle = 0.0;  // rad about the bolt, tightening positive
+// The angle at which a wrench sits on a nut.
+struct HandleAngle {
+    double angle = 0.0;  // rad about the bolt, tightening positive
     bool flipped = false;
-    double free_swing = 0.0;  // rad by which the handle can swing from there
+    double free_swing = 0.0;  // rad by which the handle can swing from there, at least 15°
 };
 
-// Chooses among the angles at which the jaw fits (every 60°, and 30° between these with the wrench flipped)
-// the one nearest to `preferred` with room for a pull of `stroke` rad in the direction of `sign` (tightening
-// positive) and for the approach. Without obstacles every angle has room. `state`: of the joint.
-GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
-                      const joint::JointState& state, double preferred, double sign, double stroke);
+// Chooses among the angles at which the head fits, also with the wrench flipped, the one nearest to
+// `preferred` with room for a pull of `stroke` rad in the direction of `sign` (tightening positive) and for
+// the approach. Without obstacles every angle has room. `state`: of the joint.
+HandleAngle choose_handle_angle(const servo::Setup& setup, const servo::ToolContact* contact,
+                                std::size_t joint, const joint::JointState& state, double preferred,
+                                double sign, double stroke);
 
 // Height above the nut, m, at which a wrench waits before it is lowered: `max_height`, or less if an obstacle
 // is above the nut.
 double hover_height(const servo::Setup& setup, const servo::ToolContact& contact, std::size_t joint,
-                    double nut_angle, const GripAngle& grip, double max_height);
+                    double nut_angle, const HandleAngle& handle, double max_height);
 
 // Limits how far the hand leads a blocked wrench, because the force of a hand is limited.
 Pose give_way_to_wrench(const Pose& commanded, const Pose& wrench);

@@ -208,10 +208,10 @@ std::vector<Postures> postures_of_tools(const servo::Setup& setup, const servo::
     return postures;
 }
 
-hand::Skeleton handle_posture(const Postures& postures, std::size_t grip, double effort) {
+hand::Skeleton handle_posture(const Postures& postures, std::size_t index, double effort) {
     const double share = 2.0 * std::clamp(effort, 0.0, 1.0);
-    return share < 1.0 ? interpolate(postures.relaxed.at(grip), postures.on_handle.at(grip), share)
-                       : interpolate(postures.on_handle.at(grip), postures.strained.at(grip), share - 1.0);
+    return share < 1.0 ? interpolate(postures.relaxed.at(index), postures.on_handle.at(index), share)
+                       : interpolate(postures.on_handle.at(index), postures.strained.at(index), share - 1.0);
 }
 
 hand::Skeleton pinch_posture(const Postures& postures, double effort) {

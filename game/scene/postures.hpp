@@ -39,8 +39,8 @@ struct Postures {
     double grip_distance = 0.0;  // m, from the jaw's centre along the handle
 };
 
-// The posture at an effort of 0 … 1. `grip`: index in Postures::on_handle.
-hand::Skeleton handle_posture(const Postures& postures, std::size_t grip, double effort);
+// The posture at an effort of 0 … 1. `index`: in Postures::on_handle.
+hand::Skeleton handle_posture(const Postures& postures, std::size_t index, double effort);
 hand::Skeleton pinch_posture(const Postures& postures, double effort);
 
 // The index in Postures::on_handle of the most comfortable posture for a shoulder position (m): back of the

@@ -155,8 +155,9 @@ void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& 
     constexpr double change = 0.07;        // s, time constant of a change of posture
     constexpr double max_tremor = 1.2e-3;  // m
     const hand::Skeleton goal = state.gloved != nullptr ? *state.gloved
-                                : state.wrench          ? handle_posture(postures, state.grip, state.effort)
-                                : state.pinches         ? pinch_posture(postures, state.effort)
+                                : state.wrench
+                                    ? handle_posture(postures, state.handle_posture_index, state.effort)
+                                : state.pinches ? pinch_posture(postures, state.effort)
                                                 : interpolate(postures.open, postures.on_nut, state.closing);
     world.view<SkinnedHand, Transform>().each(
         [&](ecs::Entity entity, SkinnedHand& fingers, Transform& transform) {
@@ -202,11 +203,11 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     held.fingers = glove != nullptr && !hand.palm
                        ? hand.rest
                        : frame_towards(hand.pose, wrist, -sense * wrist_share * hand.twisted);
-    held.grip = context.grip;
+    held.handle_posture_index = context.handle_posture_index;
     held.seconds = context.seconds;
     held.effort = context.effort;
     held.tremor = context.tremor;
-    held.gloved = glove != nullptr ? &glove->fingers : nullptr;
+    held.gloved = glove != nullptr ? &glove->joints : nullptr;
     held.solids = context.solids;
     place_fasteners(world, context.setup);
     place_second_wrench(world, context.setup);
@@ -223,11 +224,11 @@ void show_wrench_ghost(SceneWorld& world, std::size_t tool, const Pose& pose) {
     });
 }
 
-void show_hand_ghost(SceneWorld& world, const Pose& tool, const hand::Skeleton& posture) {
+void show_hand_ghost(SceneWorld& world, const Pose& at, const hand::Skeleton& posture) {
     world.view<GhostPart, SkinnedHand, Transform>().each(
         [&](GhostPart& ghost, SkinnedHand& fingers, Transform& transform) {
             ghost.shown = true;
-            transform.world = glm::mat4(matrix(tool));
+            transform.world = glm::mat4(matrix(at));
             if (fingers.deformation && max_distance(fingers.shown, posture) == 0.0) return;
             fingers.shown = posture;
             fingers.deformation = deform(fingers, posture);

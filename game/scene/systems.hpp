@@ -19,13 +19,13 @@ struct ToolAndHand {
     // Without a wrench: the measured pose of the joint hand::palm. It determines the drawn hand away from
     // nuts, `fingers` at a nut.
     std::optional<Pose> palm;
-    bool at_nut = false;   // a nut is within reach of the fingers
-    std::size_t grip = 0;  // index in Postures::on_handle
-    double seconds = 0.0;  // since the last frame; changes of posture are smoothed over time
-    double effort = 0.0;   // 0 … 1, Effort::share
-    double tremor = 0.0;   // −1 … 1, Effort::tremor
-    double closing = 0.0;  // 0 … 1, of the fingers of an empty hand
-    // The measured skeleton of a gloved hand in the frame of the wrench; null: no glove.
+    bool at_nut = false;                   // a nut is within reach of the fingers
+    std::size_t handle_posture_index = 0;  // in Postures::on_handle
+    double seconds = 0.0;                  // since the last frame; changes of posture are smoothed over time
+    double effort = 0.0;                   // 0 … 1, Effort::share
+    double tremor = 0.0;                   // −1 … 1, Effort::tremor
+    double closing = 0.0;                  // 0 … 1, of the fingers of an empty hand
+    // world::GloveHand::joints; null: no glove.
     const hand::Skeleton* gloved = nullptr;
     // The displayed hand stays out of these solids; null: no solids.
     const collision::CollisionWorld* solids = nullptr;
@@ -47,7 +47,7 @@ struct PlacementContext {
     const servo::Setup& setup;
     const Postures& postures;
     Vec3 shoulder;                                      // m, the worker's
-    std::size_t grip = 0;                               // index in Postures::on_handle
+    std::size_t handle_posture_index = 0;               // in Postures::on_handle
     double effort = 0.0, tremor = 0.0;                  // Effort
     double seconds = 0.0;                               // since the last frame
     const collision::CollisionWorld* solids = nullptr;  // ToolAndHand::solids
@@ -59,9 +59,10 @@ void placement_system(SceneWorld& world, const PlacementContext& context);
 // Width across flats of the widest nut, m.
 double widest_nut(const servo::Setup& setup);
 
-// Displays a transparent wrench at `tool`, or a transparent hand with the skeleton `posture` in that frame.
+// Displays a transparent wrench (`tool`: its index in servo::Setup::tools) or a transparent hand. `posture`:
+// in the frame of the tool, whose pose is `at`.
 void show_wrench_ghost(SceneWorld& world, std::size_t tool, const Pose& pose);
-void show_hand_ghost(SceneWorld& world, const Pose& tool, const hand::Skeleton& posture);
+void show_hand_ghost(SceneWorld& world, const Pose& at, const hand::Skeleton& posture);
 void hide_ghosts(SceneWorld& world);
 
 // Outlines the parts of a joint or of the tool; alpha 0 removes the outline.
@@ -83,7 +84,7 @@ render::Scene make_lit_scene(const Workplace& workplace, const render::Environme
 // remains.
 void destroy_drawables(SceneWorld& world);
 
-// Writes how hand, ghosts and arrows appear. Call before view::collect_objects().
+// Writes the Appearance of hand, ghosts, arrows and dial. Call before view::collect_objects().
 void appearance_system(SceneWorld& world);
 
 }  // namespace bolt::scene

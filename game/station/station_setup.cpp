@@ -345,14 +345,14 @@ device::WheelConfig apply_station(const content::StationFile& station, PlannedSt
 
 Pose initial_wrench_pose(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
                          const joint::JointState& state) {
-    const motion::GripAngle grip =
-        motion::choose_grip(setup, contact, joint, state, state.rotation(), 1.0, stroke);
+    const motion::HandleAngle handle =
+        motion::choose_handle_angle(setup, contact, joint, state, state.rotation(), 1.0, stroke);
     const servo::NutGeometry& nut = setup.nuts[joint];
     // Raises a head that is thicker than the nut, so that it does not penetrate the nut's seat.
     const double above =
         std::max(0.0, 0.5 * (collision::thickness(setup.wrench.head) - nut.height) + clearance);
     return {servo::nut_centre(nut, state.nut.angle) + above * nut.axis,
-            motion::tool_orientation(nut, grip.handle, grip.flipped)};
+            motion::tool_orientation(nut, handle.angle, handle.flipped)};
 }
 
 Result<PlannedStation> plan_station(const content::Assembly& assembly, const StationRequest& request) {

@@ -203,7 +203,7 @@ void begin_next_action(TraineeState& t) {
         t.handle_angle = t.random.uniform(0.0, 2.0 * pi);
         t.hover_height = default_hover;
     } else {
-        choose_grip_angle(t);
+        choose_handle_angle(t);
     }
     const double search_time = search_view(t);
     t.placement_error = random_placement_error(t);
@@ -243,22 +243,22 @@ void start_reach(TraineeState& t) {
     t.enter(Phase::reach, reach_duration(t) * t.random.uniform(0.85, 1.2));
 }
 
-void choose_grip_angle(TraineeState& t) {
+void choose_handle_angle(TraineeState& t) {
     const double sign = t.plan.loosening ? -1.0 : 1.0;
     // After repeated misses, catches or fruitless strokes the trainee tries from another side.
     const bool in_vain = t.consecutive_misses > max_misses || t.fruitless_strokes > max_fruitless ||
                          t.consecutive_catches > max_catches;
     const double other_side = in_vain ? t.random.uniform(-1.0, 1.0) * pi : 0.0;
-    const motion::GripAngle grip =
-        motion::choose_grip(*t.setup, t.obstacles(), t.plan.joint, t.joint(),
-                            t.nut().sense * 0.5 * pi - 0.5 * sign + other_side, sign, t.profile.stroke);
-    t.handle_angle = grip.handle + t.profile.angle_noise * t.random.normal();
-    t.flipped = grip.flipped;
-    t.free_swing = grip.free_swing;
+    const motion::HandleAngle handle = motion::choose_handle_angle(
+        *t.setup, t.obstacles(), t.plan.joint, t.joint(), t.nut().sense * 0.5 * pi - 0.5 * sign + other_side,
+        sign, t.profile.stroke);
+    t.handle_angle = handle.angle + t.profile.angle_noise * t.random.normal();
+    t.flipped = handle.flipped;
+    t.free_swing = handle.free_swing;
     t.hover_height = t.obstacles() == nullptr
                          ? default_hover
                          : motion::hover_height(*t.setup, *t.obstacles(), t.plan.joint, t.joint().nut.angle,
-                                                grip, default_hover);
+                                                handle, default_hover);
 }
 
 bool start_next_waypoint(TraineeState& t, Phase phase) {

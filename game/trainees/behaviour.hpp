@@ -161,7 +161,7 @@ constexpr double default_hover = 0.035;
 void begin_next_action(TraineeState& t);
 
 // Chooses the handle angle so that the stroke is centred on the trainee's side.
-void choose_grip_angle(TraineeState& t);
+void choose_handle_angle(TraineeState& t);
 
 // Moves the head to next_eye and starts the reach to the nut.
 void start_reach(TraineeState& t);
@@ -187,14 +187,15 @@ void spin(TraineeState& t, const Percept& felt);
 // These move the handle by one tick; the caller ends the phase. The wrench springs back before it is lifted;
 // a ratchet swings back on the nut, and the open fingers turn back for the next twist.
 void unload(TraineeState& t);
+void swing_back(TraineeState& t);
+void spin_back(TraineeState& t);
+
 // Puts the second wrench on plan.joint once the trainee sees that nut and bolt turn together, to and fro or
 // on and on.
 void see_common_turn(TraineeState& t);
 // Returns true if a ratchet can pull again without leaving the nut.
 bool pulls_again(const TraineeState& t);
-void swing_back(TraineeState& t);
 // At the end of a swing back: ends the plan if the ratchet has taken the nut back with it.
 void see_free_nut(TraineeState& t);
-void spin_back(TraineeState& t);
 
 }  // namespace bolt::trainees

@@ -34,7 +34,7 @@ void engage(TraineeState& t, const Pose& pose) {
             return;
         }
         t.placement_error = t.random_offset(0.7 * t.profile.position_noise);
-        choose_grip_angle(t);
+        choose_handle_angle(t);
         t.enter(Phase::engage, 0.15);
     }
 }

@@ -87,14 +87,15 @@ void choose_side(HelpedHand& hand, const servo::Setup& setup, const servo::State
     const Vec3 to_trainee = hand.rest.position - nut.seat;
     const double aside = (hand.misses % 2 == 1 ? 1.0 : -1.0) * to_radians(60.0) * (hand.misses / 2);
     const double wanted = servo::angle_of(nut, to_trainee) - 0.5 * sign * preferred_stroke + aside;
-    const auto grip = motion::choose_grip(setup, state.tool_contact ? &*state.tool_contact : nullptr,
-                                          *hand.nut, state.joints[*hand.nut], wanted, sign, preferred_stroke);
-    hand.handle_angle = grip.handle;
-    hand.flipped = grip.flipped;
-    hand.free_swing = grip.free_swing;
+    const auto handle =
+        motion::choose_handle_angle(setup, state.tool_contact ? &*state.tool_contact : nullptr, *hand.nut,
+                                    state.joints[*hand.nut], wanted, sign, preferred_stroke);
+    hand.handle_angle = handle.angle;
+    hand.flipped = handle.flipped;
+    hand.free_swing = handle.free_swing;
     hand.hover_height = state.tool_contact
                             ? motion::hover_height(setup, *state.tool_contact, *hand.nut,
-                                                   state.joints[*hand.nut].nut.angle, grip, max_hover)
+                                                   state.joints[*hand.nut].nut.angle, handle, max_hover)
                             : max_hover;
 }
 

@@ -108,11 +108,12 @@ struct WorkingHand {
         std::numeric_limits<double>::infinity();  // angle by which the hand can still turn the tool
 };
 
-// The measured fingers of a hand with a glove. The hand's entity has this component only while a glove is
+// The measured joints of a hand with a glove. The hand's entity has this component only while a glove is
 // worn.
 struct GloveHand {
-    // 26 joints: in the wrench's frame, or, of an empty hand that a headset measures, in the assembly's.
-    hand::Skeleton fingers;
+    // In the wrench's frame, held or at rest; of an empty hand that a headset measures, in the assembly's
+    // frame.
+    hand::Skeleton joints;
     bool lost = false;  // the glove sends no valid samples
 };
 

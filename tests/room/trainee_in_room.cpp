@@ -185,12 +185,12 @@ void TraineeInRoom::tighten(std::size_t joint) {
     const Vec3 up = geometry.axis;
     const auto& contact = state().tool_contact;
     const double nut_angle = state().joints[joint].nut.angle;
-    const motion::GripAngle side =
-        motion::choose_grip(setup(), contact ? &*contact : nullptr, joint, state().joints[joint],
-                            nut_angle + setup().wrench.head_angle + approaches * pi / 3.0, 1.0, stroke);
+    const motion::HandleAngle side = motion::choose_handle_angle(
+        setup(), contact ? &*contact : nullptr, joint, state().joints[joint],
+        nut_angle + setup().wrench.head_angle + approaches * pi / 3.0, 1.0, stroke);
     const double above =
         contact ? motion::hover_height(setup(), *contact, joint, nut_angle, side, hover) : hover;
-    const Pose seated{nut(joint), motion::tool_orientation(geometry, side.handle, side.flipped)};
+    const Pose seated{nut(joint), motion::tool_orientation(geometry, side.angle, side.flipped)};
     const Pose over{nut(joint) + above * up, seated.orientation};
     const double rise = rises[0] + std::max(glm::dot(tool().position, up), glm::dot(over.position, up));
     const auto raised = [&](const Pose& pose) {

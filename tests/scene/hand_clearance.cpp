@@ -94,16 +94,16 @@ struct TestWorkplace {
         scene::ToolAndHand state;
         state.tool = tool;
         state.wrench = true;
-        state.grip = scene::natural_handle_posture(postures, tool, Vec3(0, 1, 0), shoulder);
+        state.handle_posture_index = scene::natural_handle_posture(postures, tool, Vec3(0, 1, 0), shoulder);
         state.effort = 0.5;
         state.seconds = 1.0 / 60.0;
         return state;
     }
     [[nodiscard]] Pose wrench_on(std::size_t joint, double handle_angle) const {
-        const auto grip = motion::choose_grip(at.setup, &*at.state.tool_contact, joint, {}, handle_angle, 1.0,
-                                              to_radians(30.0));
+        const auto handle = motion::choose_handle_angle(at.setup, &*at.state.tool_contact, joint, {},
+                                                        handle_angle, 1.0, to_radians(30.0));
         const auto& nut = at.setup.nuts[joint];
-        return {servo::nut_centre(nut, 0.0), motion::tool_orientation(nut, grip.handle, grip.flipped)};
+        return {servo::nut_centre(nut, 0.0), motion::tool_orientation(nut, handle.angle, handle.flipped)};
     }
     [[nodiscard]] const scene::SkinnedHand& fingers() {
         const scene::SkinnedHand* found = nullptr;
@@ -200,7 +200,7 @@ TEST_CASE("Hand clearance: the displayed hand does not jump while the wrench swi
     constexpr std::size_t joint = 3;  // beside the casing's wall
     const Pose middle = fixture.wrench_on(joint, 0.5 * pi);
     const Vec3 axis = fixture.at.setup.nuts[joint].axis;
-    const std::size_t grip = fixture.with_wrench(middle).grip;
+    const std::size_t posture = fixture.with_wrench(middle).handle_posture_index;
     fixture.reset_hand();
     hand::Skeleton last;
     double furthest = 0.0, departed = 0.0, spent = 0.0;
@@ -209,7 +209,7 @@ TEST_CASE("Hand clearance: the displayed hand does not jump while the wrench swi
         const Quat swing =
             glm::angleAxis(to_radians(60.0) * (static_cast<double>(frame) / frames - 0.5), axis);
         scene::ToolAndHand state = fixture.with_wrench({middle.position, swing * middle.orientation});
-        state.grip = grip;
+        state.handle_posture_index = posture;
         state.solids = &fixture.solids();
         const auto start = std::chrono::steady_clock::now();
         scene::place_hand(fixture.workplace.world, fixture.postures, state);

@@ -91,10 +91,11 @@ struct PathCounts {
 PathCounts count_paths(test::Workbench& bench, std::size_t step) {
     servo::ToolContact& contact = *bench.state.tool_contact;
     const auto grip_at = [&](std::size_t joint) {
-        const GripAngle grip = choose_grip(bench.setup, &contact, joint, {}, 0.0, 1.0, to_radians(40.0));
+        const HandleAngle handle =
+            choose_handle_angle(bench.setup, &contact, joint, {}, 0.0, 1.0, to_radians(40.0));
         const servo::NutGeometry& nut = bench.setup.nuts[joint];
-        const Vec3 x = std::cos(-grip.handle) * nut.e1 + std::sin(-grip.handle) * nut.e2;
-        const Vec3 z = grip.flipped ? -nut.axis : nut.axis;
+        const Vec3 x = std::cos(-handle.angle) * nut.e1 + std::sin(-handle.angle) * nut.e2;
+        const Vec3 z = handle.flipped ? -nut.axis : nut.axis;
         return Pose{servo::nut_centre(nut, 0.0) + hover * nut.axis,
                     glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)))};
     };

@@ -225,7 +225,7 @@ void FreeHandUser::take_wrench() {
 
 // The head is asymmetric. Each preferred angle is one at which the jaw fits unturned, because a mouse does
 // not turn the wrench over.
-motion::GripAngle FreeHandUser::choose_side() const {
+motion::HandleAngle FreeHandUser::choose_side() const {
     const std::size_t joint = due()->joint;
     const servo::NutGeometry& geometry = setup().nuts[joint];
     const double nut_angle = state().joints[joint].nut.angle;
@@ -234,13 +234,13 @@ motion::GripAngle FreeHandUser::choose_side() const {
     const Vec3 near = hand_of(lesson()).rest.position - geometry.seat;
     const double preferred = servo::angle_of(geometry, near) - 0.5 * sign * stroke;
     const auto& contact = state().tool_contact;
-    std::vector<std::pair<double, motion::GripAngle>> sides;
+    std::vector<std::pair<double, motion::HandleAngle>> sides;
     for (int sixth = 0; sixth < 6; ++sixth) {
         const double fits = nut_angle + geometry.sense * setup().wrench.head_angle + sixth * pi / 3.0;
-        const motion::GripAngle side = motion::choose_grip(setup(), contact ? &*contact : nullptr, joint,
-                                                           state().joints[joint], fits, sign, stroke);
+        const motion::HandleAngle side = motion::choose_handle_angle(
+            setup(), contact ? &*contact : nullptr, joint, state().joints[joint], fits, sign, stroke);
         if (side.flipped) continue;
-        const double off = std::abs(std::remainder(side.handle - preferred, 2.0 * pi));
+        const double off = std::abs(std::remainder(side.angle - preferred, 2.0 * pi));
         sides.emplace_back(off + 4.0 * (stroke - side.free_swing), side);
     }
     if (sides.empty()) return {preferred, false, stroke};
@@ -280,12 +280,12 @@ bool FreeHandUser::approach() {
     const std::size_t joint = due()->joint;
     const servo::NutGeometry& geometry = setup().nuts[joint];
     const auto& contact = state().tool_contact;
-    const motion::GripAngle side = choose_side();
+    const motion::HandleAngle side = choose_side();
     room_ = side.free_swing;
     const double nut_angle = state().joints[joint].nut.angle;
     const double height =
         contact ? motion::hover_height(setup(), *contact, joint, nut_angle, side, max_hover) : max_hover;
-    const Pose seated{nut(), motion::tool_orientation(geometry, side.handle, false)};
+    const Pose seated{nut(), motion::tool_orientation(geometry, side.angle, false)};
     const Pose over{nut() + height * geometry.axis, seated.orientation};
     hold(true);
     const std::vector<Pose> way = way_to(over);

@@ -59,7 +59,7 @@ class FreeHandUser {
     void look(const Vec3& goal);
     void run_down();
     void take_wrench();
-    [[nodiscard]] motion::GripAngle choose_side() const;
+    [[nodiscard]] motion::HandleAngle choose_side() const;
     [[nodiscard]] std::vector<Pose> way_to(const Pose& over) const;
     bool approach();
     bool lower(const Pose& seated);

@@ -49,11 +49,11 @@ ReachTask draw_reach_task(TightenedAssembly& tightened, Random& random) {
                           setup.nuts.size() - 1);
     const servo::NutGeometry& nut = setup.nuts[task.joint];
     const double angle = tightened.state.joints[task.joint].nut.angle;
-    const motion::GripAngle grip = motion::choose_grip(
+    const motion::HandleAngle handle = motion::choose_handle_angle(
         setup, &contact, task.joint, tightened.state.joints[task.joint], angle, 1.0, to_radians(30.0));
     task.nut = servo::nut_centre(nut, angle);
     task.axis = nut.axis;
-    task.orientation = motion::tool_orientation(nut, grip.handle, grip.flipped);
+    task.orientation = motion::tool_orientation(nut, handle.angle, handle.flipped);
     for (int i = 0; i < max_starts; ++i) {
         const double around = random.uniform(0.0, 2.0 * pi),
                      above = random.uniform(lowest_start, highest_start);

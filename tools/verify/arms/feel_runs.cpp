@@ -221,11 +221,11 @@ Pose wrench_on_nut(TightenedAssembly& tightened, double above) {
     const servo::Setup setup = session::make_setup(tightened.assembly, tightened.assembly.law, {}, 1, 1e-3);
     const servo::NutGeometry& nut = setup.nuts[pulled_joint];
     const double angle = tightened.state.joints[pulled_joint].nut.angle;
-    const motion::GripAngle grip =
-        motion::choose_grip(setup, &*tightened.state.tool_contact, pulled_joint,
-                            tightened.state.joints[pulled_joint], angle, 1.0, to_radians(60.0));
+    const motion::HandleAngle handle =
+        motion::choose_handle_angle(setup, &*tightened.state.tool_contact, pulled_joint,
+                                    tightened.state.joints[pulled_joint], angle, 1.0, to_radians(60.0));
     return {servo::nut_centre(nut, angle) + above * nut.axis,
-            motion::tool_orientation(nut, grip.handle, grip.flipped)};
+            motion::tool_orientation(nut, handle.angle, handle.flipped)};
 }
 
 // rad by which the hand's intention must lead the wrench so that the hand's spring pulls with this share of
