@@ -67,8 +67,8 @@ struct AssemblyJoint {
 // Name of the node that a lesson turns: ID_nut, or ID_bolt of a head that is turned.
 std::string turned_node(const AssemblyJoint& joint);
 
-// Returns whether the mesh of a node of this name is the part that a lesson turns: turned_node() or, of a
-// head that is turned, the joint's own node, which then is the screw itself.
+// True if the mesh of a node of this name is the part that a lesson turns: turned_node(), or the joint's own
+// node if its head is turned, because that node may be the screw itself.
 bool is_turned_node(const AssemblyJoint& joint, std::string_view mesh_node);
 
 // True if the mesh of a node of this name is the held part that a second wrench can hold
@@ -161,7 +161,7 @@ struct ModelFiles {
     std::string contact;    // collision geometry
 };
 
-// A choice of one of them.
+// Selects one of the paths.
 using ModelFile = std::string ModelFiles::*;
 
 // The flange through which the joints interact: a plate on an elastic foundation. The model is our own (see

@@ -51,7 +51,7 @@ FlangeDesign read_flange(JsonReader& reader, const std::string& variant,
     const bool types_known = std::none_of(joints.begin(), joints.end(),
                                           [](const AssemblyJoint& joint) { return joint.type.empty(); });
     if (node && types_known && coupled > 0 && coupled < joints.size()) {
-        const JsonNode selection = selected_joints(reader, variant);
+        const JsonNode selection = variant_joint_list(reader, variant);
         reader.report(selection ? selection.pointer : types.pointer,
                       fmt::format("the flange couples {} of the {} joints", coupled, joints.size()),
                       "all of them, or none");
@@ -125,7 +125,7 @@ std::map<std::string, std::string> read_lesson(JsonReader& reader, const std::st
 
 }  // namespace
 
-JsonNode selected_joints(JsonReader& reader, const std::string& variant) {
+JsonNode variant_joint_list(JsonReader& reader, const std::string& variant) {
     return reader.member(variant_of(reader, variant), "joints");
 }
 

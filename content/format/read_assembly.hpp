@@ -30,12 +30,12 @@ std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& va
 struct VariantJoints {
     std::vector<AssemblyJoint> all;     // of the file
     std::vector<AssemblyJoint> joints;  // of the variant, in the file's order
-    bool selected = false;              // the variant names them
-    std::vector<std::size_t> order;     // if selected: in the variant's order, indices in `joints`
+    bool named_by_variant = false;      // the variant names its joints; else it works on all
+    std::vector<std::size_t> order;     // if so: indices in `joints`, in the variant's order
 };
 VariantJoints read_variant_joints(JsonReader& reader, const std::string& variant);
 // The list "joints" of a variant; missing if it has none.
-JsonNode selected_joints(JsonReader& reader, const std::string& variant);
+JsonNode variant_joint_list(JsonReader& reader, const std::string& variant);
 
 // The smallest fraction of the target torque that a pass tightens to; 1 if unknown.
 double smallest_pass_fraction(JsonReader& reader, const std::string& variant);
@@ -55,7 +55,7 @@ AssemblyPasses read_passes(JsonReader& reader, const PassContext& context);
 Instruction read_instruction(JsonReader& reader, const JsonNode& pass, const PassContext& context);
 // The models that an object names: the file, or what a variant adds.
 ModelFiles read_model_files(JsonReader& reader, const JsonNode& object, const ModelFolders& folders);
-// The models that a variant adds; reports those that the file lacks or that the variant lacks.
+// The models that a variant adds. Reports a kind of model that only the file or only the variant has.
 ModelFiles read_added_models(JsonReader& reader, const std::string& variant, const ModelFolders& folders);
 // Texts by language: the members of an object.
 std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode& object);

@@ -293,9 +293,9 @@ struct JointTypes {
     }
 };
 
-// The types of which a variant with joints of its own works on none.
+// The types of which a variant that names its joints names none.
 std::set<std::string, std::less<>> unused_types(JsonReader& reader, const std::string& variant) {
-    const JsonNode selection = selected_joints(reader, variant);
+    const JsonNode selection = variant_joint_list(reader, variant);
     std::set<std::string, std::less<>> ids, used, unused;
     for (const JsonNode& id : reader.items(selection)) ids.insert(reader.text(id).value_or(""));
     if (!selection) return unused;

@@ -312,9 +312,9 @@ double smallest_pass_fraction(JsonReader& reader, const std::string& variant) {
 VariantJoints read_variant_joints(JsonReader& reader, const std::string& variant) {
     VariantJoints result;
     result.all = read_joints(reader, variant);
-    const JsonNode selection = selected_joints(reader, variant);
-    result.selected = static_cast<bool>(selection);
-    if (!result.selected) {
+    const JsonNode selection = variant_joint_list(reader, variant);
+    result.named_by_variant = static_cast<bool>(selection);
+    if (!result.named_by_variant) {
         result.joints = result.all;
         return result;
     }
@@ -339,9 +339,9 @@ AssemblyPasses read_passes(JsonReader& reader, const PassContext& context) {
         // The file's order has all joints, also if this variant leaves some out.
         const std::vector<std::size_t> whole =
             read_order(reader, common_node, read_ids(reader, context.joints.all));
-        if (!context.joints.selected) common = whole;
+        if (!context.joints.named_by_variant) common = whole;
     }
-    if (context.joints.selected) {
+    if (context.joints.named_by_variant) {
         common = context.joints.order;
         ids.owner = "this variant";
     }
@@ -350,7 +350,7 @@ AssemblyPasses read_passes(JsonReader& reader, const PassContext& context) {
         if (!order || joints.empty()) return usual;
         // A pass of the file has all its joints; those that this variant leaves out are skipped.
         const bool of_file = !pass.pointer.starts_with("/variants/");
-        if (!of_file || !context.joints.selected) return read_order(reader, order, ids);
+        if (!of_file || !context.joints.named_by_variant) return read_order(reader, order, ids);
         std::vector<std::size_t> own;
         for (const std::size_t joint : read_order(reader, order, read_ids(reader, context.joints.all)))
             for (std::size_t i = 0; i < joints.size(); ++i)

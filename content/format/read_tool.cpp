@@ -255,9 +255,9 @@ void check_sizes(JsonReader& reader, const ParsedTool& parsed, const std::vector
     if (parsed.size) check_fit(reader, parsed.size, wrench, joints);
 }
 
-// Returns the indices of the tools that turn the joints of a variant that names its joints: those that a
-// joint names and those that fit a joint which names none, with the tools that they name instead; the `first`
-// one stays in any case. If no tool fits, the default one is returned, so that its error is reported.
+// Returns the indices of the tools for the joints that a variant names: `first`, the tools that a joint
+// names, those that fit a joint which names none, and the tools in their "instead". If no tool fits such a
+// joint, includes the default one, so that its error is reported.
 std::vector<std::size_t> tools_of_selection(const std::vector<ParsedTool>& tools, std::string_view first,
                                             const std::vector<AssemblyJoint>& joints) {
     std::vector<AssemblyJoint> free;
@@ -369,7 +369,7 @@ std::vector<Tool> read_tools(JsonReader& reader, const std::string& variant, con
         reader.text(reader.member(reader.member(variants, variant), "tool")).value_or("");
     std::vector<std::size_t> kept(parsed.size());
     std::iota(kept.begin(), kept.end(), std::size_t{0});
-    if (joints.selected) {
+    if (joints.named_by_variant) {
         for (const ParsedTool& tool : parsed)  // a tool of another variant
             if (!suits_any(tool.tool.wrench, joints.all)) check_sizes(reader, tool, joints.all);
         kept = tools_of_selection(parsed, first, joints.joints);

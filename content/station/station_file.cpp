@@ -192,19 +192,19 @@ void read_wheel(MemberReader& members, const json& root, std::optional<StationWh
     read_buttons(members, *object, "/wheel", wheel.buttons);
 }
 
-constexpr const char* glove_tracker_key = "wrist_tracker";
+constexpr const char* wrist_tracker_key = "wrist_tracker";
 
 void read_glove(MemberReader& members, const json& root, StationFile& station) {
     const json* object = object_member(members, root, "", "glove");
     if (object == nullptr) return;
-    members.check_known(*object, "/glove", {"port", glove_tracker_key});
+    members.check_known(*object, "/glove", {"port", wrist_tracker_key});
     station.glove_port = read_text(members, *object, "/glove", port_member);
-    if (!object->contains(glove_tracker_key)) return;
-    const std::string role = members.text(*object, "/glove", glove_tracker_key);
-    station.glove_tracker = parse_tracker_role(role);
-    if (!station.glove_tracker)
+    if (!object->contains(wrist_tracker_key)) return;
+    const std::string role = members.text(*object, "/glove", wrist_tracker_key);
+    station.wrist_tracker = parse_tracker_role(role);
+    if (!station.wrist_tracker)
         members.report(
-            fmt::format("/glove/{}", glove_tracker_key), JsonPart::value,
+            fmt::format("/glove/{}", wrist_tracker_key), JsonPart::value,
             fmt::format("{} is not a role of a Vive tracker", in_quotes(role)),
             suggest(role, std::vector<std::string>(tracker_role_names.begin(), tracker_role_names.end())));
 }
@@ -284,8 +284,8 @@ std::string station_json(const StationFile& station) {
     if (station.arm) root["arm"] = json_of(*station.arm);
     if (station.wheel) root["wheel"] = json_of(*station.wheel);
     if (!station.glove_port.empty()) root["glove"]["port"] = station.glove_port;
-    if (!station.glove_port.empty() && station.glove_tracker)
-        root["glove"][glove_tracker_key] = name(*station.glove_tracker);
+    if (!station.glove_port.empty() && station.wrist_tracker)
+        root["glove"][wrist_tracker_key] = name(*station.wrist_tracker);
     write_registrations(root, station.registrations);
     // Bytes that are not UTF-8 are replaced, because they would make the file unreadable.
     return root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -66,7 +66,7 @@ struct StationFile {
     std::optional<StationWheel> wheel;
     std::string glove_port;  // empty: no glove
     // The role of the Vive tracker on the gloved hand; none: a controller or the cameras measure the wrist.
-    std::optional<TrackerRole> glove_tracker;
+    std::optional<TrackerRole> wrist_tracker;
     std::vector<Registration> registrations;  // at most one between two frames
     bool operator==(const StationFile&) const = default;
 };

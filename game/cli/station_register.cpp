@@ -36,15 +36,15 @@ struct FramePair {
 };
 
 // The role of the Vive tracker that is fixed to the gloved hand; none: a controller is.
-std::optional<TrackerRole> wrist_tracker(const RegisterArguments& options,
-                                         const content::StationFile& station) {
-    return options.tracker.empty() ? station.glove_tracker : parse_tracker_role(options.tracker);
+std::optional<TrackerRole> wrist_tracker_of(const RegisterArguments& options,
+                                            const content::StationFile& station) {
+    return options.tracker.empty() ? station.wrist_tracker : parse_tracker_role(options.tracker);
 }
 
 Result<FramePair> frames_of(const RegisterArguments& options, const content::StationFile& station) {
     if (!options.hand.empty())
         return FramePair{content::CoordinateFrame::hand,
-                         station_setup::wrist_frame(wrist_tracker(options, station))};
+                         station_setup::wrist_frame(wrist_tracker_of(options, station))};
     const std::string from = !options.from.empty()    ? options.from
                              : options.points.empty() ? "arm"
                                                       : "tracker";
@@ -167,7 +167,7 @@ Result<std::unique_ptr<xr::PoseTracker>> open_controller(const std::string& side
                                       : xr::PoseTracker::open(xr::TrackedDevice::right_controller));
     if (!tracker->in_stage())
         return fail(ErrorCode::no_device, "the headset has no stage, so its poses are not fixed in the room",
-                    "one whose room is set up");
+                    "a headset whose room is set up");
     return tracker;
 }
 
@@ -201,7 +201,7 @@ Result<std::vector<PointPair>> touch_with_both(const RegisterArguments& options,
 Result<std::vector<PointPair>> turn_about_fingertips(const RegisterArguments& options,
                                                      const content::StationFile& station) {
     BOLT_TRY_ASSIGN(auto glove, open_glove(options, station));
-    const std::optional<TrackerRole> role = wrist_tracker(options, station);
+    const std::optional<TrackerRole> role = wrist_tracker_of(options, station);
     BOLT_TRY_ASSIGN(const auto tracker, open_controller(options.hand, role));
     catch_interruption();
     EnterKey enter;
@@ -239,7 +239,7 @@ Result<std::vector<PointPair>> measured_pairs(const RegisterArguments& options,
 Status store(const RegisterArguments& options, const content::Registration& registration) {
     BOLT_TRY_ASSIGN(content::StationFile station, content::load_station(options.file));
     content::set_registration(station.registrations, registration);
-    if (!options.tracker.empty()) station.glove_tracker = wrist_tracker(options, station);
+    if (!options.tracker.empty()) station.wrist_tracker = wrist_tracker_of(options, station);
     return content::save_station(options.file, station);
 }
 

@@ -48,9 +48,9 @@ inline constexpr TouchOptions controller_touch{0.3, 3.0e-3, 5, 1.0};
 // A tip that has slipped by some millimetres exceeds the limit.
 inline constexpr double pivot_time = 6.0, max_pivot_rms = 2.0e-3;
 
-// A tip that stays on a fixed point while the user turns the object that it belongs to, as requests name
-// them.
+// A tip that stays on a fixed point while the user turns the object to which it belongs.
 struct Pivot {
+    // Names of the tip and the object in requests to the user.
     std::string_view tip = "the tip of the controller", turned = "the controller";
     double max_rms = max_pivot_rms;  // m
 };
@@ -87,9 +87,9 @@ class ControllerTip {
 inline constexpr double max_fingertip_rms = 5.0e-3;
 
 // Measures the fingertips of a gloved hand to which the controller is fixed: the user turns the hand about
-// each fingertip. PointPair::from is in the frame of the wrist, as `fingers` returns them after each turn;
-// PointPair::to in that of the grip. The last pair is that of the ring finger. Fails if `fingers` fails, the
-// tracker is lost, or the user interrupts.
+// each fingertip. PointPair::from is the fingertip in the frame of the wrist, from the skeleton that
+// `fingers` returns after the turn; PointPair::to is in the frame of the grip. The last pair is that of the
+// ring finger. Fails if `fingers` fails, the tracker is lost, or the user interrupts.
 Result<std::vector<PointPair>> measure_fingertips(ControllerTip& controller,
                                                   const std::function<Result<hand::Skeleton>()>& fingers);
 

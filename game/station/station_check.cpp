@@ -91,13 +91,13 @@ std::vector<StationFinding> compare(const content::StationFile& station, const S
     add(station.arm, facts.arm, "arm");
     add(station.wheel, facts.wheel, "wheel");
     if (!facts.glove) findings.push_back({true, "glove: " + facts.glove.error().message()});
-    if (station.glove_tracker && !registration_from(station.registrations, content::CoordinateFrame::hand,
+    if (station.wrist_tracker && !registration_from(station.registrations, content::CoordinateFrame::hand,
                                                     content::CoordinateFrame::wrist_tracker))
         findings.push_back(
             {false, fmt::format("glove: the wrist is not registered with the Vive tracker {}, so "
                                 "it does not move the hand; expected a registration by "
                                 "`boltwright station register --hand SIDE --trainee NAME`",
-                                name(*station.glove_tracker))});
+                                name(*station.wrist_tracker))});
     for (const content::Registration& one : station.registrations)
         if (const auto unused = unused_registration(one.from, one.to))
             findings.push_back({false, unused->message()});

@@ -34,8 +34,8 @@ Status start_station_of(const LessonRequest& request, StartedLesson& lesson) {
     return {};
 }
 
-// Repeats and records the ticks of the interrupted lesson. A station is started afterwards, with the same
-// ticks, so its limits are those of the recording for the moment.
+// Repeats and records the ticks of the interrupted lesson, with the recorded limits of the devices: the
+// station starts only afterwards (join_station).
 Status resume_session(const LessonRequest& request, session::SessionSetup setup, StartedLesson& lesson) {
     session::LessonOptions& options = lesson.context.options;
     BOLT_TRY_ASSIGN(options.continues, session::read_interrupted(request.interrupted));
@@ -97,7 +97,7 @@ WristMount wrist_mount(const content::StationFile& station) {
             station_setup::registration_from(station.registrations, content::CoordinateFrame::hand, frame);
         return found ? std::optional(found->pose) : std::nullopt;
     };
-    return {station.glove_tracker, wrist_in(content::CoordinateFrame::wrist_tracker),
+    return {station.wrist_tracker, wrist_in(content::CoordinateFrame::wrist_tracker),
             wrist_in(content::CoordinateFrame::controller)};
 }
 

@@ -115,7 +115,7 @@ TEST_CASE("Station check: a map that the device cannot follow is a warning") {
 
 TEST_CASE("Station check: a Vive tracker without its registration does not move the gloved hand") {
     Bench bench;
-    bench.station.glove_tracker = TrackerRole::right_wrist;
+    bench.station.wrist_tracker = TrackerRole::right_wrist;
     CHECK(contains(bench.text(),
                    "warning: glove: the wrist is not registered with the Vive tracker right_wrist, so"));
     content::Registration& registered = bench.station.registrations.emplace_back();

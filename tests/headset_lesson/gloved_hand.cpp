@@ -35,7 +35,7 @@ content::GloveCalibration calibration() {
 trainer::AppOptions options(const std::filesystem::path& port, const std::optional<TrackerRole>& tracker) {
     trainer::AppOptions options = test::headset_lesson_options("first-nut", BOLT_TRAINER_OUT);
     options.out = std::filesystem::path(BOLT_TRAINER_OUT) / (tracker ? "gloved_tracker" : "gloved");
-    options.choice.equipment.station.glove_tracker = tracker;
+    options.choice.equipment.station.wrist_tracker = tracker;
     options.choice.trainee = wearer;
     options.choice.equipment.glove = port;
     content::Registration registered;

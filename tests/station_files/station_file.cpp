@@ -116,7 +116,7 @@ StationFile any_station(Random& random) {
     if (random.chance(0.5)) station.name = "Lab „2“";
     if (random.chance(0.5)) station.glove_port = "/dev/ttyUSB0";
     if (!station.glove_port.empty() && random.chance(0.5))
-        station.glove_tracker =
+        station.wrist_tracker =
             static_cast<TrackerRole>(static_cast<std::size_t>(random.uniform(0.0, tracker_role_count)));
     if (random.chance(0.8)) {
         StationMover& arm = station.arm.emplace();
@@ -175,7 +175,7 @@ TEST_CASE("Station file: every member is read, and absent ones keep their defaul
     CHECK(station->wheel->config.reversed);
     CHECK(station->wheel->buttons == station::Buttons{1, 64, 0, 0});
     CHECK(station->glove_port == "/dev/ttyUSB0");
-    CHECK(station->glove_tracker == TrackerRole::right_elbow);
+    CHECK(station->wrist_tracker == TrackerRole::right_elbow);
     REQUIRE(station->registrations.size() == 1);
     const Registration& one = station->registrations[0];
     CHECK(one.from == CoordinateFrame::arm);
