@@ -1,5 +1,5 @@
-// Names of the part of a joint that is turned, a nut, or a screw if it is turned at its head, and the
-// direction of its thread.
+// Names of the turned part of a joint ("screw" if its head is turned, else "nut") and of the direction of its
+// thread.
 #pragma once
 
 #include <string_view>

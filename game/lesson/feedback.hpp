@@ -97,7 +97,7 @@ struct DeductionText {
 // The result of a lesson explained: why points were deducted and what to do better next time.
 struct Review {
     std::vector<DeductionText> reasons;          // in the order of LessonResult::reasons
-    std::vector<words::TextKey> advice;          // one to three, the costliest first
+    std::vector<words::TextKey> advice;          // up to three, the costliest first
     std::vector<words::TextArgument> arguments;  // of the advice
 };
 

@@ -26,7 +26,7 @@ constexpr HintRow hint_rows[] = {
     {Situation::set_on, "hint.set_on", HintMotion::set_on},
     {Situation::set_on_again, "hint.set_on_again", HintMotion::set_on},
     {Situation::set_on_rounded, "hint.set_on_rounded", HintMotion::set_on},
-    {Situation::hold_held_part, "hint.hold_held_part", HintMotion::counter_hold},
+    {Situation::counter_hold, "hint.hold_held_part", HintMotion::counter_hold},
     {Situation::grip_nut, "hint.grip_nut", HintMotion::grip_nut},
     {Situation::run_down, "hint.run_down", HintMotion::spin},
     {Situation::run_down_by_wrench, "hint.run_down_by_wrench", HintMotion::pull_on},

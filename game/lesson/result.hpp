@@ -32,12 +32,13 @@ constexpr std::string_view name(Verdict verdict) {
 
 struct JointResult {
     std::string id;
-    double torque = 0.0;  // N·m, highest of the tightening step and of later pulls that tightened further
-    double angle = 0.0;   // rad, from where JointTrack::snug_angle says
+    // N·m, highest of the tightening step and of later pulls that tightened further; loosening: of its steps
+    double torque = 0.0;
+    double angle = 0.0;  // rad, from JointTrack::snug_angle; loosening: turned back in its steps
     // N, when the result was last updated; at the end of the lesson it includes embedding and the interaction
     // of the joints
     double clamp = 0.0;
-    double clamp_at_release = 0;  // N, when the wrench last left the nut
+    double clamp_at_release = 0;  // N, when the hand last left the nut
     Verdict torque_verdict = Verdict::none;
     Verdict angle_verdict = Verdict::none;
     Verdict overall = Verdict::none;  // OK only if each judged quantity is OK and the joint is sound

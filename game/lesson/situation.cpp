@@ -38,7 +38,7 @@ Situation without_nut(const ObservedLesson& s, const LessonStep& due, bool finge
     if (!fingers && !wrench) return Situation::take_wrench;
     if (distance_to_due(s) > near) return fingers ? Situation::find_by_fingers : Situation::find_by_wrench;
     if (fingers) return Situation::grip_nut;
-    if (held_part_is_free(s, due)) return Situation::hold_held_part;
+    if (held_part_is_free(s, due)) return Situation::counter_hold;
     if (world::joint_at(s.world, due.joint).rounded > worn) return Situation::set_on_rounded;
     const bool again = s.lesson.joints[due.joint].peak_torque > worked_torque;
     return again ? Situation::set_on_again : Situation::set_on;
@@ -140,7 +140,7 @@ Situation situation(const ObservedLesson& work) {
     if (joint.condition == joint::JointCondition::stripped) return Situation::leave_stripped;
     if (held_item(work) == HeldItem::nut_by_wrench && held_part_is_free(work, *due) &&
         !step_fulfilled(work.lesson, work.world))
-        return Situation::hold_held_part;
+        return Situation::counter_hold;
     switch (due->kind) {
         case StepKind::run_down:
             return running_down(work, joint, fingers);

@@ -21,7 +21,7 @@ enum class Situation : std::uint8_t {
     set_on,
     set_on_again,    // earlier pulls were not enough
     set_on_rounded,  // onto corners that a slipping jaw has rounded off
-    hold_held_part,  // with the second wrench
+    counter_hold,    // hold the held part with the second wrench
     grip_nut,
     run_down,
     run_down_by_wrench,
@@ -47,8 +47,8 @@ enum class Situation : std::uint8_t {
     checked,
     break_loose,
     unscrew,
-    turn_back,    // on to the step's angle
-    turned_back,  // by the step's angle
+    turn_back,    // it has come loose: turn it back by the step's angle
+    turned_back,  // by that angle
     free,         // the nut is loose
     wrong_joint,
     other_way_on,

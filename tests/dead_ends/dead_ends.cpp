@@ -80,7 +80,7 @@ constexpr const char* by_torque = "the lives tighten by torque; tests/lesson/ang
 constexpr Exception exceptions[] = {
     {lesson::Situation::run_down_by_wrench, "no shipped assembly has nuts that fingers cannot turn"},
     {lesson::Situation::twist_back, "the lesson run does not limit how far fingers twist"},
-    {lesson::Situation::hold_held_part, "tests/lesson/counter_hold.cpp plays such a lesson"},
+    {lesson::Situation::counter_hold, "tests/lesson/counter_hold.cpp plays such a lesson"},
     {lesson::Situation::turn_on, by_torque},
     {lesson::Situation::ease_to_angle, by_torque},
     {lesson::Situation::stop_at_angle, by_torque},

@@ -53,14 +53,14 @@ inline const Case cases[] = {
          b.wrench = true;
          b.near(0);
      }},
-    {Situation::hold_held_part, "hint.hold_held_part", HintMotion::counter_hold,
+    {Situation::counter_hold, "hint.hold_held_part", HintMotion::counter_hold,
      [](Bench& b) {
          b.assembly.joints[0].design.counter_hold = joint::CounterHold::second_wrench;
          b.seat_both();
          b.wrench = true;
          b.near(0);
      }},
-    {Situation::hold_held_part, "hint.hold_held_part", HintMotion::counter_hold,
+    {Situation::counter_hold, "hint.hold_held_part", HintMotion::counter_hold,
      [](Bench& b) {
          b.assembly.joints[0].design.counter_hold = joint::CounterHold::second_wrench;
          b.seat_both();

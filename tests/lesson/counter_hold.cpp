@@ -98,7 +98,7 @@ struct Pull {
 TEST_CASE("Counter-hold: a bolt that turns with its nut gives a hint, and one mistake per hold") {
     Pull pull(0.12);
     pull.turn(5.0);
-    CHECK(pull.now() == Situation::hold_held_part);
+    CHECK(pull.now() == Situation::counter_hold);
     CHECK(pull.reported() == 0);
     pull.turn(55.0);
     CHECK(pull.reported() == 1);
@@ -114,7 +114,7 @@ TEST_CASE("Counter-hold: a bolt that turns with its nut gives a hint, and one mi
     pull.turn(40.0);
     CHECK(pull.joint().clamp > 5000.0);
     CHECK(pull.joint().common_turn == turned);
-    CHECK(pull.now() != Situation::hold_held_part);
+    CHECK(pull.now() != Situation::counter_hold);
     CHECK(pull.reported() == 1);
 }
 
