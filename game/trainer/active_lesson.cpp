@@ -15,7 +15,7 @@ namespace {
 
 constexpr double full_spin_drag = 120.0;  // px of drag that give the fastest twist
 constexpr double wrench_reach = 22.0;     // px from the wrench within which it is picked
-// m, in the frame of the head: the middle of the shoulders, as only the forearm's direction depends on it.
+// m, in the frame of the head: between the shoulders, which is exact enough for the forearm's direction.
 const Vec3 shoulder_at_head(0.0, -0.25, 0.05);
 
 std::vector<Vec3> nut_centres(const scene::SceneWorld& world, const servo::Setup& setup) {

@@ -158,7 +158,7 @@ class App : public view::WindowContent {
     [[nodiscard]] bool shows_instruction() const;
     ScreenAction draw_instruction_page(const ScreenContext& context);
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
-    [[nodiscard]] bool in_room() const { return room_ && room_->surrounds_user; }
+    [[nodiscard]] bool in_room() const { return room_ && room_->plays_in_room; }
     void pause_unseen(bool seen, bool immersive);
     void follow_headset(const view::ImmersiveFrame* immersive);
     void perform_in_room(Action action);

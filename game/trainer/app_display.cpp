@@ -19,7 +19,7 @@ std::string_view name_of(LessonDisplay::Kind kind) {
 
 }  // namespace
 
-// True while a study is shown in the headset. Its lesson must not go on without it.
+// True while a study is shown in the headset. Without the headset its lesson must not continue.
 bool App::shown_in_headset() const { return study_ && display_.kind == LessonDisplay::Kind::headset; }
 
 // Requests the display of the due step, or, from another display, the window.
@@ -40,8 +40,8 @@ void App::enter_display(const Status& opened) {
     log(std::string("the study is shown ") + std::string(name_of(display_.kind)));
 }
 
-// A participant who takes the headset off after a lesson, and has none in it to do next, reads the next page
-// in the window.
+// After a lesson the participant takes the headset off. Unless the next step is done in it, the window then
+// shows the next page.
 void App::follow_study_display() {
     if (!shown_in_headset() || screen_ != ShownScreen::study || wanted_display_) return;
     const bool worn = room_ && room_->seen;

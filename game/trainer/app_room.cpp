@@ -149,7 +149,8 @@ void App::start_registered_arm(const view::ImmersiveFrame& immersive) {
             scale != 1.0
                 ? fmt::format("the scale of the arm is {:.2f}; expected 1 (\"scale\" in the station file)",
                               scale)
-                : "the poses of the headset are not fixed in the room; expected one whose room is set up"));
+                : "the poses of the headset are not fixed in the room; expected a headset whose room is "
+                  "set up"));
         return;
     }
     room.arm = found->from == content::CoordinateFrame::arm ? found->pose : inverse(found->pose);
@@ -205,8 +206,7 @@ std::optional<Pose> App::registered_workpiece(const view::ImmersiveFrame& immers
     if (!found) return std::nullopt;
     if (immersive.fixed_in_room) return found->pose;
     log("the registered workpiece is not used: the poses of the headset are not fixed in the room; expected "
-        "one "
-        "whose room is set up");
+        "a headset whose room is set up");
     return std::nullopt;
 }
 
@@ -307,7 +307,7 @@ void App::follow_placement(const view::ImmersiveFrame& immersive,
 // Places workpiece and panel, and adds the input of the hands as events.
 void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
     const view::ImmersiveFrame* immersive = window.immersive;
-    if (room_) room_->surrounds_user = room_->present = false;
+    if (room_) room_->plays_in_room = room_->present = false;
     wand_ray_.reset();
     if (immersive == nullptr) {
         pause_unseen(false, false);
@@ -319,13 +319,13 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     room.present = true;
     // On walls a lesson by mouse is played in the window, and the walls show it.
     const Equipment& equipment = (active_ ? context_->choice : options_.choice).equipment;
-    room.surrounds_user = immersive->tracks_hands || !active_ || equipment.has_hardware();
+    room.plays_in_room = immersive->tracks_hands || !active_ || equipment.has_hardware();
     if (immersive->tracks_hands) offer_tracked_hand(menu_.devices);
     follow_placement(*immersive, events, window.seconds);
     place_in_room(*immersive);
     pause_unseen(immersive->attentive && room.panel && (!active_ || room.workpiece), true);
     follow_headset(immersive);
-    if (!room.surrounds_user) return;
+    if (!room.plays_in_room) return;
     if (immersive->tracks_hands) {
         // The window's pointer would compete with the hands'.
         std::erase_if(events, [](platform::InputEvent& event) { return pointer_position(event) != nullptr; });
@@ -342,7 +342,7 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     events.insert(events.end(), hands.begin(), hands.end());
 }
 
-// Adds hands and rays to the scene, where the lesson does not draw them; of a wand the ray.
+// Adds the hands that the lesson does not draw, and their rays, to the scene; for a wand only its ray.
 Status App::draw_hands(render::Scene& scene, const view::ImmersiveFrame& immersive) {
     if (!room_ || !(immersive.tracks_hands || wand_ray_)) return {};
     if (!gpu_->room_hands) {
@@ -373,7 +373,7 @@ Status App::draw_room(gpu::FrameContext& frame, const view::ImmersiveFrame& imme
     BOLT_TRY(draw_hands(scene, immersive));
     if (in_room() && room_->panel)
         scene.panels.push_back(
-            panel_in_scene(*room_->panel, room_->panel_point_size, place, gpu_->panel->image()));
+            panel_in_scene({*room_->panel, room_->panel_point_size}, place, gpu_->panel->image()));
     BOLT_TRY(draw_in_room(*gpu_->context->renderer, frame, scene, place, immersive));
     if (!room_) return {};
     room_->drawn_scene = place;

@@ -22,8 +22,8 @@ enum class HandMode : std::uint8_t {
 // The input of a lesson: mouse and keyboard, or a station with devices.
 struct Equipment {
     std::vector<std::string> devices;  // ids, as boltwright devices lists them
-    content::StationFile
-        station;  // applies to those of its devices that `devices` lists; the glove comes from `glove`
+    // Applies to its devices that `devices` lists too. Its glove is not used: see `glove`.
+    content::StationFile station;
     std::filesystem::path wheel_config_file;  // empty: the station's, or the defaults of device::WheelConfig
     std::filesystem::path glove;              // serial port; empty: no glove
     double force_scale = 1.0;                 // 0 … 1 of the devices' maximum force
@@ -32,7 +32,7 @@ struct Equipment {
     // True if opening the devices may take seconds, or last until the user has prepared an arm.
     [[nodiscard]] bool has_hardware() const { return !devices.empty() || !glove.empty(); }
     [[nodiscard]] bool needs_station() const { return has_hardware() || hand != HandMode::helped; }
-    // True if no device and no chosen way of the mouse moves the hand, so that a headset may.
+    // True if neither a device nor a chosen HandMode moves the hand, so a headset may.
     [[nodiscard]] bool hand_unassigned() const { return devices.empty() && hand == HandMode::helped; }
     bool operator==(const Equipment&) const = default;
 };

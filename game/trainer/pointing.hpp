@@ -28,10 +28,10 @@ std::optional<std::size_t> nut_at(const Projection& projection, const glm::dvec2
 std::optional<double> pixels_to_segment(const Projection& projection, const glm::dvec2& pointer,
                                         const Vec3& from, const Vec3& to);
 
+inline constexpr double min_lever = 160.0;  // px/rad
 // px/rad, motion of the handle's end in the picture while the wrench at `tool` turns clockwise, as seen
 // looking along −axis. At least `min_lever` long, because otherwise a handle seen end-on would turn at the
 // slightest drag.
-inline constexpr double min_lever = 160.0;
 glm::dvec2 lever_on_screen(const Projection& projection, const Pose& tool, const Vec3& axis,
                            double handle_length);
 

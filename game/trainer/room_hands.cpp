@@ -108,7 +108,7 @@ void add_hand(render::Scene& scene, const RoomHand& model, const hand::Skeleton&
 PointingRay pointing_ray(const RoomState& room, const Pose& aim, bool pressed) {
     PointingRay ray{aim.position, aim * Vec3(0.0, 0.0, -free_ray), pressed};
     if (!room.panel) return ray;
-    const PanelInRoom panel{*room.panel, room.panel_point_size};
+    const view::PanelPlace panel{*room.panel, room.panel_point_size};
     if (const auto at = panel_hit(panel, aim)) ray.to = point_on_panel(panel, *at);
     return ray;
 }

@@ -10,7 +10,7 @@ namespace bolt::trainer {
 
 // Kept from frame to frame.
 struct Placement {
-    double waited = 0.0;           // s for which the user has looked and nothing had a place
+    double waited = 0.0;           // s for which the user has looked while nothing was placed
     double unseen = 0.0;           // s for which the user has turned away from the panel
     bool provisional = false;      // placed for a head that was lower than any person's
     bool workpiece_faced = false;  // the user has faced the workpiece since it was placed

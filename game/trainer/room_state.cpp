@@ -40,7 +40,7 @@ void add_key(std::vector<platform::InputEvent>& events, platform::Key key, bool 
     if (std::exchange(was_down, down) != down) events.emplace_back(platform::KeyEvent{key, down, false, {}});
 }
 
-// Requests once that all is placed again, when the menu button has been held for long enough.
+// When the menu button has been held for long enough, requests once to place all again.
 void hold_menu(RoomState& room, bool down, double& held, double seconds) {
     const double before = std::exchange(held, down ? held + seconds : 0.0);
     if (before < menu_hold && held >= menu_hold) room.placement.requested = true;
@@ -145,21 +145,21 @@ void raise(RoomState& room, double height) {
     room.height = std::clamp(room.height + height, -max_raise, max_raise);
 }
 
-std::optional<glm::dvec2> panel_hit(const PanelInRoom& panel, const Pose& aim) {
+std::optional<glm::dvec2> panel_hit(const view::PanelPlace& panel, const Pose& aim) {
     const Pose in_panel = inverse(panel.pose) * aim;
     const Vec3 along = in_panel.orientation * Vec3(0.0, 0.0, -1.0);
     if (in_panel.position.z <= 0.0 || along.z > -1e-3) return std::nullopt;
     const Vec3 hit = in_panel.position - along * (in_panel.position.z / along.z);
-    const glm::dvec2 points(0.5 * panel_points.x + hit.x / panel.size,
-                            0.5 * panel_points.y - hit.y / panel.size);
+    const glm::dvec2 points(0.5 * panel_points.x + hit.x / panel.point_size,
+                            0.5 * panel_points.y - hit.y / panel.point_size);
     if (points.x < 0.0 || points.y < 0.0 || points.x > panel_points.x || points.y > panel_points.y)
         return std::nullopt;
     return points * static_cast<double>(panel_scale);
 }
 
-Vec3 point_on_panel(const PanelInRoom& panel, const glm::dvec2& at) {
+Vec3 point_on_panel(const view::PanelPlace& panel, const glm::dvec2& at) {
     const glm::dvec2 from_middle = at / static_cast<double>(panel_scale) - 0.5 * panel_points;
-    return panel.pose * Vec3(from_middle.x * panel.size, -from_middle.y * panel.size, 0.0);
+    return panel.pose * Vec3(from_middle.x * panel.point_size, -from_middle.y * panel.point_size, 0.0);
 }
 
 std::vector<platform::InputEvent> hand_events(RoomState& room, const xr::Hands& hands, const HandKeys& keys,
@@ -263,10 +263,10 @@ Status draw_vignette(render::Renderer& renderer, gpu::FrameContext& frame, const
     return {};
 }
 
-render::Panel panel_in_scene(const Pose& panel, double point, const Pose& scene_in_room,
+render::Panel panel_in_scene(const view::PanelPlace& panel, const Pose& scene_in_room,
                              const gpu::Image& picture) {
-    const Pose at = inverse(scene_in_room) * panel;
-    const glm::dvec2 half = 0.5 * point * panel_points;
+    const Pose at = inverse(scene_in_room) * panel.pose;
+    const glm::dvec2 half = 0.5 * panel.point_size * panel_points;
     render::Panel shown;
     shown.picture = &picture;
     shown.centre = glm::vec3(at.position);

@@ -65,7 +65,7 @@ struct RoomState {
     Vignette vignette;
     Pose drawn_scene;                  // pose of the scene's frame in the room, as it was last drawn
     bool present = false;              // this frame has a room
-    bool surrounds_user = false;       // the display surrounds the user in this frame
+    bool plays_in_room = false;        // in this frame; false: the user plays in the window
     bool seen = false;                 // the user saw the lesson in the last frame
     bool paused = false;               // the lesson is paused because the user does not see it
     std::uint32_t watched_lesson = 0;  // number of the last lesson that was paused or seen
@@ -105,17 +105,11 @@ inline Pose registered_scene(const Pose& room_from_arm, const Pose& arm_in_scene
     return room_from_arm * inverse(arm_in_scene);
 }
 
-// The place of the panel in the room.
-struct PanelInRoom {
-    Pose pose;                 // RoomState::panel
-    double size = point_size;  // RoomState::panel_point_size
-};
-
 // The point, px, where a ray along −z of `aim` meets the panel; none: it does not.
-std::optional<glm::dvec2> panel_hit(const PanelInRoom& panel, const Pose& aim);
+std::optional<glm::dvec2> panel_hit(const view::PanelPlace& panel, const Pose& aim);
 
 // The point of the panel at `at` (px, as panel_hit() returns it), m in the room.
-Vec3 point_on_panel(const PanelInRoom& panel, const glm::dvec2& at);
+Vec3 point_on_panel(const view::PanelPlace& panel, const glm::dvec2& at);
 
 // The keys that controller buttons trigger.
 struct HandKeys {
@@ -152,8 +146,8 @@ void update(Vignette& vignette, const Pose& scene_in_room, double seconds);
 Status draw_vignette(render::Renderer& renderer, gpu::FrameContext& frame, const Vignette& vignette,
                      const view::ImmersiveFrame& immersive);
 
-// The panel in the scene whose frame is `scene_in_room`. `point`: m per point of the panel.
-render::Panel panel_in_scene(const Pose& panel, double point, const Pose& scene_in_room,
+// The panel in the scene, whose frame is `scene_in_room`.
+render::Panel panel_in_scene(const view::PanelPlace& panel, const Pose& scene_in_room,
                              const gpu::Image& picture);
 
 }  // namespace bolt::trainer

@@ -134,7 +134,7 @@ Status FollowedLesson::draw(gpu::FrameContext& frame, const view::WindowFrame& w
     scene_.panels.clear();
     if (panel_pose_ && panel_.picture() != nullptr)
         scene_.panels.push_back(
-            panel_in_scene(*panel_pose_, panel_point_, scene_in_room_, panel_.picture()->image()));
+            panel_in_scene({*panel_pose_, panel_point_}, scene_in_room_, panel_.picture()->image()));
     if (!ray_) return draw_in_room(*gpu_->renderer, frame, scene_, scene_in_room_, *window.immersive);
     if (!ray_model_) {
         BOLT_TRY_ASSIGN(auto model, load_ray(*gpu_->device));

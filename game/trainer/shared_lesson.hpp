@@ -37,8 +37,8 @@ inline constexpr std::size_t max_scene_change = 3584;  // bytes in the state of 
 // Writes the frames of the first process for the others.
 class LessonSender {
   public:
-    // The scene goes into `bulk` if it has changed by more than max_scene_change, as at the begin of a
-    // lesson.
+    // The scene goes into `bulk` if it has changed by more than max_scene_change, such as when a lesson
+    // starts.
     void write(cluster::MessageWriter& message, cluster::MessageWriter& bulk, const SharedFrame& frame);
     view::PanelSender panel;
 

@@ -22,7 +22,7 @@ struct EyeGroup {
     std::vector<render::Eye> eyes;
 };
 
-// A panel in the plane of a wall.
+// The place of a panel in the room.
 struct PanelPlace {
     Pose pose;                // of its centre: x right, y up, z towards the viewer
     double point_size = 0.0;  // m

@@ -35,7 +35,7 @@ render::Picture side_by_side(std::span<const render::Picture> pictures);
 // Writes a PNG file, creates its folder if needed, and prints the file's name to the standard output.
 Status write_picture(const render::Picture& picture, const std::filesystem::path& file);
 
-// The outline colour of a joint in the usual palette; alpha 0 for a joint without a verdict.
+// The outline colour of a joint in the default palette; alpha 0 for a joint without a verdict.
 glm::vec4 verdict_color(const lesson::JointResult& joint);
 
 // Writes FOLDER/view-NAME.png for each view of the assembly, with every joint outlined in the colour of its

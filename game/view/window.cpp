@@ -34,12 +34,12 @@ struct Canvas {
     std::unique_ptr<gpu::Swapchain> swapchain;
     double last_frame = 0.0;  // s, when it began
     ResolutionControl headset_resolution, window_resolution = full_in_window;
-    const ResolutionControl* adapted = nullptr;  // the one of the two that the last frame adapted
+    const ResolutionControl* adapted = nullptr;  // by the last frame; null: there was none
     int old_frames = 0;                          // frames in flight that were drawn at another resolution
     double late_since = 0.0;  // s, time since which the headset's runtime is late; 0: it is not
     bool hangs = false;       // it is late for so long that the window goes on without it
     std::optional<ImmersiveFrame> last_immersive;  // of the headset
-    std::size_t mirrored_eyes = 0;                 // number of them in the window
+    std::size_t mirrored_eyes = 0;                 // number of the headset's pictures of eyes
     std::optional<VkExtent2D> mirrored;            // size of the headset's picture in the window
     std::vector<platform::InputEvent> events;      // for the next frame
 

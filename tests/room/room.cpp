@@ -245,7 +245,7 @@ TEST_CASE("Room: a lesson pauses while its user does not see it, and when the he
     driver.immersive.reset();
     driver.frame();
     CHECK(driver.lesson().clock.paused);
-    CHECK_FALSE(driver.app().room()->surrounds_user);
+    CHECK_FALSE(driver.app().room()->plays_in_room);
     driver.frame();
     CHECK(glm::length(driver.lesson().station->latest.output.force) == 0.0);
     // It returns where it was, and the lesson goes on.

@@ -54,7 +54,7 @@ TEST_CASE("Walls: the menu is a panel on the walls, and the window's pointer pre
     driver.immersive = in_front_of_wall(-100.0);
     driver.draws = true;
     for (int i = 0; i < 3; ++i) driver.frame();
-    REQUIRE(driver.app().room()->surrounds_user);
+    REQUIRE(driver.app().room()->plays_in_room);
     REQUIRE(driver.app().room()->panel);  // without a tracker that sees the head
     glm::dvec2 start(0.0);
     for (const DrawnWidget& widget : driver.app().drawn_widgets())
@@ -65,7 +65,7 @@ TEST_CASE("Walls: the menu is a panel on the walls, and the window's pointer pre
     for (int i = 0; i < 3; ++i) driver.frame();
     REQUIRE(driver.app().screen() == ShownScreen::lesson);
     // The lesson is played by mouse in the window; the walls show it.
-    CHECK_FALSE(driver.app().room()->surrounds_user);
+    CHECK_FALSE(driver.app().room()->plays_in_room);
     CHECK(driver.app().room()->workpiece);
 }
 
