@@ -70,8 +70,9 @@ Result<std::vector<MeshNode>> mesh_nodes_of(const assets::Model& model, const st
             MeshNode mesh_node{node.name, {}};
             for (const assets::Primitive& p : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
                 if (p.topology != assets::Topology::triangles || p.indices.empty())
-                    return fail(content_error(
-                        file, fmt::format("node \"{}\" is not made of indexed triangles", node.name)));
+                    return fail(content_error(file,
+                                              fmt::format("node \"{}\" has other primitives", node.name),
+                                              "indexed triangles"));
                 for (const std::uint32_t i : p.indices)
                     mesh_node.points.emplace_back(world * glm::dvec4(Vec3(p.positions[i]), 1.0));
             }
@@ -256,10 +257,9 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
         const auto id =
             is_nut ? collision::ObstacleId::nut(joint) : collision::ObstacleId::fixed(fixed.size());
         if (!file_number(id))
-            return fail(content_error(
-                file, fmt::format("has more parts than a session can number; expected at most {} fixed "
-                                  "parts and {} nuts",
-                                  max_fixed, max_nuts)));
+            return fail(
+                content_error(file, "has more parts than a session can number",
+                              fmt::format("at most {} fixed parts and {} nuts", max_fixed, max_nuts)));
         models.names.push_back({id, mesh_node.node});
         if (is_nut)
             nuts[joint] = std::move(mesh);

@@ -21,10 +21,10 @@ struct HexagonPose {
     double low = 0.0;                     // m, height of the bearing face above the seat
 };
 
-// Locates the six corners as the outermost points of the mesh, of a head with a socket as the points above
-// its bearing face that are as far from the axis as the corners of the socket; and the bearing face of a nut
-// as its lowest points. A head that is drawn without its socket is not rotated. `points`: in the assembly's
-// frame.
+// Takes the outermost points of the mesh for the six corners; of a head with a socket, the points above its
+// bearing face at the distance of the socket's corners from the axis. A head that is drawn without its socket
+// is not rotated. The bearing face of a nut is at its lowest points, that of a head at the seat. `points`: in
+// the assembly's frame.
 HexagonPose find_hexagon(const servo::NutGeometry& nut, std::span<const glm::dvec3> points);
 
 // Transforms from the assembly's frame to the nut's own; servo::nut_pose transforms back.
@@ -45,8 +45,8 @@ struct ContactModels {
 // is generated (game/tool_models).
 std::optional<Error> missing_contact_model(const content::Assembly& assembly);
 
-// None if the contact model is missing (missing_contact_model). A joint's turned part is the node
-// content::turned_node() below the joint's node; all other nodes are fixed. The wrench is `NAME.contact.glb`
+// None if the contact model is missing (missing_contact_model). A joint's turned part is the first node for
+// which content::is_turned_node() is true; all other nodes are fixed. The wrench is `NAME.contact.glb`
 // beside its `NAME.glb` if that file exists, else `NAME.glb`; without a file it is generated. Fails, and
 // names the file, if a model cannot be read, has no triangles, or has an open surface where a closed one is
 // required.
@@ -62,6 +62,9 @@ Result<std::optional<servo::ToolContact>> load_tool_contact(const content::Assem
 // The assembly's wrench alone, in the tool's frame. Fails as load_contact_models().
 Result<collision::ToolShape> load_wrench(const content::Assembly& assembly);
 
+// Moves all nuts onto their seats.
+void seat_nuts(const servo::Setup& setup, servo::ToolContact& contact);
+
 // The visibility of a joint's nut in a named view of its assembly.
 struct NutView {
     double share = 0.0;  // visible fraction of the nut, 0…1
@@ -69,15 +72,12 @@ struct NutView {
     bool framed = true;  // the nut's centre is inside a picture of 4:3 or wider
 };
 
-// Moves all nuts onto their seats, where the models have them.
-void seat_nuts(const servo::Setup& setup, servo::ToolContact& contact);
-
 // One entry for each view of the assembly, in its order, for the present poses of all bodies. Empty if the
 // joint's nut has no contact model.
 std::vector<NutView> nut_views(const content::Assembly& assembly, const servo::ToolContact& contact,
                                std::size_t joint);
 
-// Index of the view that shows most of the nut; none if no view shows it.
+// Index of the view with the largest NutView::size of those that frame the nut; none if none shows it.
 std::optional<std::size_t> best_view(std::span<const NutView> views);
 
 }  // namespace bolt::session

@@ -98,9 +98,8 @@ struct TickContext {
     LessonTracker& tracker;
 };
 
-// Calls world::write_haptics() and world::turn_ratchet_head().
 void haptic_system(const world::WriteHaptics& world, TickContext& tick);
-// Updates the lesson from the components, and undoes its steps if the servo undid the nuts.
+// Updates the lesson from the components, and undoes its steps if the servo restored a checkpoint.
 void lesson_system(const world::WriteHaptics& world, TickContext& tick);
 
 // The schedule after each servo tick, the same for a person at a window, a simulated trainee, a replay and a
@@ -156,8 +155,8 @@ class LessonSession {
     [[nodiscard]] std::uint32_t checkpoints_saved() const { return checkpoints_saved_; }
     // The tool of the due joint, for servo::TickInput::tool.
     [[nodiscard]] std::uint8_t due_tool() const;
-    // The servo::TickInput::checkpoint_action that goes back `steps` steps before the due one; 0: not
-    // allowed.
+    // The servo::TickInput::checkpoint_action that restores the start of the step `steps` steps before the
+    // due one; 0: not allowed.
     [[nodiscard]] std::uint8_t restore_action(std::size_t steps) const;
 
     // Makes the next step() return the nuts and the lesson to the start of the due step (0) or of the step

@@ -24,8 +24,7 @@ Status check_same_lesson(const InterruptedLesson& interrupted, const SessionSetu
                          const LessonOptions& options);
 
 // Repeats the ticks of the interrupted lesson on `start`, for a servo that records nothing, such as that of a
-// station. Fails if an output differs from the recorded
-// one or the recording is damaged.
+// station. Fails if an output differs from the recorded one or the recording is damaged.
 Status repeat_ticks(const InterruptedLesson& interrupted, SessionSetup& start);
 
 }  // namespace bolt::session

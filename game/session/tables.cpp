@@ -163,10 +163,9 @@ Status put_header(Database& database, const Header& header, TableChecksums& chec
     for (const ObstacleName& named : header.obstacle_names) {
         const std::optional<std::int16_t> number = file_number(named.id);
         if (!number)
-            return fail(
-                ErrorCode::failed,
-                fmt::format("obstacle \"{}\" has index {}; expected an index that a session can number",
-                            named.name, named.id.index()));
+            return fail(ErrorCode::failed,
+                        fmt::format("obstacle \"{}\" has index {}", named.name, named.id.index()),
+                        "an index that a session can number");
         BOLT_TRY(obstacle->run_with(std::int32_t{*number}, std::string_view(named.name)));
         checksums.obstacle.add(row_hash(named));
     }

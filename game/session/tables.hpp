@@ -98,7 +98,7 @@ struct TableChecksum {
     std::uint64_t rows = 0;
     std::uint64_t sum = 0;
 
-    void add(std::uint64_t row) { ++rows, sum += row; }
+    void add(std::uint64_t hash) { ++rows, sum += hash; }
     void change(std::uint64_t before, std::uint64_t after) { sum += after - before; }
     bool operator==(const TableChecksum&) const = default;
 };

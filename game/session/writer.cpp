@@ -304,7 +304,8 @@ Status SessionWriter::record_timing(const servo::Timing& timing) {
 Status SessionWriter::synchronise() {
     if (state_->stop_error) return fail(*state_->stop_error);
     BOLT_TRY(state_->commit(nullptr));
-    // A reader of the file can prevent a part of it, which then follows at a later checkpoint.
+    // While another program reads the file, SQLite copies only a part of the log; a later checkpoint copies
+    // the rest.
     return state_->database->execute("PRAGMA wal_checkpoint(FULL)");
 }
 
