@@ -42,11 +42,11 @@ void add_displays(CLI::App& app, int& exit_code);
 void add_study(CLI::App& app, int& exit_code);
 void add_trainees(CLI::App& app, int& exit_code);
 
-// The treatment of a name that is not known yet: `added` gives it a code.
+// The treatment of an unknown name: `added` gives it a code, `unchanged` leaves it without one.
 enum class NewPerson : std::uint8_t { unchanged, added };
-// The person that --trainee names, for commands that use calibrations of gloves in the folder `gloves`: those
-// of older programs get the code. An unknown name stays without a code if it is not added. Prints what the
-// user should know to stderr. Fails if a name cannot be added.
+// The person that --trainee names. Renames the person's calibrations of gloves in the folder `gloves` that
+// older programs named without the code. Prints what the user should know to stderr. Fails if a name cannot
+// be added.
 Result<content::Person> person_argument(const std::string& typed, const std::filesystem::path& gloves,
                                         NewPerson new_person);
 

@@ -176,7 +176,9 @@ Result<std::string> examine_windows() {
     BOLT_TRY_ASSIGN(const auto instance, gpu::Instance::create({false, extensions}));
     BOLT_TRY_ASSIGN(const auto surface, window.make_surface(instance));
     BOLT_TRY_ASSIGN(const auto found, gpu::survey_devices(instance, {"", surface.get()}));
-    if (found.choice.index < 0) return fail(ErrorCode::no_device, "no GPU can draw to this display");
+    if (found.choice.index < 0)
+        return fail(ErrorCode::no_device, "no GPU can draw to this display",
+                    "a GPU that the display's windows can use");
     const auto index = static_cast<std::size_t>(found.choice.index);
     gpu::SurfaceSupport offer;
     const VkResult queried = gpu::query_surface(found.physical[index], surface.get(), offer);

@@ -240,7 +240,8 @@ Result<Drawing> make_drawing(const RenderOptions& options, const view::LoadedMod
 // Draws one view as often as requested, and writes its picture and the times of its frames.
 Status draw_view(Drawing& drawing, const view::Viewpoint& view, std::size_t view_count) {
     const RenderOptions& options = drawing.options;
-    if (view.eye == view.target) return fail(ErrorCode::usage, "eye and target are the same point");
+    if (view.eye == view.target)
+        return fail(ErrorCode::usage, "eye and target are the same point", "two different points");
     std::vector<render::Eye> eyes;
     for (const float offset : view::eye_offsets(options.stereo))
         eyes.push_back(eye_of(options, view, drawing.shown.box, drawing.aspect, offset));

@@ -94,7 +94,9 @@ class ReplayCamera {
 
     Status finish() {
         if (error_) return fail(*error_);
-        if (drawn_ == 0) return fail(ErrorCode::usage, "the session ends before the first picture");
+        if (drawn_ == 0)
+            return fail(ErrorCode::usage, "the session ends before the first picture",
+                        "an earlier --at or --from");
         if (encoder_ && encoder_->finish() != 0)
             return fail(ErrorCode::failed, "ffmpeg could not write the film");
         if (!options_.png.empty()) BOLT_TRY(view::write_picture(last_, options_.png));
@@ -280,7 +282,8 @@ void add_replay(CLI::App& app, int& exit_code) {
     replay->callback([options, from, until, &exit_code] {
         const bool cut = from->count() + until->count() > 0;
         const Status done = cut && options->video.empty() && options->wav.empty()
-                                ? fail(ErrorCode::usage, "--from and --until require --video or --wav")
+                                ? fail(ErrorCode::usage, "--from and --until cut only film and sound",
+                                       "--video FILE or --wav FILE too")
                                 : run_replay(*options);
         exit_code = done ? 0 : print_error(done.error());
     });

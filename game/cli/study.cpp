@@ -188,7 +188,7 @@ Result<std::vector<double>> read_effects(const std::vector<std::string>& texts, 
     return effects;
 }
 
-// The kind of trainee is that of the person: each kind is as frequent as the others.
+// The person's number chooses the profile of the trainee, so each profile is equally frequent.
 Result<session::LessonOutcome> play_simulated(const study::SimulatedLesson& lesson) {
     const std::vector<std::string> profiles = trainees::profile_names();
     trainees::TrainOptions train;
@@ -267,7 +267,7 @@ int run_grim(const StudyArguments& options) {
     char* end = nullptr;
     const double mean = std::strtod(options.mean.c_str(), &end);
     if (options.mean.empty() || *end != '\0' || !std::isfinite(mean))
-        return print_error({ErrorCode::usage, "--mean: is no number", "the printed mean, such as 6.684"});
+        return print_error({ErrorCode::usage, "--mean: is not a number", "the printed mean, such as 6.684"});
     const std::size_t dot = options.mean.find('.');
     const int decimals = dot == std::string::npos ? 0 : static_cast<int>(options.mean.size() - dot - 1);
     if (options.high && *options.high < options.low)

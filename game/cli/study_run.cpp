@@ -34,8 +34,8 @@ Status check_remaining_equipment(const study::Participation& participation, cons
     return errors.empty() ? Status() : fail(errors.front());
 }
 
-// Continues. Entries from the future are a sign of a wrong clock, which would make the participant come again
-// on a wrong day.
+// Continues the participation. Entries from the future are a sign of a wrong clock, which would make the
+// participant come again on a wrong day.
 Result<study::Participation> resume_participation(const content::Study& study, const std::string& participant,
                                                   const StudyRunArguments& options) {
     BOLT_TRY_ASSIGN(auto participation,
@@ -55,7 +55,7 @@ Result<study::Participation> resume_participation(const content::Study& study, c
     return participation;
 }
 
-// The participant that --participant names, or that the person of --trainee is already, or a new one.
+// The participation that --participant names, or that of the person whom --trainee names, or else a new one.
 Result<study::Participation> find_participation(const content::Study& study,
                                                 const StudyRunArguments& options) {
     BOLT_TRY_ASSIGN(const auto data, user_data_folder());

@@ -255,7 +255,7 @@ Status check_hands(const TrainArguments& options, const trainer::Equipment& equi
     return {};
 }
 
-// Shows the lesson, or, in a process that another one leads, that one's lesson.
+// Shows the lesson; a process that follows another one shows the lesson of that one.
 Status show(WindowRequest request, Surroundings surroundings, platform::Desktop& desktop) {
     const TrainArguments& options = request.options;
     OpenedWalls opened;

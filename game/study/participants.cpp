@@ -148,9 +148,11 @@ Result<fs::path> find_participant(const fs::path& study_folder, const std::strin
     const fs::path own = study_folder / participants_folder_name / participant;
     std::error_code ignored;
     if (participant_number(participant) == 0 || !fs::exists(own, ignored))
-        return fail(participant_error(own, "there is no such participant"));
+        return fail(
+            participant_error(own, "there is no such participant", "a folder in participants/, such as P03"));
     if (fs::exists(own / withdrawn_file_name, ignored))
-        return fail(participant_error(own, "this participant has withdrawn the consent"));
+        return fail(
+            participant_error(own, "this participant has withdrawn the consent", "another participant"));
     return own;
 }
 
@@ -175,9 +177,11 @@ Status withdraw(const fs::path& study_folder, const std::string& participant, st
     const fs::path own = study_folder / participants_folder_name / participant;
     std::error_code ignored;
     if (participant_number(participant) == 0 || !fs::exists(own, ignored))
-        return fail(participant_error(own, "there is no such participant"));
+        return fail(
+            participant_error(own, "there is no such participant", "a folder in participants/, such as P03"));
     if (fs::exists(own / withdrawn_file_name, ignored) && !has_leftovers(own))
-        return fail(participant_error(own, "this participant has withdrawn the consent"));
+        return fail(
+            participant_error(own, "this participant has withdrawn the consent", "another participant"));
     BOLT_TRY_ASSIGN(const auto lock,
                     session::FileLock::acquire(own / journal_file_name, (own / journal_file_name).string()));
     return delete_participant(own, time);

@@ -168,7 +168,9 @@ const content::StudyLesson& Participation::lesson() const {
 
 Result<fs::path> Participation::make_lesson_folder() {
     const Step& step = *due();
-    if (remaining_wait() > 0.0) return fail(participant_error(folder_, "it is too early for this lesson"));
+    if (const double wait = remaining_wait(); wait > 0.0)
+        return fail(participant_error(folder_, "it is too early for this lesson",
+                                      fmt::format("{:.0f} s later", wait)));
     // In the training each lesson has a folder of its own; otherwise the session of an interrupted lesson
     // stays beside the new one, under another name.
     std::size_t number = 1;

@@ -98,7 +98,8 @@ Result<Journal> Journal::create(const std::filesystem::path& file, bool simulate
                                 std::span<const JournalEntry> first) {
     const std::string name = file.string();
     std::error_code problem;
-    if (std::filesystem::exists(file, problem)) return session::file_error(name, "exists already");
+    if (std::filesystem::exists(file, problem))
+        return session::file_error(name, "exists already", "a participant without a journal");
     // The file gets its name when it is complete.
     const std::filesystem::path part = name + ".part";
     std::filesystem::remove(part, problem);
@@ -121,7 +122,8 @@ Result<Journal> Journal::create(const std::filesystem::path& file, bool simulate
 Result<Journal> Journal::open(const std::filesystem::path& file) {
     const std::string name = file.string();
     std::error_code missing;
-    if (!std::filesystem::exists(file, missing)) return session::file_error(name, "does not exist");
+    if (!std::filesystem::exists(file, missing))
+        return session::file_error(name, "does not exist", "journal.db of a participant");
     BOLT_TRY_ASSIGN(auto lock, session::FileLock::acquire(file, name));
     BOLT_TRY_ASSIGN(auto database, session::Database::open(file, name));
     BOLT_TRY(database.execute(durable));
