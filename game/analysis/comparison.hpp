@@ -52,8 +52,8 @@ class TorqueCurveBuilder {
     TorqueCurve curve_;
     double sign_ = 1.0;
     double origin_ = 0.0;  // rad
-    double anchor_ = 0.0;  // rad turned where the step of the last sample began
-    double step_;          // rad, between samples; doubles when the curve grows too long
+    double anchor_ = 0.0;  // rad turned when the last sample was added
+    double step_;  // rad after it within which values merge into it; doubles when the curve is too long
 };
 
 // The curve of a measured run, without stages.

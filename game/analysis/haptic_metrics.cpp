@@ -99,8 +99,8 @@ void HapticMetricsBuilder::update_touch(double time, const session::TickRecord& 
     }
     if (!touches && touched_before) contact_end_ = time;
     if (touches) latest_.last_touched = tick.touched;
-    const bool obstacle_contacts = free && touches && !touched_with_nut_ && !own_nut(tick.touched);
-    if (!obstacle_contacts) {
+    const bool is_obstacle_contact = free && touches && !touched_with_nut_ && !own_nut(tick.touched);
+    if (!is_obstacle_contact) {
         in_obstacle_contact_ = false;
         return;
     }

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t band_points = 121;
 constexpr statistics::BootstrapOptions band_options{.resamples = 2000, .confidence = 0.95, .seed = band_seed};
 
-// Pools what resampled repetitions contribute. The values of a sample are indices of repetitions.
+// Pools the errors of a stage over repetitions. A bootstrap sample consists of indices of repetitions.
 template <class Pick>
 StageBand stage_band(std::span<const CycleComparison> cycles, const Pick& pick) {
     std::vector<double> indices;

@@ -71,7 +71,7 @@ struct OrderEntry {
 
 // The planned and the actual order of the joints in one pass.
 struct PassOrder {
-    std::string label;  // "30 %", "run down", "re-check"
+    std::string label;  // "30 %", "run-down", "re-check"
     std::vector<std::size_t> planned;
     std::vector<OrderEntry> actual;  // visits with work, in order of time
 
@@ -84,8 +84,8 @@ struct PassOrder {
     [[nodiscard]] std::size_t visits(std::size_t joint) const;
 };
 
-// One PassOrder for each pass of the assembly, but a single one for a loosening session and for a session
-// without pass events. The latter has a planned order only if the assembly has exactly one pass.
+// One PassOrder for each pass of the session's task. A tightening session without pass events has a single
+// one, with a planned order only if the assembly has exactly one pass.
 std::vector<PassOrder> pass_orders(const SessionData& session);
 
 // Passes that followed the same planned order completely share one drawing; every other pass with a visit has

@@ -38,14 +38,14 @@ struct PlausibleRange {
     double low = 0.0, high = 0.0;
 };
 
-// The largest torque of a run, N·m. Up to the fracture of the bolt at the torque that friction of 0.3 needs
-// (T = 0.4 d A_s R_m), down to a hundredth of the yield load of class 8.8 with friction near zero (0.05 d).
-// The strongest class is assumed unless the rig names one. Without a thread: the range of all threads.
+// The largest torque of a run, N·m. High: it breaks the bolt at a friction of 0.3 (T = 0.4 d A_s R_m), of the
+// strongest class unless the rig names one. Low: a hundredth of the yield load of class 8.8, with friction
+// near zero (0.05 d). Without a thread: the range of all threads.
 PlausibleRange plausible_torque(const Rig& rig);
 
-// The slope of torque over angle, N·m/rad: K d c P/2π with the joint's stiffness c. High: K 0.31 (friction
-// 0.24) and rigid members that are as thick as the bolt's diameter, or as its length permits. Low: K 0.08,
-// and parts ten times as soft as a bolt whose length is that of the rig, or 20 diameters. None without a
+// The slope of torque over angle, N·m/rad: K d c P/2π with the joint's stiffness c. High: K = 0.31 (friction
+// 0.24) and rigid members, as thick as the rig's bolt length permits, or else as the bolt's diameter. Low: K
+// = 0.08 and a tenth of the stiffness of a bolt of the rig's length, or else of 20 diameters. None without a
 // thread.
 std::optional<PlausibleRange> plausible_slope(const Rig& rig);
 

@@ -74,7 +74,7 @@ class GradientTable {
     std::vector<Sums> sums_;
 };
 
-// The samples from the last one below `low` · peak to the first one above `high` · peak: [begin, end).
+// The samples [begin, end) after the last one below `low` · peak, before the first one above `high` · peak.
 struct Rise {
     std::size_t begin = 0, end = 0;
 };
@@ -97,7 +97,7 @@ std::optional<FreeTurning> free_turning(const analysis::TorqueCurve& curve, std:
     return free;
 }
 
-// Before the rise, at a distance from it as long as its lower half.
+// The run-down ends before the rise, by the length of the rise's lower half.
 std::optional<FreeTurning> run_down(const analysis::TorqueCurve& curve, std::size_t peak) {
     const Rise rise = rise_between(curve, peak, loaded_share, 0.5);
     const std::size_t last = std::min(rise.end, curve.size() - 1);
@@ -119,8 +119,8 @@ LinearPart linear_part(const analysis::TorqueCurve& curve, const GradientTable& 
     return part;
 }
 
-// Extends the range from its steepest sample to all neighbours whose gradient is a share of the slope, and
-// takes the slope of the new range; the slope settles in a few rounds.
+// Replaces the range by the samples around its steepest one whose gradient is at least a share of its slope;
+// the slope settles in a few rounds.
 Rise settle_linear(const GradientTable& table, Rise range, std::size_t peak, double window) {
     for (int round = 0; round < 4; ++round) {
         const double enough = linear_share * table.regression(range.begin, range.end).slope;
@@ -140,7 +140,7 @@ Rise settle_linear(const GradientTable& table, Rise range, std::size_t peak, dou
     return range;
 }
 
-// From where the gradient stays low up to the end of the curve; a drop at its very end is not enough.
+// The first point from which the gradient stays low over an angle of `window`.
 std::optional<CurvePoint> yield_point(const analysis::TorqueCurve& curve, const GradientTable& table,
                                       const LinearPart& linear, std::size_t after, double window) {
     const double low = yield_share * linear.slope;

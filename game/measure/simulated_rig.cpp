@@ -25,9 +25,10 @@ class Operator {
   public:
     Operator(const SensorModel& model, Random& random) : model_(model), random_(random) { next_stroke(); }
 
-    // rad of the hand in this tick; none while the hand returns.
+    // The hand in a tick.
     struct Pull {
-        bool engaged = false, begins = false;
+        bool engaged = false;  // false while the hand returns
+        bool begins = false;
         double turned = 0.0;  // rad
     };
     Pull advance() {

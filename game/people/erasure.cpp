@@ -59,7 +59,7 @@ void erase_session(const fs::path& path, const PersonData& data, Erasure& erasur
 }
 
 // Deletes the journal of a participant. Holds its lock meanwhile, so that no program leads the participant.
-// Leaves a mark that tells the study of the withdrawal.
+// Marks the folder as that of a participant who withdrew.
 void erase_answers(const fs::path& path, Erasure& erasure) {
     const auto lock = session::FileLock::acquire(path, path.string());
     if (!lock) {

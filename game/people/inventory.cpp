@@ -202,7 +202,7 @@ Result<DataFolders> user_folders(std::vector<fs::path> sessions) {
         error.file = one.string();
         error.what = "the folder of this study is not there, so it was not searched";
         error.expected = fmt::format(
-            "the folder at its place, or its new place in {}, or no line of a study that was deleted",
+            "the folder at its place, its new place in {}, or no line there if the study was deleted",
             (data / study::known_studies_file_name).string());
         folders.missing.push_back(std::move(error));
     }

@@ -1,5 +1,5 @@
-// The people that a report shows, as a list in the head of the page, so that an export or an erasure can tell
-// whose page it is:
+// The people that a report shows, listed in the head of the page. Export and erasure of a person's files find
+// the page by them:
 //
 //   <meta name="boltwright-person" content="T-7K3M9Q"/>
 #pragma once

@@ -73,11 +73,10 @@ Tails tails(std::span<const double> p, std::size_t x) {
     return {less, greater, std::min(1.0, 2.0 * std::min(less, greater))};
 }
 
-// The count of averages or differences that are positive if there is no shift: the probability of each count
-// or, for large samples, only the standard deviation about half of all, whose normal distribution is used.
+// The number of averages or differences that are positive if there is no shift, as a random variable.
 struct PositiveCount {
-    std::vector<double> p;
-    double deviation = 0.0;
+    std::vector<double> p;   // of each number; empty for large samples: normal with the mean of half of all
+    double deviation = 0.0;  // of that normal distribution
 };
 
 // The largest k ≥ 1 with P(count ≤ k − 1) ≤ tail, and that probability.
@@ -103,7 +102,7 @@ Shift shift_of(std::vector<double> sorted, const PositiveCount& count, double co
             std::max(0.0, 1.0 - 2.0 * below)};
 }
 
-// The distribution by whole counts from the one by doubled ranks, of which only even sums occur.
+// Every second value from `first` on: only every second sum of doubled ranks occurs.
 std::vector<double> every_second(std::span<const double> p, std::size_t first) {
     std::vector<double> counts;
     for (std::size_t i = first; i < p.size(); i += 2) counts.push_back(p[i]);

@@ -21,7 +21,7 @@ struct Quartiles {
 // Ignores values that are not finite. Without values all are NaN.
 Quartiles quartiles(std::vector<double> values);
 
-// Mean and sample standard deviation. NaN: without values; the deviation also of one value.
+// Mean and sample standard deviation. Without values both are NaN, with one value the deviation.
 struct MeanDeviation {
     std::size_t n = 0;
     double mean = std::numeric_limits<double>::quiet_NaN(), deviation = mean;
