@@ -6,13 +6,18 @@ namespace bolt {
 
 namespace {
 
-tl::unexpected<Error> error_at(std::size_t position, std::string what, std::string expected) {
+tl::unexpected<Error> error_at(int column, std::string what, std::string expected) {
     Error error;
     error.code = ErrorCode::bad_content;
-    error.column = static_cast<int>(position) + 1;
+    error.column = column;
     error.what = std::move(what);
     error.expected = std::move(expected);
     return fail(std::move(error));
+}
+
+int characters_in(std::string_view utf8) {
+    const auto begins_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+    return static_cast<int>(std::count_if(utf8.begin(), utf8.end(), begins_character));
 }
 
 // Reads the quoted text that begins at `at` and sets `at` after its closing quote.
@@ -30,25 +35,30 @@ Result<std::string> quoted(std::string_view line, std::size_t& at) {
             return text;
         }
     }
-    return error_at(open, "this quote is not closed on its line", "a closing '\"'");
+    return error_at(column_at(line, open), "this quote is not closed on its line", "a closing '\"'");
 }
 
 }  // namespace
 
+int column_at(std::string_view line, std::size_t offset) { return 1 + characters_in(line.substr(0, offset)); }
+
 Result<std::vector<CsvField>> split_csv_line(std::string_view line, char separator) {
     const auto blank = [&](char c) { return (c == ' ' || c == '\t') && c != separator; };
     std::vector<CsvField> fields;
-    std::size_t at = 0;
+    std::size_t at = 0, counted = 0;
+    int column = 1;  // of the byte at `counted`
     while (true) {
         while (at < line.size() && blank(line[at])) ++at;
         CsvField field;
-        field.column = static_cast<int>(at) + 1;
+        column += characters_in(line.substr(counted, at - counted));
+        counted = at;
+        field.column = column;
         if (at < line.size() && line[at] == '"') {
             BOLT_TRY_ASSIGN(auto text, quoted(line, at));
             field.text = std::move(text);
             while (at < line.size() && blank(line[at])) ++at;
             if (at < line.size() && line[at] != separator)
-                return error_at(at, "there is text after a quoted field",
+                return error_at(column_at(line, at), "there is text after a quoted field",
                                 separator == ',' ? "a comma or the end of the line"
                                                  : "the separator or the end of the line");
         } else {

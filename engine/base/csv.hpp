@@ -12,8 +12,12 @@ namespace bolt {
 
 struct CsvField {
     std::string text;  // unquoted, without surrounding blanks
-    int column = 1;    // of its first character in the line, counted from 1, in bytes
+    int column = 1;    // of its first character, as Error::column counts
 };
+
+// Returns the column of the byte at `offset` of a line in UTF-8, as Error::column counts: from 1, in
+// characters.
+int column_at(std::string_view line, std::size_t offset);
 
 // Splits one line without its line end. Fails for a quote that is not closed, and for text after a closing
 // quote; the error has the column, but not the file and the line.

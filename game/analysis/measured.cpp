@@ -123,12 +123,12 @@ struct CsvParser {
         return measured.cycles[entry->second];
     }
 
-    Status row(const std::vector<CsvField>& fields, std::size_t length) {
+    // `end_column`: column of the end of the line.
+    Status row(const std::vector<CsvField>& fields, int end_column) {
         if (fields.size() != columns.count)
-            return position.error(
-                fields.size() < columns.count ? static_cast<int>(length) + 1 : fields[columns.count].column,
-                fmt::format("this row has {} fields", fields.size()),
-                fmt::format("{}, as in the header", columns.count));
+            return position.error(fields.size() < columns.count ? end_column : fields[columns.count].column,
+                                  fmt::format("this row has {} fields", fields.size()),
+                                  fmt::format("{}, as in the header", columns.count));
         const auto field = [&](int column) -> const CsvField& {
             return fields[static_cast<std::size_t>(column)];
         };
@@ -156,7 +156,7 @@ struct CsvParser {
         Result<std::vector<CsvField>> fields = split_csv_line(text);
         if (!fields)
             return position.error(fields.error().column, fields.error().what, fields.error().expected);
-        if (has_header) return row(*fields, text.size());
+        if (has_header) return row(*fields, column_at(text, text.size()));
         BOLT_TRY_ASSIGN(auto header, read_header(*fields, position));
         columns = std::move(header);
         has_header = true;

@@ -13,8 +13,6 @@ namespace bolt::measure {
 
 namespace {
 
-std::size_t offset_of(const CsvField& field) { return static_cast<std::size_t>(field.column) - 1; }
-
 class TableParser {
   public:
     TableParser(const std::string& file, const TableFormat& format, std::span<const std::string> wanted,
@@ -42,20 +40,19 @@ class TableParser {
     Result<Table> finish() {
         line_ = std::max(line_, 1);
         if (!has_header_)
-            return error(0, "there is no line that names the columns",
+            return error(1, "there is no line that names the columns",
                          fmt::format("a line with '{}'", wanted_.empty() ? label_ : wanted_[0]));
-        if (table_.rows() == 0) return error(0, "there are no rows after the header", "measured values");
+        if (table_.rows() == 0) return error(1, "there are no rows after the header", "measured values");
         return std::move(table_);
     }
 
   private:
-    [[nodiscard]] tl::unexpected<Error> error(std::size_t offset, std::string what,
-                                              std::string expected) const {
+    [[nodiscard]] tl::unexpected<Error> error(int column, std::string what, std::string expected) const {
         Error e;
         e.code = ErrorCode::bad_content;
         e.file = table_.file;
         e.line = line_;
-        e.column = static_cast<int>(offset) + 1;
+        e.column = column;
         e.what = std::move(what);
         e.expected = std::move(expected);
         return fail(std::move(e));
@@ -63,9 +60,7 @@ class TableParser {
 
     Status split(std::string_view line) {
         auto fields = split_csv_line(line, format_.separator);
-        if (!fields)
-            return error(static_cast<std::size_t>(fields.error().column) - 1, fields.error().what,
-                         fields.error().expected);
+        if (!fields) return error(fields.error().column, fields.error().what, fields.error().expected);
         fields_ = std::move(*fields);
         return {};
     }
@@ -77,20 +72,20 @@ class TableParser {
             names.emplace_back(fields_[i].text);
             if (fields_[i].text != name) continue;
             if (count++ > 0)
-                return error(offset_of(fields_[i]), fmt::format("column '{}' appears twice", name),
+                return error(fields_[i].column, fmt::format("column '{}' appears twice", name),
                              "each column once");
             index = i;
         }
         if (count > 0) return {};
         const std::string near = nearest(name, names);
         if (!near.empty())
-            return error(0, fmt::format("there is no column '{}'", name),
+            return error(1, fmt::format("there is no column '{}'", name),
                          fmt::format("did you mean '{}'?", near));
         if (names.size() == 1)
-            return error(0, fmt::format("there is no column '{}', and this line has only one column", name),
+            return error(1, fmt::format("there is no column '{}', and this line has only one column", name),
                          "\"separator\" and \"lines_before_header\" of the rig as in this file");
         return error(
-            0, fmt::format("there is no column '{}'", name),
+            1, fmt::format("there is no column '{}'", name),
             fmt::format("one of the columns {}",
                         fmt::join(names.begin(),
                                   names.begin() + std::min<std::ptrdiff_t>(std::ssize(names), 12), ", ")));
@@ -98,7 +93,7 @@ class TableParser {
 
     Status header(std::string_view text) {
         if (text.find('\0') != std::string_view::npos)
-            return error(0, "the file is not plain text in UTF-8",
+            return error(1, "the file is not plain text in UTF-8",
                          "UTF-8; iconv -f UTF-16 -t UTF-8 converts a file of 16-bit characters");
         field_count_ = fields_.size();
         for (const std::string& name : wanted_) {
@@ -115,7 +110,7 @@ class TableParser {
     Result<double> number(const CsvField& field, const std::string& name) const {
         const auto wrong = [&](std::string what) {
             return error(
-                offset_of(field), std::move(what),
+                field.column, std::move(what),
                 fmt::format("a number such as {}; remove the row, or repair the channel and measure again",
                             format_.decimal_comma ? "-12,5" : "-12.5"));
         };
@@ -128,7 +123,7 @@ class TableParser {
         if (problem != std::errc() || end != text.data() + text.size() || text.starts_with("+-")) {
             const bool comma = !format_.decimal_comma && field.text.find(',') != std::string::npos;
             if (comma)
-                return error(offset_of(field), fmt::format("'{}' has a decimal comma", text),
+                return error(field.column, fmt::format("'{}' has a decimal comma", text),
                              "\"decimal\": \"comma\" in the rig's \"table\"");
             return wrong(fmt::format("'{}' is not a number for '{}'", text, name));
         }
@@ -141,7 +136,7 @@ class TableParser {
     // A row may be longer than the header (loggers write comments there), but not shorter.
     Status row(std::string_view text) {
         if (fields_.size() < field_count_ && fields_.size() <= last_needed())
-            return error(text.size(), fmt::format("this row has {} fields", fields_.size()),
+            return error(column_at(text, text.size()), fmt::format("this row has {} fields", fields_.size()),
                          fmt::format("{}, as in the header; the file may have been cut off", field_count_));
         for (std::size_t i = 0; i < wanted_.size(); ++i) {
             BOLT_TRY_ASSIGN(const auto value, number(fields_[indices_[i]], wanted_[i]));

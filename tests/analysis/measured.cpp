@@ -101,6 +101,12 @@ TEST_CASE("Measured file: errors give line, column and expectation") {
           "m.csv:2:3: this quote is not closed on its line; expected a closing '\"'");
     CHECK(error_of(head + "\"0\"x,1\n") ==
           "m.csv:2:4: there is text after a quoted field; expected a comma or the end of the line");
+    const std::string umlaut = "cycle," + head + "Prüfung,";  // columns count characters, not bytes
+    CHECK(error_of(umlaut + "0,zero\n") ==
+          "m.csv:2:11: 'zero' is not a number for 'torque_Nm'; expected a decimal number such as -12.5");
+    CHECK(error_of(umlaut + "0,\"1\n") ==
+          "m.csv:2:11: this quote is not closed on its line; expected a closing '\"'");
+    CHECK(error_of(umlaut + "0\n") == "m.csv:2:10: this row has 2 fields; expected 3, as in the header");
     CHECK(error_of(head + "0,1\n1,2\n2,3\n3,4\n") ==
           "m.csv:2:1: this file has only 4 samples; expected at least 5");
     CHECK(error_of("cycle," + head + "a,0,1\na,1,1\na,2,1\na,3,1\na,4,1\nb,0,1\n") ==

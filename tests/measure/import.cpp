@@ -143,6 +143,8 @@ TEST_CASE("Import: mistakes of the file are told with line and column") {
     for (int i = 100; i < 150; ++i)
         gap = replaced(gap, fmt::format("\n{},", 10 * i), fmt::format("\n# {},", 10 * i));
     check_message(message_of(import_text(force_rig, gap)), "run.csv:152:1: ", "a gap of 0.51 s");
+    check_message(message_of(import_text(force_rig, "n,t,Fx,phi\nüb,0,x,3\n")),
+                  "run.csv:2:6: ", "not a number for 'Fx'");
     check_message(message("t,Fx,phi", "t,Fy,phi"), "run.csv:1:1: ", "there is no column 'Fx'");
     check_message(message_of(import_text(force_rig, "t,Fx,phi\n1,2,3\n")), "run.csv:2: ", "only 1 samples");
     check_message(message_of(import_text(force_rig, "t,Fx,phi\n")), "run.csv:1:1: ", "no rows");
