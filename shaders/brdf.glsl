@@ -76,19 +76,19 @@ ViewAlbedo view_albedo(Surface s, sampler2D albedo_table) {
 // cosine. The light has unit irradiance on a surface that faces it.
 vec3 reflect_light(Surface s, ViewAlbedo albedo, vec3 l) {
     const vec3 h = normalize(s.out_dir + l);
-    const float vh = pow5(1.0 - clamp(dot(s.out_dir, h), 0.0, 1.0));
+    const float grazing = pow5(1.0 - clamp(dot(s.out_dir, h), 0.0, 1.0));
     vec3 result = vec3(0.0);
     const float nl = dot(s.normal, l);
     if (nl > 0.0) {
         const float gain = albedo.gain;
-        const vec3 dielectric = (s.f0 + (vec3(s.f90) - s.f0) * vh) * (1.0 + s.f0 * gain);
-        const vec3 metal = (s.base_color + (1.0 - s.base_color) * vh) * (1.0 + s.base_color * gain);
+        const vec3 dielectric = (s.f0 + (vec3(s.f90) - s.f0) * grazing) * (1.0 + s.f0 * gain);
+        const vec3 metal = (s.base_color + (1.0 - s.base_color) * grazing) * (1.0 + s.base_color * gain);
         const float shape = s.brushed ? ggx_shape(s.normal, s.tangent, s.alpha, s.out_dir, l, h)
                                       : ggx_shape(s.normal, s.alpha.x, s.out_dir, l, h);
         result = (albedo.diffuse / pi + mix(dielectric, metal, s.metallic) * shape) * (albedo.below_coat * nl);
     }
     const float cnl = dot(s.coat_normal, l);
     if (s.coated && cnl > 0.0)
-        result += s.coat * (0.04 + 0.96 * vh) * ggx_shape(s.coat_normal, s.coat_alpha, s.out_dir, l, h) * cnl;
+        result += s.coat * (0.04 + 0.96 * grazing) * ggx_shape(s.coat_normal, s.coat_alpha, s.out_dir, l, h) * cnl;
     return result;
 }

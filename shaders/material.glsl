@@ -17,7 +17,7 @@ layout(location = 2) in vec4 tangent_in;
 layout(location = 3) in vec4 texcoord;  // both sets
 layout(location = 4) in vec4 color_in;
 layout(location = 5) flat in vec4 tint;
-layout(location = 6) flat in vec2 mark;
+layout(location = 6) flat in vec2 opacity_unlit;
 
 layout(push_constant) uniform Draw { uint material_index; };
 

@@ -63,8 +63,8 @@ void main() {
     vec3 color = shade(s, gl_FragCoord.xy * lit_frame.texel);
     float opacity = has(SCENE_BLEND) ? base.a : 1.0;
     if (has(SCENE_TINTED)) {
-        if (mark.y > 0.5) color = base.rgb;
-        opacity *= mark.x;
+        if (opacity_unlit.y > 0.5) color = base.rgb;
+        opacity *= opacity_unlit.x;
     }
     if (has(SCENE_CUT)) {
         const float gone = cut_fade(at);

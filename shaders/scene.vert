@@ -20,7 +20,7 @@ layout(location = 2) out vec4 tangent_out;
 layout(location = 3) out vec4 texcoord_out;  // both sets
 layout(location = 4) out vec4 color_out;
 layout(location = 5) flat out vec4 tint;
-layout(location = 6) flat out vec2 mark;  // opacity; 1: unlit
+layout(location = 6) flat out vec2 opacity_unlit;  // opacity; 1: unlit
 
 void main() {
     const mat4 world_from_object = instances[gl_InstanceIndex].world_from_object;
@@ -36,11 +36,11 @@ void main() {
     texcoord_out = vec4(has(SCENE_ANY_MAP) ? texcoord : vec2(0.0), has(SCENE_SECOND_UV) ? second_texcoord : vec2(0.0));
     color_out = has(SCENE_VERTEX_COLORS) ? color : vec4(1.0);
     tint = vec4(0.0);
-    mark = vec2(1.0, 0.0);
+    opacity_unlit = vec2(1.0, 0.0);
     if (has(SCENE_TINTED)) {
         tint = instances[gl_InstanceIndex].tint;
-        mark.x = instances[gl_InstanceIndex].opacity;
-        mark.y = (instances[gl_InstanceIndex].flags & INSTANCE_FLAT) != 0u ? 1.0 : 0.0;
+        opacity_unlit.x = instances[gl_InstanceIndex].opacity;
+        opacity_unlit.y = (instances[gl_InstanceIndex].flags & INSTANCE_FLAT) != 0u ? 1.0 : 0.0;
     }
     gl_Position = frame.views[view_index].clip_from_world * world;
 }

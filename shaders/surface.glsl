@@ -3,8 +3,8 @@
 //   Z. Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014 (octahedral
 //   normals).
 //   T. Duff et al., Building an Orthonormal Basis, Revisited, 2017.
-// The highest bit of the material value: base colour, metallic, roughness and occlusion are in the material
-// buffer. The 15 bits below hold the material's index (max_materials in engine/render/draw_list.hpp).
+// The highest bit of the material value is set if the material buffer has base colour, metallic, roughness and
+// occlusion. The 15 bits below hold the material's index (max_materials in engine/render/draw_list.hpp).
 #define SURFACE_PER_PIXEL_MATERIAL 32768u
 
 vec2 pack_normal(vec3 n) {

@@ -118,7 +118,7 @@ Status write_private_file(const std::filesystem::path& path, std::string_view te
 Status require_different_files(const std::filesystem::path& input, const std::filesystem::path& output) {
     std::error_code none;
     if (!std::filesystem::equivalent(input, output, none) || none) return {};
-    return fail(ErrorCode::usage, output.string() + " is also the input", "expected a different output file");
+    return fail(ErrorCode::usage, output.string() + " is also the input", "a different output file");
 }
 
 Result<std::filesystem::path> user_data_folder() {

@@ -28,8 +28,8 @@ constexpr double square(double x) { return x * x; }
 // Returns true if no component is infinite or NaN.
 inline bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Piecewise linear interpolation of y over ascending x, of the same size of at least 2. Beyond the ends the
-// value is that of the end.
+// Piecewise linear interpolation of y over x at `at`. `x` is strictly ascending; `x` and `y` have the same
+// size, at least 2. Outside the range of `x` the result is the first or last value of `y`.
 inline double interpolate(std::span<const double> x, std::span<const double> y, double at) {
     const auto after = std::upper_bound(x.begin(), x.end(), at) - x.begin();
     const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, std::ssize(x) - 1));

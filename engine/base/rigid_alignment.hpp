@@ -46,7 +46,7 @@ inline constexpr AlignmentLimits any_scale{std::numeric_limits<double>::infinity
 struct RigidAlignment {
     Pose pose;                      // takes `from` to `to`; w of its unit quaternion is not negative
     double rms = 0.0;               // m, of the residuals
-    std::vector<double> residuals;  // m, one a point: distance from pose · from to `to`
+    std::vector<double> residuals;  // m, one per point: distance from pose · from to `to`
     // Scale of the best-fit similarity transform. The pose is rigid: it does not include this scale.
     double scale = 1.0;
     // Ratio of the least to the largest spread of the points, in the frame where this ratio is smaller; 0:

@@ -1,6 +1,6 @@
 // The roles of Vive trackers. A user gives a role to each tracker in the settings of the OpenXR runtime, such
-// as SteamVR's "Manage Vive Trackers"; a program finds a tracker by its role. The roles are
-// those of XR_HTCX_vive_tracker_interaction; its revision 3 added wrists and ankles.
+// as SteamVR's "Manage Vive Trackers"; a program finds a tracker by its role. The roles are those of
+// XR_HTCX_vive_tracker_interaction; its revision 3 added wrists and ankles.
 #pragma once
 
 #include <algorithm>

@@ -21,7 +21,7 @@ namespace {
 constexpr double spin_time = 200e-6;  // s
 constexpr std::chrono::microseconds nap{100};
 
-// mpirun of Open MPI and of MPICH tell a process with these variables that it belongs to a cluster.
+// mpirun of Open MPI and of MPICH sets one of these variables in each process that it starts.
 bool started_by_mpirun() {
     for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"})
         // NOLINTNEXTLINE(concurrency-mt-unsafe): before any thread
@@ -71,7 +71,7 @@ Result<std::unique_ptr<Cluster>> Cluster::join() {
     BOLT_TRY_ASSIGN(auto transport, join_transport());
     std::unique_ptr<Cluster> cluster(new Cluster(std::move(transport)));
     if (cluster->size() > 1) return cluster;
-    return std::unique_ptr<Cluster>();  // leaves at once
+    return std::unique_ptr<Cluster>();  // the only process: `cluster` leaves here
 }
 
 Cluster::Cluster(std::unique_ptr<Transport> transport) : transport_(std::move(transport)) {}

@@ -25,7 +25,7 @@ class Transport {
     [[nodiscard]] virtual int process() const = 0;
     [[nodiscard]] virtual int size() const = 0;
     [[nodiscard]] virtual const std::string& host(int process) const = 0;
-    // Sends without waiting until the message has arrived.
+    // Starts to send the message; does not wait for its arrival.
     virtual Status send(int to, std::span<const std::byte> message) = 0;
     // The next message from a process, if it has arrived.
     virtual Result<std::optional<Message>> try_receive(int from) = 0;

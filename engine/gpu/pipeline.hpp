@@ -50,8 +50,8 @@ struct VertexStream {
     std::uint32_t offset = 0;
 };
 
-// A graphics pipeline. Its layouts come from shader reflection. Viewport and scissor are dynamic, and dynamic
-// rendering replaces render pass objects.
+// The description of a graphics pipeline. Its layouts come from shader reflection. Viewport and scissor are
+// dynamic, and dynamic rendering replaces render pass objects.
 struct GraphicsInfo {
     const Shader* vertex = nullptr;
     const Shader* fragment = nullptr;  // null: depth only

@@ -13,10 +13,10 @@
 //
 //   6df2 1 1 [0 1.000 6 2][-228.5 1834.2 261.4][0.97 0.12 -0.19 -0.11 0.99 0.07 0.20 -0.05 0.98][5 0.00 1.00]
 //
-// has the number of calibrated flysticks and the number of flysticks that follow. Each has its id, quality,
-// numbers of buttons and of analogue controllers, position, matrix, the buttons as bits of integers (32 in
-// each, the first button is the lowest bit), and the controllers. The older line 6df has the number of
-// flysticks, and of each [id quality buttons][position and three angles][matrix].
+// has the number of calibrated flysticks and the number of flysticks that follow. Each flystick has its id,
+// quality, number of buttons, number of analogue controllers, position, matrix, buttons (as bits of integers,
+// 32 in each, the first button in the lowest bit) and the values of the controllers. The older line 6df has
+// the number of flysticks, and of each [id quality buttons][position and three angles][matrix].
 #pragma once
 
 #include <cstdint>
@@ -47,8 +47,8 @@ struct DtrackFrame {
     std::optional<int> calibrated_bodies;  // number of bodies that the tracker is calibrated for
     std::vector<DtrackBody> bodies;
     std::vector<DtrackFlystick> flysticks;
-    int invalid_bodies =
-        0;  // bodies and flysticks whose values are no pose: not finite, too far away, or no rotation
+    // Bodies and flysticks whose values are no pose: not finite, too far away, or no rotation.
+    int invalid_bodies = 0;
 };
 
 inline constexpr std::size_t max_dtrack_bodies = 256;

@@ -21,8 +21,8 @@ struct HeadFilterSettings {
     double fade = 2.0;          // s, from the held pose to the fixed head
     double max_speed = 4.0;     // m/s; a faster change is a jump
     double max_turn = 20.0;     // rad/s, likewise; people turn their heads at up to 12 rad/s
-    // s. After a jump, poses are accepted when they have agreed for this long, or earlier, when a head at
-    // max_speed and max_turn could have moved there since the last accepted sample.
+    // s. After a jump, poses are accepted when they have agreed for this long, or as soon as a head at
+    // max_speed and max_turn could have reached them.
     double jump_time = 0.3;
     double return_time = 0.3;  // s, from the shown pose to the tracked pose after a dropout or a jump
 };

@@ -42,11 +42,11 @@ class FrameWaiter {
         return answer_;
     }
 
-    // Drops the answer to the last request. Returns true if it has not come after `timeout` s.
-    bool waits(double timeout) {
+    // Discards the answer to the last request. Returns false if there is none after `timeout` s.
+    bool discard_answer(double timeout) {
         (void)take(timeout);
         const std::lock_guard lock(mutex_);
-        return phase_ == Phase::waiting;
+        return phase_ != Phase::waiting;
     }
 
     // Ends the thread. Returns false if it is still in the runtime after the timeout.

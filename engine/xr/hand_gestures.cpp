@@ -8,7 +8,7 @@ namespace bolt::xr {
 namespace {
 
 constexpr std::size_t thumb_tip = 5, index_knuckle = 7, index_tip = 10;  // of XR_EXT_hand_tracking
-// m, in the frame of a head that looks straight ahead: the right shoulder of an adult.
+// The right shoulder of an adult, m, in the frame of a head that looks straight ahead.
 constexpr double shoulder_right = 0.18, shoulder_down = 0.25, shoulder_back = 0.08;
 
 // The rotation about the vertical of a head that may look up or down.
@@ -43,7 +43,7 @@ void add_gestures(HandInput& hand, Side side, const Pose& head, PinchState& pinc
     const Vec3 shoulder = head.position + heading(head) * at_head;
     const Vec3& from = knuckle.pose.position;
     if (glm::distance(from, shoulder) > 1e-3)
-        hand.aim = LocatedPose{{from, looking_along(from - shoulder)}, true};
+        hand.aim = ReportedPose{{from, looking_along(from - shoulder)}, true};
 }
 
 }  // namespace bolt::xr

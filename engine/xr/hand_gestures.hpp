@@ -6,8 +6,8 @@
 
 namespace bolt::xr {
 
-// m between the joints of the tips of thumb and index finger, at which a pinch begins and ends. When the skin
-// touches, the joints are about 15 mm apart.
+// Distances, m, between the tip joints of thumb and index finger at which a pinch begins and ends. When the
+// skin touches, these joints are about 15 mm apart.
 inline constexpr double pinch_begins = 0.022, pinch_ends = 0.04;
 
 struct PinchState {

@@ -11,12 +11,12 @@ namespace bolt::xr {
 
 namespace {
 
-// s until the next search: short while no headset is found; longer after each session that cannot be started,
-// because each attempt creates all objects on the GPU again.
+// Pause before the next search, s: short while no headset is found; longer after each session that cannot be
+// started, because each attempt creates all objects on the GPU again.
 constexpr double short_interval = 1.0, longest_interval = 60.0;
-constexpr double search_timeout = 10.0;  // s, of a search that the program waits for
-// s, for which the program waits for the thread of a lost headset: about a frame. A runtime that hangs keeps
-// it longer; the lesson does not wait for that.
+constexpr double search_timeout = 10.0;  // s, for find()
+// The longest wait, s, for the thread of a lost headset: about a frame. The thread may stay longer in a
+// runtime that hangs, but the lesson does not wait for it.
 constexpr double lost_wait = 0.03;
 constexpr std::chrono::seconds retired_timeout{2};
 constexpr double exit_timeout = 2.0;  // s in which the session passes through its last states
@@ -178,8 +178,8 @@ std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
     return frame;
 }
 
-// The events that have happened by the time of a frame; the runtime announces a new origin before it moves
-// it.
+// Returns and removes the events that have happened by the time of a frame. A change of the origin stays
+// queued until then, because the runtime announces it in advance.
 std::vector<SessionEvent> Headset::take_events(XrTime time) {
     std::vector<SessionEvent> happened, later;
     for (SessionEvent& event : events_) {

@@ -23,7 +23,7 @@ struct HeadsetOptions {
     std::function<void(const std::string&)> log;  // receives one line for each change; may be empty
 };
 
-// A frame of the headset, from its beginning to its end.
+// A frame of the headset, from begin_frame() to end_frame().
 struct HeadsetFrame {
     FrameTiming timing;
     HeadView view;  // without eyes: nothing can be drawn
@@ -56,10 +56,11 @@ class Headset {
     // Starts the session, with a device that creator() created and that must outlive it. If this fails, the
     // headset is refused.
     void begin(gpu::Device& device);
-    // Call it if creator() failed, or what it made cannot be used. The headset is absent then, and is
-    // searched again later. The same error is logged once.
+    // Call it if creator() failed, or if the objects that it created cannot be used. The headset is then
+    // absent, and find() searches for it again later. Repeated equal errors are logged once.
     void refuse(const Error& error);
-    // Ends the session in order, and releases the runtime. Call it before the device is destroyed.
+    // Ends the session in the order that OpenXR requires, and releases the runtime. Call it before the device
+    // is destroyed.
     void end();
 
     [[nodiscard]] bool connected() const { return session_ != nullptr; }
@@ -101,7 +102,7 @@ class Headset {
     std::unique_ptr<Session> session_;
     std::unique_ptr<XrInput> input_;
     std::array<PinchState, 2> pinches_;  // by Side
-    // A lost headset, whose thread has not returned from the runtime yet; destroyed when it has.
+    // A lost headset whose thread has not returned from the runtime yet; destroyed once it has returned.
     struct Retired {
         std::unique_ptr<Runtime> runtime;
         std::unique_ptr<XrInput> input;

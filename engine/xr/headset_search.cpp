@@ -8,14 +8,14 @@ namespace bolt::xr {
 
 namespace {
 
-// s, after which the next search makes a new instance, because the user may have chosen another runtime,
+// Age, s, from which the next search replaces the kept instance: the user may have chosen another runtime,
 // which only a new instance loads.
 constexpr double longest_kept = 30.0;
-constexpr double stop_timeout = 2.0;  // s of waiting for a runtime that does not answer
+constexpr double stop_timeout = 2.0;  // s, for a runtime that does not answer
 
 }  // namespace
 
-// Any failure but that of a missing headset ends the instance.
+// Keeps the instance if only the headset is missing; any other failure destroys it.
 void HeadsetSearch::run(Attempt& attempt) {
     std::unique_ptr<Runtime> runtime;
     {

@@ -22,23 +22,24 @@ class HeadsetSearch {
     // Starts a search, if none runs.
     void start(double now);
     [[nodiscard]] bool runs() const { return attempt_ != nullptr; }
-    // The result of the search that was started, once; none after `timeout` s, or if none runs.
+    // Returns the result of the search, once; nullopt if the search has not ended after `timeout` s, or if
+    // none runs.
     std::optional<Result<std::unique_ptr<Runtime>>> take(double timeout);
-    // Ends the search and the instance that it keeps.
+    // Ends the search and destroys the instance that it keeps.
     void stop();
 
   private:
     struct Attempt {
         std::mutex mutex;
         std::condition_variable changed;
-        std::unique_ptr<Runtime> runtime;  // without a headset: kept for the next search
+        std::unique_ptr<Runtime> runtime;  // also one that has no headset
         Status status;
         bool finished = false;
     };
     static void run(Attempt& attempt);
 
     std::shared_ptr<Attempt> attempt_;
-    std::unique_ptr<Runtime> kept_;  // without a headset
+    std::unique_ptr<Runtime> kept_;  // had no headset; for the next search
     double kept_since_ = 0.0;
 };
 

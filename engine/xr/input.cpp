@@ -140,11 +140,11 @@ Status XrInput::attach() {
     return {};
 }
 
-Result<std::optional<LocatedPose>> XrInput::locate(XrSpace space, XrTime time) const {
+Result<std::optional<ReportedPose>> XrInput::locate(XrSpace space, XrTime time) const {
     XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
     BOLT_TRY(check(xrLocateSpace(space, session_->space(), time, &location), "xrLocateSpace"));
     if ((location.locationFlags & pose_valid) != pose_valid) return std::nullopt;
-    return LocatedPose{to_pose(location.pose), (location.locationFlags & pose_tracked) == pose_tracked};
+    return ReportedPose{to_pose(location.pose), (location.locationFlags & pose_tracked) == pose_tracked};
 }
 
 Result<float> XrInput::value(XrAction action, Side side) const {
@@ -215,7 +215,7 @@ Status XrInput::read_hand(const FrameTiming& frame, Side side, HandInput& hand) 
     return {};
 }
 
-// Finds out which controllers are in the hands.
+// Queries which controllers are in the hands.
 Status XrInput::read_controllers() {
     for (const Side side : {Side::left, Side::right}) {
         BOLT_TRY_ASSIGN(const std::string path, profile(side));

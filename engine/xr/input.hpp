@@ -17,26 +17,26 @@ namespace bolt::xr {
 
 using bolt::Side;
 
-// Joint i of XR_EXT_hand_tracking, in the order of its specification.
 inline constexpr std::size_t hand_joint_count = 26;
 struct HandJoint {
     Pose pose;            // −Z points to the fingertip, +Y out of the back of the hand
     double radius = 0.0;  // m, from the joint to the skin
     bool valid = false;   // false: pose and radius have no meaning
 };
-using HandJoints = std::array<HandJoint, hand_joint_count>;
+using HandJoints = std::array<HandJoint, hand_joint_count>;  // in the order of XR_EXT_hand_tracking
 
 struct ControllerProfile;  // controller_profiles.hpp
 
 // One hand in one frame. Without focus, or without a controller or tracked hand, `active` is false.
 struct HandInput {
     bool active = false;
-    std::optional<LocatedPose> grip;  // origin in the palm; −Z to the thumb's side of a closed fist, X out of
-                                      // the palm of the left hand and into that of the right one
-    std::optional<LocatedPose> aim;  // −Z is the direction in which the hand points
-    float select = 0.0F;             // 0 … 1: trigger, pinch
-    float grasp = 0.0F;              // 0 … 1: squeeze; of a controller with one button: that button
-    glm::vec2 stick{0.0F};           // −1 … 1, y away from the user
+    // Origin in the palm; −Z to the thumb's side of a closed fist, X out of the palm of the left hand and
+    // into that of the right one.
+    std::optional<ReportedPose> grip;
+    std::optional<ReportedPose> aim;  // −Z is the direction in which the hand points
+    float select = 0.0F;              // 0 … 1: trigger, pinch
+    float grasp = 0.0F;               // 0 … 1: squeeze; of a controller with one button: that button
+    glm::vec2 stick{0.0F};            // −1 … 1, y away from the user
     bool menu = false;
     bool secondary = false;  // a second button of the hand: lays the wrench down
     std::optional<HandJoints> joints;
@@ -67,8 +67,8 @@ struct ActionNames {
 
 class XrInput {
   public:
-    // Suggests bindings for the common controllers and attaches the actions to the session. A session can be
-    // given an input once.
+    // Suggests bindings for the common controllers and attaches the actions to the session. Only one XrInput
+    // can be created for a session.
     static Result<std::unique_ptr<XrInput>> create(Session& session, const ActionNames& names);
     XrInput(const XrInput&) = delete;
     XrInput& operator=(const XrInput&) = delete;
@@ -94,7 +94,7 @@ class XrInput {
     Status read_controllers();
     Status read_vive_trackers(const FrameTiming& frame, ViveTrackers& trackers);
     Status read_joints(const FrameTiming& frame, Side side, HandInput& hand);
-    Result<std::optional<LocatedPose>> locate(XrSpace space, XrTime time) const;
+    Result<std::optional<ReportedPose>> locate(XrSpace space, XrTime time) const;
     Result<float> value(XrAction action, Side side) const;
     Result<bool> pressed(XrAction action, Side side) const;
 

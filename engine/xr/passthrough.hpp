@@ -33,10 +33,10 @@ class PassthroughLayer {
     // Submit it below the projection layer while shown() is true.
     [[nodiscard]] XrCompositionLayerPassthroughFB composition_layer() const;
 
-    // Follows an event of the runtime.
+    // Updates the layer and the messages after an event of the runtime.
     void handle(const XrEventDataPassthroughStateChangedFB& event);
 
-    // Lines for the user about what happened to the layer since the last call.
+    // Lines for the user about changes of the layer since the last call.
     std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
   private:

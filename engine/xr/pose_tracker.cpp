@@ -54,8 +54,8 @@ struct PoseTracker::Objects {
     Status create_actions();
     Result<SpaceHandle> attach(XrAction pose, XrPath path);
     Result<SpaceHandle> grip_space(const char* hand);
-    Result<std::optional<LocatedPose>> locate() const;
-    Status explain(const std::optional<LocatedPose>& pose);
+    Result<std::optional<ReportedPose>> locate() const;
+    Status explain(const std::optional<ReportedPose>& pose);
     Status follow_events();
     Status sync_actions();
     Status read_button();
@@ -279,7 +279,7 @@ Status PoseTracker::Objects::read_button() {
 }
 
 // A pose that is not tracked is estimated. None: the pose is not valid.
-Result<std::optional<LocatedPose>> PoseTracker::Objects::locate() const {
+Result<std::optional<ReportedPose>> PoseTracker::Objects::locate() const {
     timespec now{};
     (void)clock_gettime(CLOCK_MONOTONIC, &now);
     XrTime time = 0;
@@ -288,14 +288,14 @@ Result<std::optional<LocatedPose>> PoseTracker::Objects::locate() const {
     BOLT_TRY(check(xrLocateSpace(device.get(), base.get(), time, &location), "xrLocateSpace"));
     constexpr XrSpaceLocationFlags valid =
         XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
-    if ((location.locationFlags & valid) != valid) return std::optional<LocatedPose>();
+    if ((location.locationFlags & valid) != valid) return std::optional<ReportedPose>();
     const Pose pose = to_pose(location.pose);
-    if (!finite(pose.position) || !std::isfinite(pose.orientation.w)) return std::optional<LocatedPose>();
-    return LocatedPose{pose, (location.locationFlags & fully_tracked) == fully_tracked};
+    if (!finite(pose.position) || !std::isfinite(pose.orientation.w)) return std::optional<ReportedPose>();
+    return ReportedPose{pose, (location.locationFlags & fully_tracked) == fully_tracked};
 }
 
 // Sets `fault` if the Vive tracker has no tracked pose.
-Status PoseTracker::Objects::explain(const std::optional<LocatedPose>& pose) {
+Status PoseTracker::Objects::explain(const std::optional<ReportedPose>& pose) {
     if (!role || (pose && pose->tracked)) return {};
     ViveTrackers trackers;
     trackers.has_data = trackers.available = true;

@@ -220,8 +220,7 @@ Status Runtime::choose_views() {
                       return xrEnumerateViewConfigurations(instance_.get(), system_, capacity, count, values);
                   }),
         "xrEnumerateViewConfigurations"));
-    // The runtime lists what it prefers first; every type that it has besides these two has more views than
-    // there are eyes.
+    // The runtime lists its preferred types first. All types other than these two have more than two views.
     const auto wanted = std::find_if(types.begin(), types.end(), [](XrViewConfigurationType type) {
         return type == XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO ||
                type == XR_VIEW_CONFIGURATION_TYPE_PRIMARY_MONO;
@@ -250,7 +249,7 @@ Status Runtime::choose_views() {
               "xrEnumerateEnvironmentBlendModes"));
     for (const XrEnvironmentBlendMode mode : modes)
         if (mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND) passthrough_ = mode;
-    // Augmented-reality glasses may have no opaque mode; their first one is then as opaque as they can be.
+    // Augmented-reality glasses may have no opaque mode; the first mode is then the one that they prefer.
     const bool has_opaque =
         std::find(modes.begin(), modes.end(), XR_ENVIRONMENT_BLEND_MODE_OPAQUE) != modes.end();
     if (!has_opaque && !modes.empty()) opaque_ = modes.front();

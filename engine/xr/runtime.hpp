@@ -50,9 +50,9 @@ class Runtime final : public gpu::VulkanCreator {
     // Fails with ErrorCode::no_device if there is no runtime, the runtime lacks Vulkan, or no headset is
     // connected; trying again later may then succeed.
     static Result<std::unique_ptr<Runtime>> open();
-    // As open(), in two steps. A runtime without a headset can be asked again: find_headset() then costs the
-    // runtime nothing, while each new instance may start its service.
-    // Call quiet_loader() before, on a thread that no other reads the environment beside.
+    // As open(), in two steps, so that find_headset() can be repeated: that costs the runtime nothing, while
+    // each new instance may start its service. Call quiet_loader() before start(), while no other thread
+    // reads the environment.
     static Result<std::unique_ptr<Runtime>> start();
     Status find_headset();
 
@@ -60,7 +60,7 @@ class Runtime final : public gpu::VulkanCreator {
     Result<VkPhysicalDevice> choose_gpu(VkInstance instance) override;
     Result<VkDevice> create_device(VkPhysicalDevice gpu, const VkDeviceCreateInfo& info) override;
 
-    // After a failed find_headset(): true if only the headset is missing, so that the runtime can be asked
+    // After a failed find_headset(): true if only the headset is missing. find_headset() may then be called
     // again.
     [[nodiscard]] bool lacks_headset() const { return lacks_headset_; }
 

@@ -11,9 +11,8 @@ namespace {
 
 // Newer than the headers of Debian 12: XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR.
 constexpr auto local_floor = static_cast<XrReferenceSpaceType>(1000426000);
-// s of waiting for a runtime that does not answer.
-constexpr double waiter_timeout = 2.0;
-constexpr double short_wait = 0.03;  // s, about a frame, in which a runtime that works has answered
+constexpr double waiter_timeout = 2.0;  // s, for a runtime that does not answer
+constexpr double short_wait = 0.03;     // s, about a frame: a runtime that works has answered by then
 const XrPosef identity{{0, 0, 0, 1}, {0, 0, 0}};
 
 Status lost(std::string what) {
@@ -68,8 +67,8 @@ bool Session::stop(double timeout) {
     return waiter_ == nullptr;
 }
 
-// A thread of ours is still inside the runtime. All that it may use stays, and no further function of that
-// runtime is called, because it might not return.
+// The waiting thread is still inside the runtime. Everything that it may use stays, and no further function
+// of this runtime is called, because that call might not return.
 void Session::abandon() {
     waiter_.reset();
     abandoned_ = true;
@@ -220,9 +219,9 @@ Status Session::handle_state_change(const XrEventDataSessionStateChanged& event)
     return {};
 }
 
-// Ends the session when the thread has returned: the runtime releases it before long.
+// Ends the session once the waiting thread has returned from the runtime, which soon releases it.
 Status Session::end_if_stopping(double timeout) {
-    if (!stopping_ || waiter_->waits(timeout)) return {};
+    if (!stopping_ || !waiter_->discard_answer(timeout)) return {};
     stopping_ = false;
     return check(xrEndSession(session_.get()), "xrEndSession");
 }

@@ -68,8 +68,8 @@ std::string describe(const FrameCounts& counts);
 // The base space of all poses.
 enum class BaseSpace : std::uint8_t {
     stage,   // fixed in the room, origin on the floor
-    floor,   // origin on the floor below the head, at the last recentring
-    seated,  // origin at the head, at the last recentring
+    floor,   // origin on the floor below where the head was at the last recentring
+    seated,  // origin where the head was at the last recentring
 };
 constexpr const char* name(BaseSpace space) {
     switch (space) {
@@ -92,12 +92,12 @@ struct SessionOptions {
 struct StateChanged {
     XrSessionState state = XR_SESSION_STATE_UNKNOWN;
 };
-// The origin of the stage, the floor or the seated space moves at `time`: the user wants what is shown to be
-// in front again. Headsets move only some of these spaces when the user presses the recentre button.
+// The origin of the stage, the floor or the seated space moves at `time`, because the user wants the scene in
+// front again. When the user presses the recentre button, headsets move only some of these spaces.
 struct Recentred {
     XrTime time = 0;
-    // The origin of the base space moves. `shift`: the pose of the new origin in the old space, if the
-    // runtime knows it.
+    // True: the origin of the base space moves. `shift`: then the pose of the new origin in the old space, if
+    // the runtime reports it.
     bool base = true;
     std::optional<Pose> shift;
 };

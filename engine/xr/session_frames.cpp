@@ -14,8 +14,7 @@ namespace bolt::xr {
 
 namespace {
 
-// ns; the runtime normally has the image free at once.
-constexpr XrDuration image_timeout = 20'000'000;
+constexpr XrDuration image_timeout = 20'000'000;  // ns; normally the image is free at once
 
 }  // namespace
 

@@ -36,7 +36,7 @@ Result<bool> suggest_tracker_bindings(XrInstance instance, std::span<const Track
     return suggested;
 }
 
-// None: the runtime does not know the role.
+// Returns nullopt if the runtime does not support the role.
 Result<std::optional<TrackerAction>> make_action(XrInstance instance, XrActionSet set, TrackerRole role) {
     TrackerAction made{role};
     BOLT_TRY_ASSIGN(made.path, path_of(instance, path_of_role(role)));
@@ -58,7 +58,7 @@ Result<std::optional<TrackerAction>> make_action(XrInstance instance, XrActionSe
 std::optional<Error> tracker_fault(const ViveTrackers& trackers, TrackerRole role) {
     Error error;
     error.code = ErrorCode::no_device;
-    const std::optional<LocatedPose>& pose = trackers[role];
+    const std::optional<ReportedPose>& pose = trackers[role];
     if (!trackers.has_data || (pose && pose->tracked)) return std::nullopt;
     if (!trackers.available) {
         error.what =

@@ -13,7 +13,8 @@
 
 namespace bolt::xr {
 
-struct LocatedPose {
+// The pose of a controller or tracker as the runtime reports it.
+struct ReportedPose {
     Pose pose;             // in the session's base space
     bool tracked = false;  // false: estimated, for example because the device is hidden from the cameras
 };
@@ -26,14 +27,15 @@ struct ViveTrackers {
     bool available = false;  // the runtime has the extension
     TrackerRoles connected;  // roles of connected trackers
     // None: no tracker has this role, it is switched off, or its pose is not known.
-    std::array<std::optional<LocatedPose>, tracker_role_count> poses;
+    std::array<std::optional<ReportedPose>, tracker_role_count> poses;
 
-    [[nodiscard]] const std::optional<LocatedPose>& operator[](TrackerRole role) const {
+    [[nodiscard]] const std::optional<ReportedPose>& operator[](TrackerRole role) const {
         return poses[static_cast<std::size_t>(role)];
     }
 };
 
-// The error if the pose of this tracker is missing or estimated; none if it is tracked, or without data.
+// Returns an error if the pose of this tracker is missing or estimated; nullopt if it is tracked, or if
+// `trackers` has no data.
 std::optional<Error> tracker_fault(const ViveTrackers& trackers, TrackerRole role);
 
 // The pose action for one role, with the role's path.
@@ -44,7 +46,8 @@ struct TrackerAction {
 };
 
 // Creates an action for each role that the runtime accepts, and suggests their bindings. Runtimes differ in
-// the roles that they know. Call it before the set is attached, with an instance that enabled the extension.
+// the roles that they support. Call it before the set is attached, with an instance that enabled the
+// extension.
 Result<std::vector<TrackerAction>> make_tracker_actions(XrInstance instance, XrActionSet set);
 
 // The roles of the trackers that are connected. A tracker may have no role.

@@ -67,7 +67,7 @@ xr::HandInput with_glove(const xr::Hands& hands, const station_setup::WornFinger
     const xr::HandInput& hand = hands[fingers.side];
     std::optional<Pose> wrist;
     if (mount.tracker && mount.wrist_in_tracker) {
-        if (const std::optional<xr::LocatedPose>& tracker = hands.trackers[*mount.tracker])
+        if (const std::optional<xr::ReportedPose>& tracker = hands.trackers[*mount.tracker])
             wrist = tracker->pose * *mount.wrist_in_tracker;
     } else if (hand.active && hand.grip && mount.wrist_in_controller)
         wrist = hand.grip->pose * *mount.wrist_in_controller;

@@ -264,7 +264,7 @@ void Walls::log_status(tracking::HeadStatus status) {
 static xr::HandInput hand_of(const head_tracking::Wand& wand) {
     xr::HandInput hand;
     hand.active = true;
-    if (wand.aim) hand.aim = xr::LocatedPose{*wand.aim, true};
+    if (wand.aim) hand.aim = xr::ReportedPose{*wand.aim, true};
     hand.select = wand.select ? 1.0F : 0.0F;
     hand.menu = wand.menu;
     hand.secondary = wand.tool;

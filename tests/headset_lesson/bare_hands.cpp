@@ -80,7 +80,7 @@ class PointingUser {
         xr::HandInput& right = hands[xr::Side::right];
         right.active = true;
         right.select = pinch;
-        right.grip = xr::LocatedPose{hand_, true};
+        right.grip = xr::ReportedPose{hand_, true};
         driver_.frame(head_, hands);
     }
 

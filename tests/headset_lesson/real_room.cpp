@@ -36,7 +36,7 @@ class PanelUser {
         const Vec3 hand = panel * Vec3(0.1, -0.4, 0.5), along = glm::normalize(target - hand);
         xr::HandInput& right = hands_[Side::right];
         right.active = true;
-        right.aim = right.grip = xr::LocatedPose{
+        right.aim = right.grip = xr::ReportedPose{
             {hand, glm::normalize(Quat(1.0 - along.z, glm::cross(Vec3(0.0, 0.0, -1.0), along)))}, true};
         for (const float select : {0.0F, 0.0F, 0.0F, 1.0F, 1.0F, 1.0F, 0.0F, 0.0F, 0.0F}) {
             right.select = select;

@@ -19,7 +19,7 @@ double closing_by_fingers(test::HeadsetDriver& driver, const Pose& head, float b
     xr::Hands hands;
     xr::HandInput& hand = hands[xr::Side::left];
     hand.active = true;
-    hand.grip = xr::LocatedPose{{{-0.4, 1.3, -0.2}, {1.0, 0.0, 0.0, 0.0}}, true};
+    hand.grip = xr::ReportedPose{{{-0.4, 1.3, -0.2}, {1.0, 0.0, 0.0, 0.0}}, true};
     hand.joints.emplace();
     hand.grasp = bent;
     for (int i = 0; i < 3; ++i) driver.frame(head, hands);

@@ -41,7 +41,7 @@ inline void point_at(HeadlessTrainer& trainer, const trainer::DrawnWidget& widge
     right.active = true;
     right.select = select;
     const Vec3 along = glm::normalize(target - hand);
-    right.aim = xr::LocatedPose{
+    right.aim = xr::ReportedPose{
         {hand, glm::normalize(Quat(1.0 - along.z, glm::cross(Vec3(0.0, 0.0, -1.0), along)))}, true};
     trainer.frame();
 }

@@ -25,11 +25,11 @@ void show_hand(HeadlessTrainer& trainer, xr::Side side, bool points) {
     xr::HandInput& hand = trainer.immersive->hands[side];
     hand.active = true;
     const Vec3 at = panel * Vec3(side == xr::Side::right ? 0.2 : -0.2, -0.45, 0.35);
-    hand.grip = xr::LocatedPose{{at, rotation({0.5, 0.0, 0.0})}, true};
+    hand.grip = xr::ReportedPose{{at, rotation({0.5, 0.0, 0.0})}, true};
     const Vec3 along = glm::normalize(panel.position - at) * (points ? 1.0 : -1.0);
     const double yaw = std::atan2(-along.x, -along.z),
                  pitch = std::atan2(along.y, std::hypot(along.x, along.z));
-    hand.aim = xr::LocatedPose{
+    hand.aim = xr::ReportedPose{
         {at, glm::angleAxis(yaw, Vec3(0.0, 1.0, 0.0)) * glm::angleAxis(pitch, Vec3(1.0, 0.0, 0.0))}, true};
 }
 

@@ -173,7 +173,7 @@ TEST_CASE("Tracked hand: the hand at work does not press the buttons of the pane
     xr::Hands hands;
     for (xr::HandInput& hand : hands.sides) {
         hand.active = true;
-        hand.aim = xr::LocatedPose{{{0.1, 1.5, 0.0}, {1.0, 0.0, 0.0, 0.0}}, true};
+        hand.aim = xr::ReportedPose{{{0.1, 1.5, 0.0}, {1.0, 0.0, 0.0, 0.0}}, true};
     }
     hands[xr::Side::right].select = 1.0F;
     (void)hand_events(room, hands, {}, 0.01, xr::Side::right);
@@ -214,7 +214,7 @@ TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras th
         worn.active = true;
         worn.select = worn.grasp = 1.0F;
         worn.menu = worn.secondary = true;
-        worn.grip = xr::LocatedPose{wrist * inverse(mount), true};
+        worn.grip = xr::ReportedPose{wrist * inverse(mount), true};
         worn.aim = worn.grip;
         const auto gloved = [&](const xr::HandInput& hand, const WristMount& at) {
             xr::Hands hands;
@@ -238,7 +238,7 @@ TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras th
         held.active = true;
         const double out = side == xr::Side::right ? 1.0 : -1.0;
         const glm::dmat3 grip_at_palm(Vec3(0.0, out, 0.0), Vec3(0.0, 0.0, 1.0), Vec3(out, 0.0, 0.0));
-        held.grip = xr::LocatedPose{
+        held.grip = xr::ReportedPose{
             {palm_joint.position, glm::normalize(palm_joint.orientation * glm::quat_cast(grip_at_palm))},
             true};
         is_at_wrist(gloved(held, {}), 1e-6);
@@ -252,9 +252,9 @@ TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras th
         hands[side].joints = seen.joints;
         hands.trackers.has_data = hands.trackers.available = true;
         CHECK_FALSE(with_glove(hands, fingers, on_tracker).active);
-        std::optional<xr::LocatedPose>& tracker =
+        std::optional<xr::ReportedPose>& tracker =
             hands.trackers.poses[static_cast<std::size_t>(TrackerRole::left_elbow)];
-        tracker = xr::LocatedPose{wrist * inverse(mount), true};
+        tracker = xr::ReportedPose{wrist * inverse(mount), true};
         is_at_wrist(with_glove(hands, fingers, on_tracker), 1e-6);
         CHECK(wrist_fault(hands.trackers, on_tracker).empty());
         CHECK(wrist_fault(hands.trackers, {}).empty());

@@ -69,7 +69,7 @@ void TraineeInRoom::frame(const Pose& palm, double closed) {
     if (room.workpiece) {
         const Pose assembly =
             trainer::adjusted(*room.workpiece, lesson().workplace.workpiece, room.turns, room.height);
-        hand.grip = xr::LocatedPose{assembly * palm_, true};
+        hand.grip = xr::ReportedPose{assembly * palm_, true};
         look_at(assembly *
                 (0.5 * (tool().position + (due() != nullptr ? nut(due()->joint) : tool().position))));
     }

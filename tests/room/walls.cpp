@@ -140,7 +140,7 @@ TEST_CASE("Walls: a wand points at the panel, presses its buttons, pauses, and i
     const Vec3 z = glm::normalize(from - target), x = glm::normalize(glm::cross(Vec3(0, 1, 0), z));
     xr::HandInput& wand = driver.immersive->hands[Side::right];
     wand.active = true;
-    wand.aim = xr::LocatedPose{{from, glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z))}, true};
+    wand.aim = xr::ReportedPose{{from, glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z))}, true};
     driver.frame();
     CHECK(room.pointer.on_panel);
     CHECK(glm::length(room.pointer.at - language) < 0.5);

@@ -34,7 +34,7 @@ mock::Hand held(const std::string& profile) {
     return hand;
 }
 
-void check_same(const std::optional<xr::LocatedPose>& pose, const Pose& expected) {
+void check_same(const std::optional<xr::ReportedPose>& pose, const Pose& expected) {
     REQUIRE(pose.has_value());
     CHECK(glm::length(pose->pose.position - expected.position) < 1e-6);
     CHECK(glm::length(turn_between(pose->pose.orientation, expected.orientation)) < 1e-5);

@@ -40,7 +40,7 @@ bool is_bound(const test::MockRuntime& mock, const std::string& role) {
     return std::find(lines.begin(), lines.end(), line) != lines.end();
 }
 
-void check_tracker(const std::optional<xr::LocatedPose>& pose, const Pose& expected) {
+void check_tracker(const std::optional<xr::ReportedPose>& pose, const Pose& expected) {
     REQUIRE(pose.has_value());
     CHECK(glm::length(pose->pose.position - expected.position) < 1e-6);
     CHECK(glm::length(turn_between(pose->pose.orientation, expected.orientation)) < 1e-5);
