@@ -76,7 +76,7 @@ bolt::assets::Model model_of(const bolt::geometry::ToolShape& wrench, double shi
 // Output of bolt-author validate.
 struct CheckOutput {
     std::vector<std::string> errors, notes;  // "line:column: pointer: what; expected"
-    std::optional<bolt::geometry::WrenchRooms> rooms;
+    std::optional<bolt::geometry::DrawnToolRooms> rooms;
 };
 std::string all(const std::vector<std::string>& messages);  // one line each
 using Edit = std::function<void(std::string&)>;

@@ -326,7 +326,7 @@ TEST_CASE(
     const CheckOutput output = check(walled(61.0, 0.0, 10.0));
     REQUIRE(output.rooms);
     REQUIRE(output.rooms->joints.size() == 1);
-    const geometry::WrenchRoom& room = output.rooms->joints.front();
+    const geometry::DrawnToolRoom& room = output.rooms->joints.front();
     CHECK(room.gripped);
     CHECK(room.turned.high.y == doctest::Approx(8.4 * mm));
     CHECK(room.parts.size() == 4);

@@ -257,8 +257,8 @@ std::vector<std::string> models_of(const content::Assembly& assembly) {
 
 struct AssemblyReport {
     std::vector<Error> errors;
-    std::vector<std::string> remarks;          // notes that are not errors, one line each
-    std::vector<geometry::WrenchRooms> rooms;  // of each checked variant that has a model
+    std::vector<std::string> remarks;             // notes that are not errors, one line each
+    std::vector<geometry::DrawnToolRooms> rooms;  // of each checked variant that has a model
 };
 
 template <class T, class Key>
@@ -276,7 +276,7 @@ AssemblyReport validate(const std::vector<content::Assembly>& variants) {
     const auto message = [](const Error& error) { return error.message(); };
     const auto itself = [](const std::string& file) { return file; };
     for (const content::Assembly& assembly : variants) {
-        std::optional<geometry::WrenchRooms> rooms;
+        std::optional<geometry::DrawnToolRooms> rooms;
         geometry::Findings findings = geometry::check_geometry(assembly, &rooms);
         add_new(result.errors, std::move(findings.errors), message);
         add_new(notes, std::move(findings.notes), message);

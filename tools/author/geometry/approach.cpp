@@ -12,7 +12,7 @@ constexpr double step = 3e-3;                   // m, smaller than the thickness
 constexpr double turn_step = to_radians(10.0);  // between the handle angles that are tried
 constexpr double max_lift = 2.0;                // m, beyond which obstacles are ignored
 constexpr int sides = 8;                        // directions across the bolt that are tried
-constexpr double jaw_to_tip = 1.7;              // travel that frees the jaw from a hexagon / head size
+constexpr double jaw_to_tip = 1.7;              // travel that frees the jaw from a hexagon, in head sizes
 
 // Moves the tool along a straight line at a fixed handle angle and tests it for collisions.
 struct PathProbe {
@@ -57,7 +57,7 @@ std::vector<double> tried_angles(const Arc& arc) {
     return angles;
 }
 
-// m from `height` to above all obstacles.
+// Returns the lift, m, from `height` to above all obstacles.
 double lift_beyond(const Obstacles& surroundings, double height) {
     return std::clamp(surroundings.top() - height, 0.0, max_lift) + 2.0 * step;
 }

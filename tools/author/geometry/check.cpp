@@ -9,8 +9,8 @@
 #include "engine/assets/gltf.hpp"
 #include "game/tool_models/tool_model.hpp"
 #include "tools/author/geometry/check_model.hpp"
+#include "tools/author/geometry/drawn_tool_room.hpp"
 #include "tools/author/geometry/joint_tools.hpp"
-#include "tools/author/geometry/wrench_room.hpp"
 
 namespace bolt::geometry {
 
@@ -82,8 +82,8 @@ Bvh build_bvh(const FlattenedModel& scene) {
     return Bvh(std::move(triangles));
 }
 
-WrenchRoom describe_joint(std::size_t index, const JointParts& parts) {
-    WrenchRoom room;
+DrawnToolRoom describe_joint(std::size_t index, const JointParts& parts) {
+    DrawnToolRoom room;
     room.joint = index;
     room.to_assembly = parts.to_assembly;
     room.turned = parts.turned.box;
@@ -106,12 +106,12 @@ std::vector<Jaw> jaws_of(const content::Assembly& assembly, const std::vector<st
     return jaws;
 }
 
-WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scene, const Messages& messages,
-                        CheckProgress& progress) {
+DrawnToolRooms check_model(const content::Assembly& assembly, FlattenedModel&& scene,
+                           const Messages& messages, CheckProgress& progress) {
     check_triangles(scene, near_budget, "/model", messages);
     ToolSet set(assembly, load_tools(assembly, messages));
     const std::vector<int> nodes = check_nodes(assembly, scene, messages);
-    WrenchRooms rooms;
+    DrawnToolRooms rooms;
     rooms.everything = build_bvh(scene);
     const std::vector<Bvh> trees = build_part_trees(scene);
     progress.joints = assembly.joints.size();
@@ -120,7 +120,7 @@ WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scen
         const content::AssemblyJoint& joint = assembly.joints[i];
         const std::vector<std::size_t> tools = tools_of_joint(assembly, i);
         const JointParts parts = find_joint_parts(scene, nodes[i], joint.design);
-        WrenchRoom room = describe_joint(i, parts);
+        DrawnToolRoom room = describe_joint(i, parts);
         room.tool = tools.front();
         if (check_fasteners_and_members(joint, joint.index_in_file, parts, scene, rooms.everything,
                                         jaws_of(assembly, tools), messages)) {
@@ -136,7 +136,7 @@ WrenchRooms check_model(const content::Assembly& assembly, FlattenedModel&& scen
 
 }  // namespace
 
-Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchRooms>* rooms,
+Findings check_geometry(const content::Assembly& assembly, std::optional<DrawnToolRooms>* rooms,
                         CheckProgress* progress) {
     CheckProgress unwatched;
     Findings findings;
@@ -155,7 +155,7 @@ Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchR
     if (model && far) check_names(*model, *far, messages);
     if (model && contact) check_contact(*contact, *model, messages);
     if (model) {
-        WrenchRooms found =
+        DrawnToolRooms found =
             check_model(assembly, std::move(*model), messages, progress != nullptr ? *progress : unwatched);
         if (rooms != nullptr) *rooms = std::move(found);
     }

@@ -8,7 +8,7 @@
 
 #include "content/format/assembly.hpp"
 #include "engine/base/result.hpp"
-#include "tools/author/geometry/wrench_room.hpp"
+#include "tools/author/geometry/drawn_tool_room.hpp"
 
 namespace bolt::geometry {
 
@@ -27,7 +27,7 @@ struct CheckProgress {
 // `assembly` must have loaded without errors, and its model files must exist. Without a model only kind, size
 // and strength of the tools are checked. `rooms`: receives the room for the tool of each joint, if there is a
 // model. `progress`: may be null.
-Findings check_geometry(const content::Assembly& assembly, std::optional<WrenchRooms>* rooms = nullptr,
+Findings check_geometry(const content::Assembly& assembly, std::optional<DrawnToolRooms>* rooms = nullptr,
                         CheckProgress* progress = nullptr);
 
 }  // namespace bolt::geometry

@@ -45,13 +45,13 @@ void check_bolt_length(const JointCheck& s, double length, const char* where) {
                 fmt::format("{:g} mm (bolt_length_mm)", designed / mm));
 }
 
-// Checks the seat of a nut or a head whose bearing face looks along +Y and lies at the height `face`, and of
+// Checks the seat of a nut or a head whose bearing face points along +Y and lies at the height `face`, and of
 // the washer on it.
 void check_lower_seat(const JointCheck& s, const std::string& name, double face, const Fastener& washer,
                       const char* noun) {
     const double grip = s.grip();
     const std::string member = fmt::format("the member under the {}", noun);
-    // check_seat() expects a part on another one, so all heights are negated.
+    // check_seat() expects the part above its seat, so all heights are negated.
     if (washer.exists()) {
         check_seat(s, name, -face, content::in_quotes(washer.name), -washer.box.low.y);
         check_seat(s, washer.name, -washer.box.high.y, member, grip);

@@ -11,10 +11,10 @@
 #include "content/format/assembly.hpp"
 #include "engine/base/math.hpp"
 #include "tools/author/geometry/bvh.hpp"
+#include "tools/author/geometry/drawn_tool_room.hpp"
 #include "tools/author/geometry/messages.hpp"
 #include "tools/author/geometry/other_tools.hpp"
 #include "tools/author/geometry/scene.hpp"
-#include "tools/author/geometry/wrench_room.hpp"
 
 namespace bolt::geometry {
 
@@ -81,6 +81,6 @@ bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_
 // those that do not fit. Implemented in check_reach.cpp.
 void check_tool_room(const JointSurroundings& surroundings, std::size_t joint,
                      const std::vector<std::size_t>& tools, ToolSet& set, const Messages& messages,
-                     WrenchRoom& room, std::vector<WrenchRoom>& failing);
+                     DrawnToolRoom& room, std::vector<DrawnToolRoom>& failing);
 
 }  // namespace bolt::geometry

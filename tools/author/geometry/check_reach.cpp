@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "tools/author/geometry/check_model.hpp"
+#include "tools/author/geometry/drawn_tool_room.hpp"
 #include "tools/author/geometry/joint_tools.hpp"
 #include "tools/author/geometry/other_tools.hpp"
-#include "tools/author/geometry/wrench_room.hpp"
 
 namespace bolt::geometry {
 
@@ -130,7 +130,8 @@ std::optional<double> flat_angle(const JointSurroundings& space) {
     return hexagon ? std::optional(hexagon->flat_angle) : std::nullopt;
 }
 
-void fill_in(WrenchRoom& out, const JointSurroundings& space, const ToolShape& tool, const ToolRoom& room) {
+void fill_in(DrawnToolRoom& out, const JointSurroundings& space, const ToolShape& tool,
+             const ToolRoom& room) {
     out.gripped = true;
     out.height = room.height;
     out.obstruction = room.obstruction;
@@ -148,8 +149,8 @@ void fill_in(WrenchRoom& out, const JointSurroundings& space, const ToolShape& t
 }  // namespace
 
 void check_tool_room(const JointSurroundings& space, std::size_t joint, const std::vector<std::size_t>& tools,
-                     ToolSet& set, const Messages& messages, WrenchRoom& room,
-                     std::vector<WrenchRoom>& failing) {
+                     ToolSet& set, const Messages& messages, DrawnToolRoom& room,
+                     std::vector<DrawnToolRoom>& failing) {
     JointRooms rooms(space, set);
     const content::AssemblyJoint& checked = space.joint();
     const double gap = checked.design.start_gap;

@@ -28,8 +28,8 @@ struct SwingRule {
 };
 SwingRule swing_rule(const ToolShape& tool);
 
-// Returns true if the tool can grip the part in each of its orientations, and can therefore turn it without
-// limit. `one_way_up`: without turning an open end over.
+// Returns true if the tool fits on the part whatever the angle of the part is, so that it can turn the part
+// without limit. `one_way_up`: without turning an open end over.
 bool can_turn_fully(const SwingPair& swings, const ToolShape& tool, bool one_way_up);
 
 // Returns true if the swing is enough to turn the part without limit.

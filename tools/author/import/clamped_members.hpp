@@ -27,7 +27,7 @@ struct InstalledBolt {
     Vec3 origin, axis;
     double diameter = 0.0;
     double head = 0.0;  // under the head and its washers
-    double end = 0.0;   // given at each function
+    double end = 0.0;   // its meaning: at find_members() and find_tapped_part()
 };
 
 inline constexpr double coaxial_distance = 0.1 * mm;

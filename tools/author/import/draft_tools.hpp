@@ -10,8 +10,8 @@
 
 namespace bolt::step_import {
 
-// m, width of the largest socket that gets a plain hexagon key. It is that of M8, whose full torque needs
-// about 300 N at the grip. A wider socket gets a bit on a ratchet.
+// Width, m, of the largest socket that gets a plain hexagon key: that of M8, whose full torque needs about
+// 300 N at the grip. A wider socket gets a bit on a ratchet.
 inline constexpr double largest_key = 6.0 * mm;
 
 // The properties of a joint that determine its tool.

@@ -143,8 +143,8 @@ FastenerShape classify_bolt(const std::vector<PlaneFace>& plane_faces, const Par
     return bolt;
 }
 
-// The bearing face of a cap screw's head, as a height along the screw's axis: the plane that looks towards
-// the end of the screw and is nearly as wide as the head; nullopt without one.
+// The bearing face of a cap screw's head, as a height along the screw's axis: the plane that faces the
+// end of the screw and is nearly as wide as the head; nullopt without one.
 std::optional<double> cap_bearing_face(const std::vector<PlaneFace>& plane_faces, const PartMesh& mesh,
                                        const AxisLine& line, double head_radius) {
     std::optional<double> bearing;

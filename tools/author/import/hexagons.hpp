@@ -15,7 +15,7 @@
 namespace bolt::step_import {
 
 inline constexpr double parallel = 1e-6;  // 1 − cos of 0.08°
-// m; plane faces are taken to be at equal heights, or equally far apart, if they differ by less than this.
+// Plane faces count as being at equal heights, or equally far apart, if they differ by less than this, m.
 inline constexpr double plane_position_tolerance = 0.02 * mm;
 
 struct PlaneFace {

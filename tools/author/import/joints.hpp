@@ -23,12 +23,12 @@ struct JointCandidate {
     joint::HeadShape head = joint::HeadShape::hexagon;
     double bolt_length = 0.0;  // m, under the head
     double grip = 0.0;         // m, distance from the head to the nut or the tapped part, without the washers
-    // m, centre of the hole, on the face of the member under the nut or head that is turned.
+    // Centre of the hole, m, on the face of the member under the nut or head that is turned.
     Vec3 seat{0.0};
     Vec3 axis{0.0, 1.0, 0.0};  // from the members to the nut or head that is turned
     int bolt = -1, nut = -1;   // nodes; a screw has no nut
     int tapped = -1;           // node of the part that a screw is screwed into; −1 with a nut
-    // m, length of the thread in that part; 0: the screw ends inside the part, so its whole length beyond
+    // Length of the thread in that part, m; 0: the screw ends inside the part, so its whole length beyond
     // members and washers engages.
     double engagement = 0.0;
     std::vector<int> head_washers, nut_washers;

@@ -23,8 +23,8 @@ namespace bolt::author {
 namespace {
 
 namespace fs = std::filesystem;
-using geometry::WrenchRoom;
-using geometry::WrenchRooms;
+using geometry::DrawnToolRoom;
+using geometry::DrawnToolRooms;
 
 constexpr glm::vec4 turned_color{1.0F, 0.78F, 0.1F, 1.0F};
 
@@ -40,10 +40,10 @@ std::string file_name(std::string id) {
 class JointPainter {
   public:
     static Result<std::unique_ptr<JointPainter>> create(const content::Assembly& assembly,
-                                                        const WrenchRooms& rooms);
+                                                        const DrawnToolRooms& rooms);
 
     // Returns the bytes of a PNG file.
-    Result<std::string> draw(const WrenchRoom& room, const std::vector<Blocker>& blockers);
+    Result<std::string> draw(const DrawnToolRoom& room, const std::vector<Blocker>& blockers);
 
     ~JointPainter() {
         if (gpu_context_.device) (void)gpu_context_.device->idle();
@@ -52,13 +52,13 @@ class JointPainter {
     JointPainter& operator=(const JointPainter&) = delete;
 
   private:
-    JointPainter(const content::Assembly& assembly, const WrenchRooms& rooms)
+    JointPainter(const content::Assembly& assembly, const DrawnToolRooms& rooms)
         : assembly_(assembly), rooms_(rooms) {}
 
-    Status show_turned_part(const WrenchRoom& room, render::Scene& scene) const;
+    Status show_turned_part(const DrawnToolRoom& room, render::Scene& scene) const;
 
     const content::Assembly& assembly_;
-    const WrenchRooms& rooms_;
+    const DrawnToolRooms& rooms_;
     text::Fonts fonts_;
     view::LoadedModel model_;
     std::map<std::size_t, DrawnTool> tools_;  // by index in Assembly::tools, those that a joint needs
@@ -71,12 +71,12 @@ class JointPainter {
 };
 
 Result<std::unique_ptr<JointPainter>> JointPainter::create(const content::Assembly& assembly,
-                                                           const WrenchRooms& rooms) {
+                                                           const DrawnToolRooms& rooms) {
     std::unique_ptr<JointPainter> painter(new JointPainter(assembly, rooms));
     view::ModelLoadResult loaded = view::load_model(assembly.file, view::DetailLevel::near, assembly.variant);
     if (!loaded.ok()) return fail(loaded.errors.front());
     painter->model_ = std::move(loaded.model);
-    for (const WrenchRoom& room : rooms.joints) {
+    for (const DrawnToolRoom& room : rooms.joints) {
         if (painter->tools_.contains(room.tool)) continue;
         BOLT_TRY_ASSIGN(painter->tools_[room.tool], load_drawn_tool(assembly.tools[room.tool].wrench));
     }
@@ -98,7 +98,7 @@ Result<std::unique_ptr<JointPainter>> JointPainter::create(const content::Assemb
 }
 
 // Outlines the part that is turned, turns its hexagon to fit the tool, and lets what hides it fade.
-Status JointPainter::show_turned_part(const WrenchRoom& room, render::Scene& scene) const {
+Status JointPainter::show_turned_part(const DrawnToolRoom& room, render::Scene& scene) const {
     const content::AssemblyJoint& joint = assembly_.joints[room.joint];
     BOLT_TRY_ASSIGN(const auto own, view::nodes_of(model_.model, joint.node));
     std::set<int> turned;
@@ -121,7 +121,7 @@ Status JointPainter::show_turned_part(const WrenchRoom& room, render::Scene& sce
     return {};
 }
 
-Result<std::string> JointPainter::draw(const WrenchRoom& room, const std::vector<Blocker>& blockers) {
+Result<std::string> JointPainter::draw(const DrawnToolRoom& room, const std::vector<Blocker>& blockers) {
     gpu::Device& device = *gpu_context_.device;
     render::Scene scene = shown_->scene;
     BOLT_TRY(show_turned_part(room, scene));
@@ -153,7 +153,7 @@ Result<std::string> JointPainter::draw(const WrenchRoom& room, const std::vector
 
 }  // namespace
 
-Status draw_joint_pictures(const content::Assembly& assembly, const WrenchRooms& rooms,
+Status draw_joint_pictures(const content::Assembly& assembly, const DrawnToolRooms& rooms,
                            const fs::path& folder) {
     std::error_code failed;
     fs::create_directories(folder, failed);
@@ -161,7 +161,7 @@ Status draw_joint_pictures(const content::Assembly& assembly, const WrenchRooms&
         return fail(ErrorCode::failed,
                     fmt::format("{} cannot be created: {}", folder.string(), failed.message()));
     BOLT_TRY_ASSIGN(const auto painter, JointPainter::create(assembly, rooms));
-    for (const WrenchRoom& room : rooms.joints) {
+    for (const DrawnToolRoom& room : rooms.joints) {
         const std::vector<Blocker> blockers = blockers_of(rooms, room);
         BOLT_TRY_ASSIGN(const auto png, painter->draw(room, blockers));
         const fs::path file = folder / file_name(assembly.joints[room.joint].design.id);

@@ -14,8 +14,8 @@
 
 namespace bolt::author {
 
-using geometry::WrenchRoom;
-using geometry::WrenchRooms;
+using geometry::DrawnToolRoom;
+using geometry::DrawnToolRooms;
 
 namespace {
 
@@ -28,7 +28,7 @@ struct PictureContents {
 constexpr double tilts[] = {to_radians(40.0), to_radians(25.0), to_radians(58.0)};  // from the joint's axis
 constexpr int sides = 24;
 constexpr double filled = 0.94;  // of the picture
-// Visible fractions that the preferred tilt, a view from above and one across the handle are worth.
+// Bonuses of a view, as visible fractions: for the preferred tilt, from above, and across the handle.
 constexpr double tilt_weight = 0.05, above_weight = 0.06, across_weight = 0.06;
 
 constexpr double fan_reach = 0.62;  // outer radius of the fan, as a fraction of the wrench's reach
@@ -39,7 +39,7 @@ constexpr std::size_t most_names = 4;                // labels in a picture
 
 // The part to name for a blocked direction: the one that collides, or one in front of it, such as the casing
 // that hides a wheel.
-std::uint32_t foremost_part(const WrenchRooms& rooms, const WrenchRoom& room,
+std::uint32_t foremost_part(const DrawnToolRooms& rooms, const DrawnToolRoom& room,
                             const geometry::BlockedArc& arc) {
     const double angle = 0.5 * (arc.from + arc.to);
     const geometry::ToolShape& tool = rooms.tools[room.tool];
@@ -54,7 +54,7 @@ std::uint32_t foremost_part(const WrenchRooms& rooms, const WrenchRoom& room,
     return rooms.everything.triangles()[foremost->triangle].part;
 }
 
-double visible_share(const geometry::WrenchRooms& rooms, const geometry::WrenchRoom& room,
+double visible_share(const geometry::DrawnToolRooms& rooms, const geometry::DrawnToolRoom& room,
                      const std::vector<Vec3>& points, const Vec3& back) {
     constexpr double reach = 10.0;  // m
     const auto seen = std::count_if(points.begin(), points.end(), [&](const Vec3& point) {
@@ -64,7 +64,7 @@ double visible_share(const geometry::WrenchRooms& rooms, const geometry::WrenchR
     return points.empty() ? 1.0 : static_cast<double>(seen) / static_cast<double>(points.size());
 }
 
-PictureContents contents_of(const WrenchRooms& rooms, const WrenchRoom& room) {
+PictureContents contents_of(const DrawnToolRooms& rooms, const DrawnToolRoom& room) {
     const FanRing ring = ring_of(rooms, room);
     PictureContents contents;
     const auto in_assembly = [&](const Vec3& p) { return Vec3(room.to_assembly * glm::dvec4(p, 1.0)); };
@@ -102,13 +102,13 @@ PictureContents contents_of(const WrenchRooms& rooms, const WrenchRoom& room) {
 
 }  // namespace
 
-FanRing ring_of(const WrenchRooms& rooms, const WrenchRoom& room) {
+FanRing ring_of(const DrawnToolRooms& rooms, const DrawnToolRoom& room) {
     const geometry::ToolShape& tool = rooms.tools[room.tool];
     return {1.1 * std::hypot(room.turned.half().x, room.turned.half().z), fan_reach * tool.reach,
             room.height + tool.handle_height};
 }
 
-glm::dmat4 tool_pose(const WrenchRoom& room, double handle) {
+glm::dmat4 tool_pose(const DrawnToolRoom& room, double handle) {
     const double side = room.turned_over ? -1.0 : 1.0;
     // The same axes as geometry::place_on_joint().
     const glm::dmat4 on_joint(glm::dvec4(1.0, 0.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, -side, 0.0),
@@ -126,7 +126,7 @@ Result<DrawnTool> load_drawn_tool(const content::WrenchDesign& design) {
     return DrawnTool{std::move(model), glm::mat4_cast(turn)};
 }
 
-std::vector<Blocker> blockers_of(const WrenchRooms& rooms, const WrenchRoom& room) {
+std::vector<Blocker> blockers_of(const DrawnToolRooms& rooms, const DrawnToolRoom& room) {
     std::vector<Blocker> blockers;
     for (const geometry::BlockedArc& arc : room.swing.blocked) {
         const std::string& name = rooms.scene.parts[foremost_part(rooms, room, arc)].name;
@@ -144,7 +144,7 @@ std::vector<Blocker> blockers_of(const WrenchRooms& rooms, const WrenchRoom& roo
     return blockers;
 }
 
-std::string describe_room(const WrenchRoom& room, const std::vector<Blocker>& blockers,
+std::string describe_room(const DrawnToolRoom& room, const std::vector<Blocker>& blockers,
                           const std::string& tool) {
     if (room.turned.empty()) return "the model has no part that is turned";
     if (!room.gripped) return "the tool cannot grip the part that is turned";
@@ -164,7 +164,7 @@ std::string describe_room(const WrenchRoom& room, const std::vector<Blocker>& bl
 }
 
 void add_fan(render::Scene& scene, const assets::Model& fan, const render::GpuModel& gpu_fan,
-             const WrenchRoom& room) {
+             const DrawnToolRoom& room) {
     const std::size_t first = scene.objects.size();
     render::add_model(scene, fan, gpu_fan, glm::mat4(room.to_assembly));
     for (std::size_t i = first; i < scene.objects.size(); ++i) {
@@ -177,7 +177,7 @@ void add_fan(render::Scene& scene, const assets::Model& fan, const render::GpuMo
     }
 }
 
-void add_room_labels(render::Scene& scene, const WrenchRooms& rooms, const WrenchRoom& room,
+void add_room_labels(render::Scene& scene, const DrawnToolRooms& rooms, const DrawnToolRoom& room,
                      const std::vector<Blocker>& blockers) {
     const FanRing ring = ring_of(rooms, room);
     const std::size_t first = scene.labels.size();
@@ -198,7 +198,8 @@ void add_room_labels(render::Scene& scene, const WrenchRooms& rooms, const Wrenc
             {0.05F, 0.4F, 0.12F, 0.85F});
 }
 
-view::Orbit joint_view(const geometry::WrenchRooms& rooms, const geometry::WrenchRoom& room, double aspect) {
+view::Orbit joint_view(const geometry::DrawnToolRooms& rooms, const geometry::DrawnToolRoom& room,
+                       double aspect) {
     const PictureContents contents = contents_of(rooms, room);
     const glm::dmat3 turn(room.to_assembly);
     const Vec3 handle = turn * Vec3(std::cos(room.handle), 0.0, -std::sin(room.handle));

@@ -9,7 +9,7 @@
 #include "engine/base/result.hpp"
 #include "engine/render/scene.hpp"
 #include "game/view/camera.hpp"
-#include "tools/author/geometry/wrench_room.hpp"
+#include "tools/author/geometry/drawn_tool_room.hpp"
 #include "tools/author/pictures/swing_fan.hpp"
 
 namespace bolt::author {
@@ -17,15 +17,15 @@ namespace bolt::author {
 inline constexpr glm::vec4 free_color{0.1F, 0.8F, 0.25F, 1.0F}, blocked_color{0.95F, 0.1F, 0.1F, 1.0F};
 
 // The ring in which the directions of a tool are drawn.
-FanRing ring_of(const geometry::WrenchRooms& rooms, const geometry::WrenchRoom& room);
+FanRing ring_of(const geometry::DrawnToolRooms& rooms, const geometry::DrawnToolRoom& room);
 
 // Adds the directions: the free ones in green and the blocked ones in red. `fan`: of make_swing_fan().
 void add_fan(render::Scene& scene, const assets::Model& fan, const render::GpuModel& gpu_fan,
-             const geometry::WrenchRoom& room);
+             const geometry::DrawnToolRoom& room);
 
 // The pose of the tool's frame in the assembly's frame: on the turned part. `handle`: angle of the handle,
 // rad.
-glm::dmat4 tool_pose(const geometry::WrenchRoom& room, double handle);
+glm::dmat4 tool_pose(const geometry::DrawnToolRoom& room, double handle);
 
 struct DrawnTool {
     assets::Model model;
@@ -41,19 +41,20 @@ struct Blocker {
 };
 
 // The widest first.
-std::vector<Blocker> blockers_of(const geometry::WrenchRooms& rooms, const geometry::WrenchRoom& room);
+std::vector<Blocker> blockers_of(const geometry::DrawnToolRooms& rooms, const geometry::DrawnToolRoom& room);
 
 // "40.0 degrees of free swing; blocked by "casing" (320 degrees)". `tool`: name of the tool, if the joint has
 // another one than the default.
-std::string describe_room(const geometry::WrenchRoom& room, const std::vector<Blocker>& blockers,
+std::string describe_room(const geometry::DrawnToolRoom& room, const std::vector<Blocker>& blockers,
                           const std::string& tool);
 
 // Adds the width of the widest free arc, and the names of the parts that block the most.
-void add_room_labels(render::Scene& scene, const geometry::WrenchRooms& rooms,
-                     const geometry::WrenchRoom& room, const std::vector<Blocker>& blockers);
+void add_room_labels(render::Scene& scene, const geometry::DrawnToolRooms& rooms,
+                     const geometry::DrawnToolRoom& room, const std::vector<Blocker>& blockers);
 
 // The nearest view that shows the tool and its directions, from the side of the turned part from which the
 // most of them can be seen.
-view::Orbit joint_view(const geometry::WrenchRooms& rooms, const geometry::WrenchRoom& room, double aspect);
+view::Orbit joint_view(const geometry::DrawnToolRooms& rooms, const geometry::DrawnToolRoom& room,
+                       double aspect);
 
 }  // namespace bolt::author

@@ -32,7 +32,7 @@ void PreviewSession::report_errors(Source source, std::vector<Error> errors) {
 // of problems.
 void PreviewSession::update_title() {
     const std::string& name = sources_.model().name;
-    const std::size_t problems = rooms_.problems().size();
+    const std::size_t problems = overlay_.problems().size();
     std::string title = fmt::format("{} - bolt-author preview", name);
     if (problems > 0)
         title =
@@ -63,7 +63,7 @@ Status PreviewSession::start() {
         camera_.jump(initial_camera(options_, sources_, *gpu_->shown_model, window_size()));
     outline_selection(true);
     BOLT_TRY(panel_.start(*gpu_->gpu_context.device));
-    return prepare_rooms();
+    return prepare_overlay();
 }
 
 Status PreviewSession::reload_model(view::DetailLevel level, const std::string& variant) {
@@ -90,7 +90,7 @@ Status PreviewSession::reload_model(view::DetailLevel level, const std::string& 
     sources_.set_shown(std::move(loaded.model), level, variant);
     joints_ = std::move(*joints);
     if (!only_level) start_check();
-    BOLT_TRY(prepare_rooms());
+    BOLT_TRY(prepare_overlay());
     report_errors(model_source, {});
     BOLT_TRY(print(fmt::format("reloaded {}\n", sources_.model().name)));
     return follow_selection();
@@ -164,16 +164,16 @@ Status PreviewSession::execute(const PreviewCommands& commands) {
     if (commands.show_all)
         camera_.glide_to(view::fit_to_box(camera_.goal, gpu_->shown_model->box, aspect_of(window_size())));
     if (commands.click) BOLT_TRY(follow_click(*commands.click));
-    const RoomPanelCommands clicked = panel_.take_commands();
+    const PreviewPanelCommands clicked = panel_.take_commands();
     if (commands.toggle_sectors || clicked.toggle_sectors) {
         all_sectors_ = !all_sectors_;
-        BOLT_TRY(prepare_rooms());
+        BOLT_TRY(prepare_overlay());
     }
     if (commands.toggle_panel) {
         panel_.toggle();
         needs_redraw_ = true;
     }
-    const std::size_t problems = rooms_.problems().size();
+    const std::size_t problems = overlay_.problems().size();
     if (clicked.problem && *clicked.problem < problems)
         BOLT_TRY(choose_problem(*clicked.problem));
     else if (commands.next_problem && problems > 0)
@@ -201,12 +201,12 @@ Result<bool> PreviewSession::draw() {
         return view::eye_of(camera_.shown, box, aspect_of(size));
     };
     render::Scene scene = gpu_->shown_model->scene;
-    rooms_.add_to(scene, see(gpu_->shown_model->box), glm::vec2(size.width, size.height));
+    overlay_.add_to(scene, see(gpu_->shown_model->box), glm::vec2(size.width, size.height));
     const render::Eye eye = see(render::bounds(scene));
     render::Renderer& renderer = *gpu_->gpu_context.renderer;
     BOLT_TRY(renderer.render(*frame, scene, std::span(&eye, 1), size));
     BOLT_TRY(panel_.draw(*frame, renderer,
-                         {rooms_, check_, joints_.variants, joints_.variant,
+                         {overlay_, check_, joints_.variants, joints_.variant,
                           selected_ ? selected_->id : std::string(), all_sectors_}));
     const render::ImageLayer picture = renderer.picture(0);
     return gpu_->swapchain->present(*gpu_->gpu_context.frames, *frame,
@@ -260,7 +260,7 @@ Status PreviewSession::run() {
         Status done = start();
         if (done) done = run_until_closed();
         if (gpu_) (void)gpu_->gpu_context.device->idle();
-        rooms_.release();
+        overlay_.release();
         panel_.release();
         gpu_.reset();
         print_messages();

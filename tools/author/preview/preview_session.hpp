@@ -9,7 +9,7 @@
 #include "tools/author/preview/controls.hpp"
 #include "tools/author/preview/gpu_state.hpp"
 #include "tools/author/preview/joint_selection.hpp"
-#include "tools/author/preview/room_panel.hpp"
+#include "tools/author/preview/preview_panel.hpp"
 
 namespace bolt::author {
 
@@ -29,7 +29,7 @@ class PreviewSession {
     Status reload_model(view::DetailLevel level, const std::string& variant);
     void start_check();
     Status poll_check();
-    Status prepare_rooms();
+    Status prepare_overlay();
     Status choose_variant(std::size_t index);
     Status choose_problem(std::size_t index);
     Status follow_click(const glm::dvec2& at);
@@ -57,11 +57,11 @@ class PreviewSession {
     PreviewControls controls_;
     SelectableJoints joints_;
     std::optional<SelectableJoint> selected_;
-    RoomCheck check_;
-    RoomOverlay rooms_;
-    RoomPanel panel_;
+    BackgroundCheck check_;
+    CheckOverlay overlay_;
+    PreviewPanel panel_;
     std::pair<std::size_t, std::size_t> shown_progress_{0, 0};  // of the check
-    std::size_t next_problem_ = 0;                              // index in RoomOverlay::problems()
+    std::size_t next_problem_ = 0;                              // index in CheckOverlay::problems()
     bool all_sectors_ = false;
     bool camera_placed_ = false;  // false until the first picture
     bool needs_redraw_ = true;    // the picture in the window is out of date

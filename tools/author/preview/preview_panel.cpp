@@ -1,4 +1,4 @@
-#include "tools/author/preview/room_panel.hpp"
+#include "tools/author/preview/preview_panel.hpp"
 
 #include <fmt/format.h>
 
@@ -15,14 +15,14 @@ using namespace platform;
 // Points. A narrower window has no room for the panel beside the model.
 constexpr float least_width = 600.0F, least_height = 300.0F;
 constexpr float panel_width = 300.0F, margin = 8.0F;
-constexpr ImGuiWindowFlags room_panel_flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                              ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                                              ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize;
+constexpr ImGuiWindowFlags preview_panel_flags =
+    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize;
 constexpr ImU32 problem_text_color = IM_COL32(255, 140, 102, 255);
 
 void draw_text(const std::string& text) { ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size()); }
 
-std::string count_text(const RoomPanelState& state) {
+std::string count_text(const PreviewPanelState& state) {
     const CheckedAssembly* checked = state.overlay.checked();
     if (checked == nullptr) return "The assembly is not checked";
     const std::size_t joints = checked->assembly.joints.size(), problems = state.overlay.problems().size();
@@ -32,25 +32,25 @@ std::string count_text(const RoomPanelState& state) {
 
 }  // namespace
 
-Status RoomPanel::start(gpu::Device& device) {
+Status PreviewPanel::start(gpu::Device& device) {
     BOLT_TRY_ASSIGN(ui_, ui::Ui::create(device));
     return {};
 }
 
-void RoomPanel::release() { ui_.reset(); }
+void PreviewPanel::release() { ui_.reset(); }
 
-bool RoomPanel::is_shown() const {
+bool PreviewPanel::is_shown() const {
     return ui_ && !hidden_ && input_.size.x >= least_width * input_.scale &&
            input_.size.y >= least_height * input_.scale;
 }
 
-bool RoomPanel::contains(const glm::dvec2& at) const {
+bool PreviewPanel::contains(const glm::dvec2& at) const {
     const glm::vec2 p(at);
     return is_shown() && p.x >= place_.low.x && p.x <= place_.high.x && p.y >= place_.low.y &&
            p.y <= place_.high.y;
 }
 
-bool RoomPanel::take_events(std::vector<InputEvent>& events, const glm::vec2& size, float scale) {
+bool PreviewPanel::take_events(std::vector<InputEvent>& events, const glm::vec2& size, float scale) {
     input_.size = size;
     input_.scale = scale;
     input_.wheel = {};
@@ -84,7 +84,7 @@ bool RoomPanel::take_events(std::vector<InputEvent>& events, const glm::vec2& si
 }
 
 // A list of lines that wrap, each of which can be clicked.
-void RoomPanel::draw_problems(const RoomPanelState& state) {
+void PreviewPanel::draw_problems(const PreviewPanelState& state) {
     const std::vector<Problem>& problems = state.overlay.problems();
     const float width = ImGui::GetContentRegionAvail().x;
     for (std::size_t i = 0; i < problems.size(); ++i) {
@@ -108,7 +108,7 @@ void RoomPanel::draw_problems(const RoomPanelState& state) {
     }
 }
 
-void RoomPanel::draw_contents(const RoomPanelState& state) {
+void PreviewPanel::draw_contents(const PreviewPanelState& state) {
     for (std::size_t i = 0; i < state.variants.size(); ++i)
         if (ImGui::RadioButton(state.variants[i].c_str(), state.variants[i] == state.variant))
             commands_.variant = i;
@@ -135,7 +135,8 @@ void RoomPanel::draw_contents(const RoomPanelState& state) {
     ImGui::PopTextWrapPos();
 }
 
-Status RoomPanel::draw(gpu::FrameContext& frame, render::Renderer& renderer, const RoomPanelState& state) {
+Status PreviewPanel::draw(gpu::FrameContext& frame, render::Renderer& renderer,
+                          const PreviewPanelState& state) {
     if (!is_shown()) return {};
     for (const Problem& problem : state.overlay.problems())
         ui_->add_characters(problem_text(*state.overlay.checked(), problem));
@@ -146,7 +147,7 @@ Status RoomPanel::draw(gpu::FrameContext& frame, render::Renderer& renderer, con
     const float scale = input_.scale, edge = margin * scale, width = panel_width * scale;
     ImGui::SetNextWindowPos({edge, edge});
     ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, input_.size.y - 2.0F * edge});
-    if (ImGui::Begin("##room", nullptr, room_panel_flags)) {
+    if (ImGui::Begin("##preview", nullptr, preview_panel_flags)) {
         draw_contents(state);
         const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
         place_ = {{low.x, low.y}, {low.x + size.x, low.y + size.y}};

@@ -1,4 +1,4 @@
-// The selected joint, and the room for the tools around it.
+// The selected joint, the chosen variant, and the check of the tools.
 #include "tools/author/preview/preview_session.hpp"
 
 #include <fmt/format.h>
@@ -29,20 +29,20 @@ Status PreviewSession::select_joint(const SelectableJoint* joint) {
     selected_ = joint == nullptr ? std::nullopt : std::optional(*joint);
     outline_selection(true);
     update_title();
-    BOLT_TRY(prepare_rooms());
+    BOLT_TRY(prepare_overlay());
     return selected_ ? print(selection_line(*selected_)) : Status();
 }
 
-Status PreviewSession::prepare_rooms() {
+Status PreviewSession::prepare_overlay() {
     needs_redraw_ = true;
     panel_.refresh();
-    return rooms_.prepare(*gpu_->gpu_context.device, sources_.model(),
-                          selected_ ? selected_->id : std::string(), all_sectors_);
+    return overlay_.prepare(*gpu_->gpu_context.device, sources_.model(),
+                            selected_ ? selected_->id : std::string(), all_sectors_);
 }
 
 // The GPU must be idle.
 void PreviewSession::start_check() {
-    rooms_.show(nullptr);
+    overlay_.show(nullptr);
     if (!sources_.model().without_assembly) check_.start(options_.source, sources_.variant());
     update_title();
 }
@@ -53,17 +53,17 @@ Status PreviewSession::poll_check() {
     std::unique_ptr<CheckedAssembly> checked = check_.take_result();
     if (!checked) return {};
     BOLT_TRY(gpu_->gpu_context.device->idle());
-    rooms_.show(std::move(checked));
+    overlay_.show(std::move(checked));
     next_problem_ = 0;
     update_title();
-    const CheckedAssembly& shown = *rooms_.checked();
+    const CheckedAssembly& shown = *overlay_.checked();
     (void)print_error(shown.findings.errors);
-    const std::size_t joints = shown.assembly.joints.size(), problems = rooms_.problems().size();
+    const std::size_t joints = shown.assembly.joints.size(), problems = overlay_.problems().size();
     BOLT_TRY(print(fmt::format("checked {}{}: {} joint{}, {} problem{}\n", sources_.model().name,
                                joints_.variant.empty() ? "" : " (" + joints_.variant + ")", joints,
                                joints == 1 ? "" : "s", problems == 0 ? "no" : fmt::to_string(problems),
                                problems == 1 ? "" : "s")));
-    return prepare_rooms();
+    return prepare_overlay();
 }
 
 // Shows another variant of the file, if that can be read.
@@ -74,20 +74,20 @@ Status PreviewSession::choose_variant(std::size_t index) {
 
 // Selects the joint that a problem is about and moves the camera there.
 Status PreviewSession::choose_problem(std::size_t index) {
-    const Problem& problem = rooms_.problems()[index];
+    const Problem& problem = overlay_.problems()[index];
     next_problem_ = index + 1;
     BOLT_TRY(print(problem.error.message() + "\n"));
     if (!problem.joint) return select_joint(nullptr);
-    const std::string& id = rooms_.checked()->assembly.joints[*problem.joint].design.id;
-    if (const geometry::WrenchRoom* room = rooms_.room_of(id))
+    const std::string& id = overlay_.checked()->assembly.joints[*problem.joint].design.id;
+    if (const geometry::DrawnToolRoom* room = overlay_.room_of(id))
         camera_.glide_to(
-            joint_view(*rooms_.checked()->rooms, *room, static_cast<double>(aspect_of(window_size()))));
+            joint_view(*overlay_.checked()->rooms, *room, static_cast<double>(aspect_of(window_size()))));
     return select_joint(joint_named(joints_, id));
 }
 
 // Selects the joint at a pixel of the window, or the one whose label is there.
 Status PreviewSession::follow_click(const glm::dvec2& at) {
-    if (const std::string labelled = rooms_.joint_of_label(glm::vec2(at)); !labelled.empty())
+    if (const std::string labelled = overlay_.joint_of_label(glm::vec2(at)); !labelled.empty())
         return select_joint(joint_named(joints_, labelled));
     const VkExtent2D size = window_size();
     const double height = std::max(size.height, 1U);
@@ -103,7 +103,7 @@ Status PreviewSession::follow_selection() {
         const std::string line = fmt::format("joint {} has gone and is no longer selected\n", selected_->id);
         selected_.reset();
         update_title();
-        BOLT_TRY(prepare_rooms());
+        BOLT_TRY(prepare_overlay());
         return print(line);
     }
     const bool same = selection_line(*joint) == selection_line(*selected_);

@@ -16,7 +16,7 @@ namespace bolt::author {
 struct CheckedAssembly {
     content::Assembly assembly;
     geometry::Findings findings;
-    std::optional<geometry::WrenchRooms> rooms;  // none: the assembly has no model
+    std::optional<geometry::DrawnToolRooms> rooms;  // none: the assembly has no model
 };
 
 // A mistake, and the joint that it is about.
@@ -31,13 +31,13 @@ std::vector<Problem> problems_of(const CheckedAssembly& checked);
 // "B1: the wrench has 12 degrees of free swing …; expected …": without file, line and column.
 std::string problem_text(const CheckedAssembly& checked, const Problem& problem);
 
-class RoomCheck {
+class BackgroundCheck {
   public:
     // Waits until every check has stopped.
-    ~RoomCheck();
-    RoomCheck() = default;
-    RoomCheck(const RoomCheck&) = delete;
-    RoomCheck& operator=(const RoomCheck&) = delete;
+    ~BackgroundCheck();
+    BackgroundCheck() = default;
+    BackgroundCheck(const BackgroundCheck&) = delete;
+    BackgroundCheck& operator=(const BackgroundCheck&) = delete;
 
     // Checks what the files contain now. A check that still runs is stopped, and its result is lost.
     void start(const std::string& source, const std::string& variant);

@@ -9,15 +9,15 @@
 
 #include "engine/platform/input.hpp"
 #include "engine/ui/ui.hpp"
-#include "tools/author/preview/room_check.hpp"
-#include "tools/author/preview/room_overlay.hpp"
+#include "tools/author/preview/background_check.hpp"
+#include "tools/author/preview/check_overlay.hpp"
 
 namespace bolt::author {
 
 // The state that the panel shows.
-struct RoomPanelState {
-    const RoomOverlay& overlay;
-    const RoomCheck& check;
+struct PreviewPanelState {
+    const CheckOverlay& overlay;
+    const BackgroundCheck& check;
     std::span<const std::string> variants;  // of the file
     std::string variant;                    // the shown one
     std::string selected;                   // id of a joint; empty: none
@@ -25,13 +25,13 @@ struct RoomPanelState {
 };
 
 // The author's clicks in one frame.
-struct RoomPanelCommands {
-    std::optional<std::size_t> problem;  // index into RoomOverlay::problems()
+struct PreviewPanelCommands {
+    std::optional<std::size_t> problem;  // index into CheckOverlay::problems()
     std::optional<std::size_t> variant;
     bool toggle_sectors = false;
 };
 
-class RoomPanel {
+class PreviewPanel {
   public:
     Status start(gpu::Device& device);
     void release();
@@ -41,10 +41,10 @@ class RoomPanel {
     bool take_events(std::vector<platform::InputEvent>& events, const glm::vec2& size, float scale);
 
     // Draws over the picture, unless the window is too small or the panel is hidden.
-    Status draw(gpu::FrameContext& frame, render::Renderer& renderer, const RoomPanelState& state);
+    Status draw(gpu::FrameContext& frame, render::Renderer& renderer, const PreviewPanelState& state);
 
     // Returns the clicks since the last call.
-    RoomPanelCommands take_commands() { return std::exchange(commands_, {}); }
+    PreviewPanelCommands take_commands() { return std::exchange(commands_, {}); }
 
     void toggle() { hidden_ = !hidden_; }
     // Draws the panel again, because its state has changed.
@@ -55,13 +55,13 @@ class RoomPanel {
     static constexpr int frames_after_event = 3;
     [[nodiscard]] bool is_shown() const;
     [[nodiscard]] bool contains(const glm::dvec2& at) const;
-    void draw_contents(const RoomPanelState& state);
-    void draw_problems(const RoomPanelState& state);
+    void draw_contents(const PreviewPanelState& state);
+    void draw_problems(const PreviewPanelState& state);
 
     std::unique_ptr<ui::Ui> ui_;
     ui::UiInput input_;
     render::Rectangle place_;  // px, in the last frame
-    RoomPanelCommands commands_;
+    PreviewPanelCommands commands_;
     int frames_ = 0;  // to draw until the panel has reacted to the last event
     bool hidden_ = false;
 };

@@ -1,4 +1,4 @@
-// The check of the tools' room on a thread of its own.
+// The check of an assembly on a thread of its own, and the overlay of its result.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -7,14 +7,14 @@
 #include "engine/base/file.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/author/preview/room_overlay.hpp"
+#include "tools/author/preview/check_overlay.hpp"
 
 using namespace bolt;
 using namespace bolt::author;
 
 namespace {
 
-std::unique_ptr<CheckedAssembly> wait_for_result(RoomCheck& check) {
+std::unique_ptr<CheckedAssembly> wait_for_result(BackgroundCheck& check) {
     std::unique_ptr<CheckedAssembly> checked;
     REQUIRE(test::eventually([&] { return (checked = check.take_result()) != nullptr; }));
     return checked;
@@ -23,7 +23,7 @@ std::unique_ptr<CheckedAssembly> wait_for_result(RoomCheck& check) {
 }  // namespace
 
 TEST_CASE("Preview: a check on another thread gives the findings of validate and the room of each joint") {
-    RoomCheck check;
+    BackgroundCheck check;
     CHECK_FALSE(check.is_running());
     CHECK(check.take_result() == nullptr);
     check.start("cover-m8", {});
@@ -34,11 +34,11 @@ TEST_CASE("Preview: a check on another thread gives the findings of validate and
     CHECK(problems_of(*checked).empty());
     REQUIRE(checked->rooms);
     CHECK(checked->rooms->joints.size() == 4);
-    for (const geometry::WrenchRoom& room : checked->rooms->joints) CHECK(room.swing.width() > 4.0);
+    for (const geometry::DrawnToolRoom& room : checked->rooms->joints) CHECK(room.swing.width() > 4.0);
 }
 
 TEST_CASE("Preview: a check that is started again gives only the last result") {
-    RoomCheck check;
+    BackgroundCheck check;
     check.start("zq350", {});
     check.start("dn200-pn16", "by_angle");
     check.start("cover-m8", {});
@@ -51,7 +51,7 @@ TEST_CASE("Preview: a stopped check leaves out the remaining joints") {
     REQUIRE(loaded.ok());
     geometry::CheckProgress progress;
     progress.stop = true;
-    std::optional<geometry::WrenchRooms> rooms;
+    std::optional<geometry::DrawnToolRooms> rooms;
     (void)geometry::check_geometry(loaded.assembly, &rooms, &progress);
     REQUIRE(rooms);
     CHECK(rooms->joints.empty());
@@ -72,11 +72,11 @@ TEST_CASE("Preview: each problem names its joint, and shows the room of the tool
     const std::size_t at = text.find(alternatives);
     REQUIRE(at != std::string::npos);
     REQUIRE(write_file(file, text.erase(at, alternatives.size())));
-    RoomCheck check;
+    BackgroundCheck check;
     check.start(file, {});
     std::unique_ptr<CheckedAssembly> checked = wait_for_result(check);
 
-    RoomOverlay overlay;
+    CheckOverlay overlay;
     overlay.show(std::move(checked));
     REQUIRE(overlay.problems().size() == 2);
     const Problem& problem = overlay.problems().front();
@@ -84,9 +84,9 @@ TEST_CASE("Preview: each problem names its joint, and shows the room of the tool
     CHECK(overlay.checked()->assembly.joints[*problem.joint].design.id == "B6");
     CHECK(
         problem_text(*overlay.checked(), problem).starts_with("B6: the tool \"ratchet\" cannot be brought"));
-    const geometry::WrenchRoom* room = overlay.room_of("B6");
+    const geometry::DrawnToolRoom* room = overlay.room_of("B6");
     REQUIRE(room != nullptr);
-    const geometry::WrenchRooms& rooms = *overlay.checked()->rooms;
+    const geometry::DrawnToolRooms& rooms = *overlay.checked()->rooms;
     CHECK(overlay.checked()->assembly.tools[room->tool].name == "ratchet");
     REQUIRE(room->obstruction != geometry::no_part);
     CHECK(rooms.scene.parts[room->obstruction].name == "stand_downstream");

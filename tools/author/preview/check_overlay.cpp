@@ -1,4 +1,4 @@
-#include "tools/author/preview/room_overlay.hpp"
+#include "tools/author/preview/check_overlay.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@ namespace bolt::author {
 
 namespace {
 
-using geometry::WrenchRoom;
+using geometry::DrawnToolRoom;
 
 constexpr float tool_opacity = 0.45F;
 constexpr double whole_turn = to_radians(359.0);  // of free swing: the tool is drawn once
@@ -24,11 +24,11 @@ constexpr float mark_height_px = 26.0F;  // of a label above its joint
 
 }  // namespace
 
-const std::string& RoomOverlay::id_of(const WrenchRoom& room) const {
+const std::string& CheckOverlay::id_of(const DrawnToolRoom& room) const {
     return checked_->assembly.joints[room.joint].design.id;
 }
 
-void RoomOverlay::show(std::unique_ptr<CheckedAssembly> checked) {
+void CheckOverlay::show(std::unique_ptr<CheckedAssembly> checked) {
     release();
     checked_ = std::move(checked);
     problems_ = checked_ ? problems_of(*checked_) : std::vector<Problem>();
@@ -37,7 +37,7 @@ void RoomOverlay::show(std::unique_ptr<CheckedAssembly> checked) {
 }
 
 // A part that this level of detail lacks is not marked.
-void RoomOverlay::find_nodes(const view::LoadedModel& model) {
+void CheckOverlay::find_nodes(const view::LoadedModel& model) {
     marked_.clear();
     obstructions_.clear();
     for (const Problem& problem : problems_) {
@@ -45,13 +45,13 @@ void RoomOverlay::find_nodes(const view::LoadedModel& model) {
         auto nodes = view::nodes_of(model.model, checked_->assembly.joints[*problem.joint].node);
         if (nodes) marked_.emplace(*problem.joint, std::move(*nodes));
     }
-    const WrenchRoom* room = room_of(selected_);
+    const DrawnToolRoom* room = room_of(selected_);
     if (room == nullptr || room->obstruction == geometry::no_part) return;
     auto nodes = view::nodes_of(model.model, checked_->rooms->scene.parts[room->obstruction].name);
     if (nodes) obstructions_ = std::move(*nodes);
 }
 
-void RoomOverlay::release() {
+void CheckOverlay::release() {
     fans_.clear();
     small_fans_.clear();
     tools_.clear();
@@ -60,17 +60,17 @@ void RoomOverlay::release() {
     all_ = false;
 }
 
-const WrenchRoom* RoomOverlay::room_of(const std::string& joint) const {
+const DrawnToolRoom* CheckOverlay::room_of(const std::string& joint) const {
     if (!checked_ || !checked_->rooms) return nullptr;
-    for (const WrenchRoom& room : checked_->rooms->failing)
+    for (const DrawnToolRoom& room : checked_->rooms->failing)
         if (id_of(room) == joint) return &room;
-    for (const WrenchRoom& room : checked_->rooms->joints)
+    for (const DrawnToolRoom& room : checked_->rooms->joints)
         if (id_of(room) == joint) return &room;
     return nullptr;
 }
 
-std::string RoomOverlay::description_of(const std::string& joint) const {
-    const WrenchRoom* room = room_of(joint);
+std::string CheckOverlay::description_of(const std::string& joint) const {
+    const DrawnToolRoom* room = room_of(joint);
     if (room == nullptr) return {};
     const content::Assembly& assembly = checked_->assembly;
     std::string text = describe_room(*room, blockers_of(*checked_->rooms, *room),
@@ -84,7 +84,7 @@ std::string RoomOverlay::description_of(const std::string& joint) const {
     return text;
 }
 
-Status RoomOverlay::upload_selected(gpu::Device& device, const WrenchRoom& room) {
+Status CheckOverlay::upload_selected(gpu::Device& device, const DrawnToolRoom& room) {
     if (!fans_.contains(room.joint)) {
         DrawnFan fan{make_swing_fan(room.swing, ring_of(*checked_->rooms, room)), {}};
         BOLT_TRY_ASSIGN(fan.gpu, render::upload_model(device, fan.model));
@@ -98,7 +98,7 @@ Status RoomOverlay::upload_selected(gpu::Device& device, const WrenchRoom& room)
     return {};
 }
 
-Status RoomOverlay::upload_small_fan(gpu::Device& device, const WrenchRoom& room) {
+Status CheckOverlay::upload_small_fan(gpu::Device& device, const DrawnToolRoom& room) {
     if (small_fans_.contains(room.joint)) return {};
     double nearest = 1e9;
     const std::vector<content::AssemblyJoint>& joints = checked_->assembly.joints;
@@ -114,22 +114,22 @@ Status RoomOverlay::upload_small_fan(gpu::Device& device, const WrenchRoom& room
     return {};
 }
 
-Status RoomOverlay::prepare(gpu::Device& device, const view::LoadedModel& model, const std::string& selected,
-                            bool all) {
+Status CheckOverlay::prepare(gpu::Device& device, const view::LoadedModel& model, const std::string& selected,
+                             bool all) {
     selected_ = selected;
     all_ = all;
     find_nodes(model);
-    const WrenchRoom* room = room_of(selected);
+    const DrawnToolRoom* room = room_of(selected);
     if (room != nullptr && room->gripped) BOLT_TRY(upload_selected(device, *room));
     if (!all || !checked_ || !checked_->rooms) return {};
-    for (const WrenchRoom& other : checked_->rooms->joints)
+    for (const DrawnToolRoom& other : checked_->rooms->joints)
         if (other.gripped) BOLT_TRY(upload_small_fan(device, other));
     return {};
 }
 
 // Draws the tool as a ghost where its free swing begins and where it ends; in red if it fits at no angle or
 // cannot be brought onto the joint.
-void RoomOverlay::add_tool(render::Scene& scene, const WrenchRoom& room) const {
+void CheckOverlay::add_tool(render::Scene& scene, const DrawnToolRoom& room) const {
     const UploadedTool& tool = tools_.at(room.tool);
     const geometry::Arc* arc = room.swing.widest();
     std::vector<double> handles{room.handle};
@@ -147,7 +147,7 @@ void RoomOverlay::add_tool(render::Scene& scene, const WrenchRoom& room) const {
 }
 
 // Outlines the joints with a problem and puts a label above each.
-void RoomOverlay::mark_problems(render::Scene& scene) const {
+void CheckOverlay::mark_problems(render::Scene& scene) const {
     for (const auto& [joint, nodes] : marked_)
         for (render::Object& object : scene.objects)
             if (nodes.contains(object.node) && object.outline.w == 0.0F) object.outline = problem_color;
@@ -165,19 +165,19 @@ void RoomOverlay::mark_problems(render::Scene& scene) const {
     }
 }
 
-void RoomOverlay::add_to(render::Scene& scene, const render::Eye& eye, const glm::vec2& picture) {
+void CheckOverlay::add_to(render::Scene& scene, const render::Eye& eye, const glm::vec2& picture) {
     labels_.clear();
     if (!checked_) return;
     const std::size_t first_mark = scene.labels.size();
     mark_problems(scene);
-    if (const WrenchRoom* room = room_of(selected_); room != nullptr && room->gripped) {
+    if (const DrawnToolRoom* room = room_of(selected_); room != nullptr && room->gripped) {
         const DrawnFan& fan = fans_.at(room->joint);
         add_fan(scene, fan.model, fan.gpu, *room);
         add_tool(scene, *room);
         add_room_labels(scene, *checked_->rooms, *room, blockers_of(*checked_->rooms, *room));
     }
     if (all_ && checked_->rooms)
-        for (const WrenchRoom& room : checked_->rooms->joints)
+        for (const DrawnToolRoom& room : checked_->rooms->joints)
             if (room.gripped && id_of(room) != selected_) {
                 const DrawnFan& fan = small_fans_.at(room.joint);
                 add_fan(scene, fan.model, fan.gpu, room);
@@ -196,7 +196,7 @@ void RoomOverlay::add_to(render::Scene& scene, const render::Eye& eye, const glm
     }
 }
 
-std::string RoomOverlay::joint_of_label(const glm::vec2& at) const {
+std::string CheckOverlay::joint_of_label(const glm::vec2& at) const {
     for (const LabelPlace& label : labels_)
         if (at.x >= label.box.low.x && at.x <= label.box.high.x && at.y >= label.box.low.y &&
             at.y <= label.box.high.y)

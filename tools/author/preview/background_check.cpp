@@ -1,4 +1,4 @@
-#include "tools/author/preview/room_check.hpp"
+#include "tools/author/preview/background_check.hpp"
 
 #include <fmt/format.h>
 
@@ -58,11 +58,11 @@ std::string problem_text(const CheckedAssembly& checked, const Problem& problem)
     return fmt::format("{}: {}", checked.assembly.joints[*problem.joint].design.id, without_place.message());
 }
 
-RoomCheck::~RoomCheck() {
+BackgroundCheck::~BackgroundCheck() {
     if (is_running()) running_.progress->stop = true;
 }
 
-void RoomCheck::start(const std::string& source, const std::string& variant) {
+void BackgroundCheck::start(const std::string& source, const std::string& variant) {
     if (is_running()) {
         running_.progress->stop = true;
         stopping_.push_back(std::move(running_));
@@ -76,12 +76,12 @@ void RoomCheck::start(const std::string& source, const std::string& variant) {
                 })};
 }
 
-std::unique_ptr<CheckedAssembly> RoomCheck::take_result() {
+std::unique_ptr<CheckedAssembly> BackgroundCheck::take_result() {
     if (!is_running() || running_.result.wait_for(0s) != std::future_status::ready) return nullptr;
     return running_.result.get();
 }
 
-std::pair<std::size_t, std::size_t> RoomCheck::progress() const {
+std::pair<std::size_t, std::size_t> BackgroundCheck::progress() const {
     if (!is_running()) return {0, 0};
     return {running_.progress->checked, running_.progress->joints};
 }
