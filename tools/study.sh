@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# It stands beside `boltwright study simulate`, which draws the kind of trainee at random for each participant and seeds each
-# lesson by itself, because docs/performance.md needs lessons of stated trainees that differ in the help alone.
 # Compares lessons of simulated trainees with and without the guiding force (or the view help) over several seeds, and writes a
-# page with the comparison.
+# page with the comparison. docs/performance.md needs such lessons, of stated trainees that differ in the help alone; `boltwright
+# study simulate` draws the kind of trainee at random for each participant and seeds each lesson by itself.
 #   tools/study.sh OUT                                   20 seeds of novice and clumsy on zq350 and cover-m8
 #   SEEDS=5 TRAINEES="expert" tools/study.sh OUT zq350   other seeds, trainees and assemblies
 #   STUDY=view tools/study.sh OUT                        the view help, in guided lessons

@@ -136,8 +136,8 @@ TEST_CASE("Arm feel: guiding shortens the way of a blind hand, and hands bump no
         CHECK(2 * with_guiding.missed < without.missed);
         // These hands hit the casing faster than contact is designed for; the output stage limits the step.
         const double limit = 0.1 * facts.announced().limits.force;
-        CHECK(without.rate_max > 0.9 * limit);
-        CHECK(std::max(without.rate_max, with_guiding.rate_max) <= limit * (1.0 + 1e-9));
+        CHECK(without.step_max > 0.9 * limit);
+        CHECK(std::max(without.step_max, with_guiding.step_max) <= limit * (1.0 + 1e-9));
     }
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("Arm feel: a run does not depend on the runs before it") {
     const Approach again = run_approach(zq350(), facts, 3, true);
     CHECK(first.way == again.way);
     CHECK(first.force == again.force);
-    CHECK(first.rate == again.rate);
+    CHECK(first.step == again.step);
     CHECK(first.time == again.time);
 }
 

@@ -174,7 +174,7 @@ void add_haply_command(CLI::App& app, int& exit_code) {
         ->transform(CLI::CheckedTransformer(std::map<std::string, HaplyGrip>{
             {"none", HaplyGrip::none}, {"wired", HaplyGrip::wired}, {"wireless", HaplyGrip::wireless}}))
         ->default_str("wireless");
-    command->add_option("--version", options->version, "of the service")->capture_default_str();
+    command->add_option("--version", options->version, "version of the service")->capture_default_str();
     command->add_flag_callback(
         "--uncalibrated", [options] { options->calibrated = false; }, "the arm is not calibrated");
     command->callback([options, &exit_code] {

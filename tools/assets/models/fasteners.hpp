@@ -1,4 +1,4 @@
-// Bolts, nuts and washers as solids with helical threads, and the joint that they form.
+// Bolts, screws, studs, nuts and washers as solids, and the joint that bolt, nut and washers form.
 // Millimetres. Local +Z is the bolt axis, from head to nut. Threads are in phase: in each part's own frame a
 // crest of the bolt, or a groove of the nut, passes z = 0 on the +X side.
 #pragma once
@@ -67,7 +67,7 @@ struct StudSpec {
     double pitch = 0.0;
     double engagement = 0.0;
     double length = 0.0;
-    double thread_length = 0.0;  // at the end of the nut
+    double thread_length = 0.0;  // of the end on the nut's side
     ThreadDirection direction = ThreadDirection::right;
 };
 

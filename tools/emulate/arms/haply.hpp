@@ -1,5 +1,4 @@
-// An emulated Haply service on this computer, with one Inverse3 and a grip (haply_model.hpp), in real
-// time.
+// An emulated Haply service on this computer, with one Inverse3 and a grip (haply_model.hpp), in real time.
 #pragma once
 
 #include <memory>

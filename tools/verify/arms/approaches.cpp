@@ -88,7 +88,7 @@ class Reach {
     }
     Approach finish() {
         approach_.force = rig_.record.greatest_force;
-        approach_.rate = rig_.record.step;
+        approach_.step = rig_.record.step;
         approach_.time = rig_.time;
         return approach_;
     }
@@ -144,12 +144,12 @@ Approach run_approach(TightenedAssembly& tightened, const ArmFacts& arm, std::ui
 ApproachSummary summarize(std::span<const Approach> approaches) {
     ApproachSummary s;
     s.count = approaches.size();
-    std::vector<double> ways, times, forces, rates;
+    std::vector<double> ways, times, forces, steps;
     for (const Approach& a : approaches) {
         s.missed += !a.reached;
         s.bumps += a.bumps / static_cast<double>(std::max<std::size_t>(s.count, 1));
         forces.push_back(a.contact_force);
-        rates.push_back(a.rate);
+        steps.push_back(a.step);
         if (!a.reached) continue;
         ways.push_back(a.way / a.straight);
         times.push_back(a.time);
@@ -159,8 +159,8 @@ ApproachSummary summarize(std::span<const Approach> approaches) {
     s.force_median = quantile(forces, 0.5);
     s.force_p95 = quantile(forces, 0.95);
     s.force_max = quantile(forces, 1.0);
-    s.rate_p95 = quantile(rates, 0.95);
-    s.rate_max = quantile(rates, 1.0);
+    s.step_p95 = quantile(steps, 0.95);
+    s.step_max = quantile(steps, 1.0);
     return s;
 }
 

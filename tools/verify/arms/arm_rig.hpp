@@ -12,8 +12,8 @@
 
 namespace bolt::arm_validation {
 
-// An assembly with its contact models and tightened joints. A rig borrows the contact
-// models, so each thread needs an assembly of its own.
+// An assembly with its contact models and tightened joints. A rig borrows the contact models, so each thread
+// needs an assembly of its own.
 struct TightenedAssembly {
     content::Assembly assembly;
     servo::State state;  // all joints tightened

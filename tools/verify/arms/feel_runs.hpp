@@ -1,6 +1,5 @@
 // A hand tests an arm with the wrench: it presses, shakes and rests on the casing, and pulls at a tightened
-// nut. Criteria as in tests/stability: no net energy out of the device, and no trembling that
-// lasts.
+// nut. The criteria are those of tests/stability: no net energy out of the device, and no lasting trembling.
 #pragma once
 
 #include <string_view>
@@ -12,26 +11,26 @@ namespace bolt::arm_validation {
 
 struct FeelOutcome {
     Record record;
-    // m, largest swing of the point that the hand holds (and, with torque output, of a point 0.1 m from it)
-    // in a window of 40 ms, less the straight motion. `early_swing`: right after the last motion of the hand;
+    // Largest deviation, m, from a straight motion within 40 ms: of the point that the hand holds and, with
+    // torque output, of a point 0.1 m from it. `early_swing`: right after the last motion of the hand;
     // `late_swing`: a second later.
     double early_swing = 0.0, late_swing = 0.0;
     bool touched = false;  // the hand felt the obstacle or the nut at least once
     bool held = true;      // by a hand
 };
 
-// J, upper bounds of the net energy that the device gives: at any time; and at the end of a run without a
-// hand (the credit of the passivity controller). A hand that holds the arm must put in more than it gets
-// back.
+// Upper bounds, J, of the net energy out of the device: `max_energy` at any time; at the end of a run 0 with
+// a hand, and without one `max_energy_of_free_arm`, the credit of the passivity controller.
 inline constexpr double max_energy = 1e-3, max_energy_of_free_arm = force::max_credit;
 inline constexpr double perceptible_swing = 100e-6;  // m
 
 bool gives_energy(const FeelOutcome& outcome);
 bool trembles(const FeelOutcome& outcome);
 bool is_stable(const FeelOutcome& outcome);
-// The largest change in a millisecond, % of the greatest force or torque, whichever is more.
+// Returns the largest change of force or torque in a millisecond, % of the arm's limit; the greater of the
+// two.
 double step_percent(const FeelOutcome& outcome, const device::Description& arm);
-// The worse value of each member.
+// Returns the worse value of each member, and both swings of the outcome with the worse late swing.
 FeelOutcome worse(const FeelOutcome& a, const FeelOutcome& b);
 
 // A motion of the wrench onto the casing.

@@ -14,7 +14,8 @@ enum class TestedSpring : std::uint8_t {
     nut,      // the wrench on a tightened nut, as torque or as force at the handle
 };
 
-// Factors on the stiffness in use between which the search looks, and their ratio at which it stops.
+// The search covers these factors on the stiffness in use. It stops when the ratio of an unstable to a stable
+// factor is at most search_ratio.
 inline constexpr double min_factor = 1.0 / 16.0, max_factor = 16.0, search_ratio = 1.06;
 
 struct StableRange {

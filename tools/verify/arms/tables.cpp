@@ -48,7 +48,7 @@ std::string approach_row(const ArmFacts& arm, const char* guiding, const Approac
     return fmt::format(
         "| {} | {} | {:.2f} | {:.1f} | {:.2f} | {} of {} | {:.1f}, {:.1f}, {:.1f} | {:.2f}, {:.2f} |",
         arm.name, guiding, s.way_ratio, s.time, s.bumps, s.missed, s.count, s.force_median, s.force_p95,
-        s.force_max, s.rate_p95, s.rate_max);
+        s.force_max, s.step_p95, s.step_max);
 }
 
 }  // namespace

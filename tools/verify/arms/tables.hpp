@@ -16,10 +16,10 @@ inline constexpr std::string_view tables_end = "<!-- bolt-arm-validation ends --
 std::vector<std::string> rows_of(const ArmResult& result);
 // Without and with guiding.
 std::vector<std::string> rows_of(const ApproachResult& result);
+
 std::string to_markdown(const ValidationResult& result);
 
-// Returns the text with everything between the marks replaced by the tables.
-// Fails if a mark is missing.
+// Returns the text with everything between the marks replaced by the tables. Fails if a mark is missing.
 Result<std::string> replace_tables(std::string_view text, std::string_view tables);
 
 }  // namespace bolt::arm_validation

@@ -58,7 +58,7 @@ struct NearSummary {
     // Fraction of the near poses whose reported gap exceeds the true one by at most 1 um.
     double within_micrometre = 0.0;
     double max_depth_underestimate_points =
-        0.0;  // m, greatest of the depth of the sample points minus the reported one
+        0.0;  // m, greatest depth of the sample points minus the reported one
 };
 
 NearSummary summarize(const std::vector<NearPose>& poses, double band);

@@ -48,7 +48,7 @@ void declare(CLI::App& app, PathTraceOptions& o) {
     app.add_option("--samples", o.settings.samples, "paths per pixel")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 20));
-    app.add_option("--bounces", o.settings.bounces, "most bounces of a path")
+    app.add_option("--bounces", o.settings.bounces, "largest number of bounces of a path")
         ->capture_default_str()
         ->check(CLI::Range(0, 64));
     app.add_option("--clamp", o.settings.clamp, "maximum radiance of a path after a bounce; 0: unbiased")
