@@ -252,7 +252,7 @@ TEST_CASE("Haply: the emulated service measures a force that stays after a fault
     }));
 }
 
-TEST_CASE("Haply: an arm that is not calibrated asks for it, when it is listed and when it is opened") {
+TEST_CASE("Haply: an arm that is not calibrated requests it, when it is listed and when it is opened") {
     const Bench bench({.calibrated = false});
     const auto listed = list_haply(bench.service, patience);
     REQUIRE(listed);

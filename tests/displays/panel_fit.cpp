@@ -60,7 +60,7 @@ TEST_CASE("Panel on walls: it is whole on the front wall, with text of 20 dmm") 
 }
 
 TEST_CASE(
-    "Panel on walls: on a small screen it is as large as the screen, and the check tells the text's size") {
+    "Panel on walls: on a small screen it is as large as the screen, and the check reports the text's size") {
     const DisplayFile file = small_desk();
     CHECK(fit_inside(file).text_size == doctest::Approx(12.2).epsilon(0.01));
     const auto found = texts(check_displays(file));

@@ -102,7 +102,7 @@ TEST_CASE("Arm tip: Enter measures as well, and an Enter from before the questio
     CHECK(arm.time.now > 1.0);
 }
 
-TEST_CASE("Arm tip: if the hand moves, the point is asked for again") {
+TEST_CASE("Arm tip: if the hand moves, the point is requested again") {
     ScriptedArm arm;
     arm.script = {{0.5, first, 0}, {0.6, first, 1}, {1.0, second, 1}, {1.5, second, 0}, {9.0, second, 1}};
     ArmTip tip(arm.io(), {});

@@ -34,7 +34,7 @@ std::string torque_file() {
 
 }  // namespace
 
-TEST_CASE("Import: force times lever with gain, offset and units") {
+TEST_CASE("Measurement import: force times lever with gain, offset and units") {
     const measure::RigRun run = only_run(import_text(force_rig, force_file(known_torque)));
     CHECK(run.name == "run");
     CHECK(run.rate == doctest::Approx(100.0));
@@ -45,7 +45,7 @@ TEST_CASE("Import: force times lever with gain, offset and units") {
     }
 }
 
-TEST_CASE("Import: the uncertainty follows the GUM") {
+TEST_CASE("Measurement import: the uncertainty follows the GUM") {
     const measure::RigRun run = only_run(import_text(force_rig, force_file(known_torque)));
     // At 20.5 N·m the force is 82 N; the standard uncertainty of the force 0.2/√12 + 0.4/2 + 0.5 % · 82 N.
     const std::size_t at = 440;
@@ -56,7 +56,7 @@ TEST_CASE("Import: the uncertainty follows the GUM") {
     CHECK(to_degrees(run.u_angle) == doctest::Approx(0.1 / std::sqrt(12.0)));
 }
 
-TEST_CASE("Import: units agree with their definitions") {
+TEST_CASE("Measurement import: units agree with their definitions") {
     const auto peak = [](const std::string& unit) {
         const std::string rig = replaced(torque_rig, "\"N.m\"", "\"" + unit + "\"");
         return only_run(import_text(rig, torque_file())).landmarks.peak.torque / known_torque(140.0);
@@ -67,7 +67,7 @@ TEST_CASE("Import: units agree with their definitions") {
     CHECK(peak("kgf.m") == doctest::Approx(9.80665));
 }
 
-TEST_CASE("Import: torque over time with a constant speed, with points, and with a second file") {
+TEST_CASE("Measurement import: torque over time with a constant speed, with points, and with a second file") {
     const auto angle_of = [](const measure::RigRun& run, std::size_t i) { return to_degrees(run.angle[i]); };
     const measure::RigRun steady = only_run(import_text(torque_rig, torque_file()));
     CHECK(angle_of(steady, 400) == doctest::Approx(100.0));
@@ -92,7 +92,7 @@ TEST_CASE("Import: torque over time with a constant speed, with points, and with
                   "run.csv:2: ", "known from 0.5 s to 1.7 s, but the run lasts from 0 s to 5.6 s");
 }
 
-TEST_CASE("Import: tare and reversed channels") {
+TEST_CASE("Measurement import: tare and reversed channels") {
     std::string file = "t,Fx,phi\n";
     for (int i = 0; i <= 660; ++i) {
         const double angle = std::max(0.0, 0.25 * (i - 100));
@@ -108,7 +108,7 @@ TEST_CASE("Import: tare and reversed channels") {
     CHECK(to_degrees(run.angle[660]) == doctest::Approx(140.0));
 }
 
-TEST_CASE("Import: loggers' tables with semicolons, decimal commas and a line of units") {
+TEST_CASE("Measurement import: loggers' tables with semicolons, decimal commas and a line of units") {
     const std::string rig = replaced(
         torque_rig, "\"time\"",
         R"("table": {"separator": "semicolon", "decimal": "comma", "lines_before_header": 2, "lines_after_header": 1},
@@ -127,7 +127,7 @@ TEST_CASE("Import: loggers' tables with semicolons, decimal commas and a line of
     CHECK((*runs)[1].torque[460] == doctest::Approx(known_torque(115.0)));
 }
 
-TEST_CASE("Import: mistakes of the file are told with line and column") {
+TEST_CASE("Measurement import: mistakes of the file are reported with line and column") {
     const std::string good = force_file(known_torque);
     const auto message = [&](const std::string& from, const std::string& to) {
         return message_of(import_text(force_rig, replaced(good, from, to)));
@@ -156,7 +156,7 @@ TEST_CASE("Import: mistakes of the file are told with line and column") {
                   "run.csv:1:1: ", "UTF-16");
 }
 
-TEST_CASE("Import: wrong units and signs are told at their place in the rig's description") {
+TEST_CASE("Measurement import: wrong units and signs are reported at their place in the rig's description") {
     const std::string good = force_file(known_torque);
     const auto message = [&](const std::string& from, const std::string& to) {
         return message_of(import_text(replaced(force_rig, from, to), good));
@@ -181,7 +181,7 @@ TEST_CASE("Import: wrong units and signs are told at their place in the rig's de
                   "rig.json:9:34: ", "the unit is N, but the column is named 'Fx (kN)'; expected \"kN\"");
 }
 
-TEST_CASE("Import: torque and slope that such a bolt cannot have are told at their unit") {
+TEST_CASE("Measurement import: torque and slope that such a bolt cannot have are reported at their unit") {
     const std::string good = force_file(known_torque);
     const auto message = [&](const std::string& from, const std::string& to) {
         return message_of(import_text(replaced(force_rig, from, to), good));
@@ -211,7 +211,7 @@ TEST_CASE("Import: torque and slope that such a bolt cannot have are told at the
                   "rig.json:9:29: ", "for a bolt M8 of class 4.6");
 }
 
-TEST_CASE("Import: an encoder that starts again after a turn is unwound, and this is noted") {
+TEST_CASE("Measurement import: an encoder that starts again after a turn is unwound, and this is noted") {
     const measure::RigRun straight = only_run(import_text(force_rig, force_file(known_torque)));
     for (const double lowest : {0.0, -180.0}) {
         std::string file = "t,Fx,phi\n";
@@ -230,7 +230,7 @@ TEST_CASE("Import: an encoder that starts again after a turn is unwound, and thi
     CHECK(straight.notes.empty());
 }
 
-TEST_CASE("Import: missing samples show in the angle, with a sampling rate too") {
+TEST_CASE("Measurement import: missing samples show in the angle, with a sampling rate too") {
     std::string rig = replaced(force_rig, "\"column\": \"t\", \"unit\": \"ms\"", "\"rate_Hz\": 100");
     std::string file = force_file(known_torque);
     for (int i = 400; i < 480; ++i)
@@ -243,7 +243,7 @@ TEST_CASE("Import: missing samples show in the angle, with a sampling rate too")
     CHECK(message_of(import_text(rig, file)) == "no error");
 }
 
-TEST_CASE("Import: an uneven clock is refused for the low pass only") {
+TEST_CASE("Measurement import: an uneven clock is refused for the low pass only") {
     std::string file = "t,Fx,phi\n";
     double t = 0.0;
     for (int i = 0; i <= 560; ++i) {
@@ -255,7 +255,7 @@ TEST_CASE("Import: an uneven clock is refused for the low pass only") {
     check_message(message_of(import_text(filtered, file)), "run.csv:", "not evenly spaced");
 }
 
-TEST_CASE("Import: a saturated amplifier is noted") {
+TEST_CASE("Measurement import: a saturated amplifier is noted") {
     const auto clipped = [](double angle) { return std::min(known_torque(angle), 20.0); };
     const measure::RigRun run = only_run(import_text(force_rig, force_file(clipped)));
     REQUIRE(run.notes.size() == 1);
@@ -263,7 +263,7 @@ TEST_CASE("Import: a saturated amplifier is noted") {
     CHECK(only_run(import_text(force_rig, force_file(known_torque))).notes.empty());
 }
 
-TEST_CASE("Import: compare reads the record back") {
+TEST_CASE("Measurement import: compare reads the record back") {
     auto runs = import_text(force_rig, force_file(known_torque));
     REQUIRE(runs);
     runs->push_back(runs->front());

@@ -53,7 +53,7 @@ TEST_CASE("Rig: units in the names of columns") {
     CHECK(unit_in_name("") == "");
 }
 
-TEST_CASE("Rig: mistakes are told with line and column") {
+TEST_CASE("Rig: mistakes are reported with line and column") {
     check_mistake("\"Fx\", \"unit\": \"N\", \"lever_mm\": 250,", "\"Fx\", \"unit\": \"N\",",
                   "rig.json:9:", "N is a force");
     check_mistake("\"unit\": \"N\"", "\"unit\": \"N.m\"", "rig.json:9:", "N.m is a torque");

@@ -49,7 +49,7 @@ TEST_CASE("Validation: the law agrees with its own loosening run") {
     CHECK(measure::loosening_text(*v).find("agrees with most runs") != std::string::npos);
 }
 
-TEST_CASE("Validation: a joint that releases later is told") {
+TEST_CASE("Validation: a joint that releases later is reported") {
     const auto v = measure::validate_loosening(bolt(), record_of_law(15.0, 2.0));
     REQUIRE(v);
     CHECK(v->release == doctest::Approx(2.0 * v->law_release).epsilon(0.03));

@@ -36,7 +36,7 @@ void sleep_until(std::unique_lock<std::mutex>& lock, const State& s, XrTime time
 XrResult wait_next(State& s, std::unique_lock<std::mutex>& lock, XrFrameState& out) {
     const std::uint64_t id = s.instance->session->id;
     const auto lost = [&] {
-        s.told_lost.insert(std::this_thread::get_id());
+        s.notified_of_loss.insert(std::this_thread::get_id());
         return s.instance && s.instance->lost ? XR_ERROR_INSTANCE_LOST : XR_ERROR_SESSION_LOST;
     };
     // A stopped session releases its waiting thread.

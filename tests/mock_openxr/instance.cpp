@@ -52,7 +52,7 @@ XrResult XRAPI_CALL create(const XrInstanceCreateInfo* info, XrInstance* instanc
         created.id = ++s.last_id;
         created.config = s.config;
         s.instance = std::move(created);
-        s.told_lost.clear();
+        s.notified_of_loss.clear();
         *instance = handle_of<XrInstance>(s.instance->id);
         return XR_SUCCESS;
     });
@@ -105,7 +105,7 @@ XrResult XRAPI_CALL poll_event(XrInstance, XrEventDataBuffer* out) {
                                   changed->state == XR_SESSION_STATE_LOSS_PENDING && instance.session;
         if (session_lost) instance.session->lost = true;
         if (instance.lost || session_lost) {
-            s.told_lost.insert(std::this_thread::get_id());
+            s.notified_of_loss.insert(std::this_thread::get_id());
             s.changed.notify_all();
         }
         return XR_SUCCESS;
@@ -183,7 +183,7 @@ XrResult XRAPI_CALL enumerate_views(XrInstance, XrSystemId, XrViewConfigurationT
     return call(name, Level::instance, [&](State& s, auto&) {
         if (type != view_type(s))
             return refuse(s, name, XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED,
-                          "asks for a view configuration that is not offered");
+                          "requests a view configuration that is not offered");
         const Config& c = s.instance->config;
         XrViewConfigurationView view{XR_TYPE_VIEW_CONFIGURATION_VIEW};
         view.recommendedImageRectWidth = c.width;

@@ -76,7 +76,7 @@ void reset() {
         s.frames.clear();
         s.vibrations.clear();
         s.ended.clear();
-        s.told_lost.clear();
+        s.notified_of_loss.clear();
         ++s.generation;
         s.changed.notify_all();
     });

@@ -1,10 +1,10 @@
-// The script that drives the mock runtime in another process.
+// The script that drives the mock runtime in another process: the file that MOCK_OPENXR_SCRIPT names. The
+// runtime then runs in real time.
 //
-// A program in another process is driven by a script: the file that MOCK_OPENXR_SCRIPT names. Time then is
-// real. A line is a frame number, a command and its arguments; an empty line or one that begins with # is
-// skipped. Frames are counted from 0 over the whole process. A frame's commands run when the client waits for
-// that frame; while no session runs, each xrGetSystem and each xrPollEvent without an event counts as a
-// frame. Commands of frame 0 run before the first instance is created.
+// A line is a frame number, a command and its arguments; an empty line or one that begins with # is skipped.
+// Frames are counted from 0 over the whole process. A frame's commands run when the client waits for that
+// frame; while no session runs, each xrGetSystem and each xrPollEvent without an event counts as a frame.
+// Commands of frame 0 run before the first instance is created.
 //
 //   0 config eyes|width|height|period|ipd|cant VALUE  properties of the headset (Config); width and height of
 //                                                     the recommended picture; period, ipd and cant in SI
@@ -31,7 +31,7 @@
 //   F event worn|not_worn   sensed by XR_EXT_user_presence; the session keeps its state
 //   F event recentre stage|floor|seated [POSE]     the origin moves to POSE in the old space
 //   F headset 0|1          disconnected or connected, as the next xrGetSystem reports it
-//   F render 0|1           whether xrWaitFrame asks for pictures
+//   F render 0|1           shouldRender, as xrWaitFrame returns it
 //   F fail FUNCTION RESULT COUNT                   RESULT: a number, for example -17
 //   F follow FILE          each xrSyncActions runs the commands of FILE, which have no frame numbers
 //   F picture FILE         writes the frame's pictures, side by side, as PPM, when the frame ends

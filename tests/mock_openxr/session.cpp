@@ -150,7 +150,7 @@ XrResult XRAPI_CALL create_reference_space(XrSession handle, const XrReferenceSp
         const std::vector<XrReferenceSpaceType>& offered = s.instance->config.spaces;
         if (std::find(offered.begin(), offered.end(), info->referenceSpaceType) == offered.end())
             return refuse(s, name, XR_ERROR_REFERENCE_SPACE_UNSUPPORTED,
-                          "asks for a space that is not offered");
+                          "requests a space that is not offered");
         if (!is_unit(info->poseInReferenceSpace.orientation))
             return refuse(s, name, XR_ERROR_POSE_INVALID,
                           "is given an orientation that is not a unit quaternion");
@@ -242,7 +242,7 @@ XrResult XRAPI_CALL visibility_mask(XrSession, XrViewConfigurationType, std::uin
     constexpr const char* name = "xrGetVisibilityMaskKHR";
     return call(name, Level::session, [&](State& s, auto&) {
         if (view >= s.instance->config.eyes)
-            return refuse(s, name, XR_ERROR_VALIDATION_FAILURE, "asks for a view that does not exist");
+            return refuse(s, name, XR_ERROR_VALIDATION_FAILURE, "requests a view that does not exist");
         std::vector<XrVector2f> vertices;
         if (type == XR_VISIBILITY_MASK_TYPE_HIDDEN_TRIANGLE_MESH_KHR)
             vertices = s.instance->config.hidden_triangles;

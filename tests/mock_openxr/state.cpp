@@ -90,7 +90,7 @@ std::optional<XrResult> enter(State& s, std::string_view function, Level level) 
     const bool session_lost = level == Level::session && instance->session->lost;
     if (instance_lost || session_lost) {
         // Another thread may not have learned of the loss yet.
-        if (!s.told_lost.insert(std::this_thread::get_id()).second)
+        if (!s.notified_of_loss.insert(std::this_thread::get_id()).second)
             violate(s, function, "is called after the loss; expected only destroying");
         return instance_lost ? XR_ERROR_INSTANCE_LOST : XR_ERROR_SESSION_LOST;
     }
@@ -101,7 +101,7 @@ std::optional<XrResult> enter(State& s, std::string_view function, Level level) 
     if (result == XR_ERROR_SESSION_LOST && instance != nullptr && instance->session)
         instance->session->lost = true;
     if (result == XR_ERROR_INSTANCE_LOST || result == XR_ERROR_SESSION_LOST) {
-        s.told_lost.insert(std::this_thread::get_id());
+        s.notified_of_loss.insert(std::this_thread::get_id());
         s.changed.notify_all();
     }
     return result;
@@ -277,7 +277,7 @@ void drop_session(State& s, bool vulkan) {
     instance.passthroughs.clear();
     s.ended[instance.session->id] = Kind::session;
     instance.session.reset();
-    if (!instance.lost) s.told_lost.clear();
+    if (!instance.lost) s.notified_of_loss.clear();
     s.changed.notify_all();
 }
 
@@ -287,7 +287,7 @@ void drop_instance(State& s) {
     for (const auto& [id, action] : s.instance->actions) s.ended[id] = Kind::action;
     s.ended[s.instance->id] = Kind::instance;
     s.instance.reset();
-    s.told_lost.clear();
+    s.notified_of_loss.clear();
     s.changed.notify_all();
 }
 

@@ -147,8 +147,8 @@ struct State {
     std::vector<Frame> frames;
     std::vector<Vibration> vibrations;
     std::optional<Instance> instance;
-    std::map<std::uint64_t, Kind> ended;  // objects that no longer exist
-    std::set<std::thread::id> told_lost;  // threads that know of the loss
+    std::map<std::uint64_t, Kind> ended;         // objects that no longer exist
+    std::set<std::thread::id> notified_of_loss;  // threads that know of the loss
     std::uint64_t last_id = 0;
     std::uint64_t generation = 0;  // of reset()
     Script script;

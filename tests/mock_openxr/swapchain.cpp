@@ -22,12 +22,12 @@ XrResult check_info(State& s, const XrSwapchainCreateInfo& info) {
     const Config& config = s.instance->config;
     if (std::find(config.formats.begin(), config.formats.end(), info.format) == config.formats.end())
         return refuse(s, name, XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED,
-                      "asks for a format that is not offered");
+                      "requests a format that is not offered");
     if (info.width == 0 || info.height == 0 || info.width > config.max_width ||
         info.height > config.max_height)
-        return refuse(s, name, XR_ERROR_VALIDATION_FAILURE, "asks for a size beyond the largest one");
+        return refuse(s, name, XR_ERROR_VALIDATION_FAILURE, "requests a size beyond the largest one");
     if (info.sampleCount != 1 || info.faceCount != 1 || info.mipCount != 1 || info.arraySize == 0)
-        return refuse(s, name, XR_ERROR_FEATURE_UNSUPPORTED, "asks for samples, faces or mips");
+        return refuse(s, name, XR_ERROR_FEATURE_UNSUPPORTED, "requests samples, faces or mips");
     return config.refuse_arrays && info.arraySize > 1 ? XR_ERROR_FEATURE_UNSUPPORTED : XR_SUCCESS;
 }
 

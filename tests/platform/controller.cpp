@@ -32,7 +32,7 @@ std::vector<ControllerEvent> events_of(std::span<const glm::vec2> positions) {
 
 }  // namespace
 
-TEST_CASE("a stick presses the direction to which it points") {
+TEST_CASE("Controller: a stick presses the direction to which it points") {
     const struct {
         glm::vec2 position;
         ControllerButton button;
@@ -48,7 +48,7 @@ TEST_CASE("a stick presses the direction to which it points") {
     }
 }
 
-TEST_CASE("a stick that trembles at the threshold presses once") {
+TEST_CASE("Controller: a stick that trembles at the threshold presses once") {
     const glm::vec2 positions[] = {{0.0F, 0.0F},  {0.0F, 0.45F}, {0.0F, 0.52F}, {0.0F, 0.48F},
                                    {0.0F, 0.55F}, {0.0F, 0.35F}, {0.0F, 0.51F}, {0.0F, 0.2F}};
     const auto events = events_of(positions);
@@ -59,7 +59,9 @@ TEST_CASE("a stick that trembles at the threshold presses once") {
     CHECK_FALSE(events[1].down);
 }
 
-TEST_CASE("a stick leaves the direction buttons that are down, and a stick without a position presses none") {
+TEST_CASE(
+    "Controller: a stick leaves the direction buttons that are down, and a stick without a position presses "
+    "none") {
     ControllerState now;
     now.down.at(static_cast<std::size_t>(ControllerButton::up)) = true;
     add_stick(now, {}, 0.0F, 0.0F);

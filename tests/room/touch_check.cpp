@@ -229,7 +229,7 @@ TEST_CASE("Touch check: an arm that was moved gives a warning, and the lesson ca
 }
 
 TEST_CASE(
-    "Touch check: Escape and the button skip it, Enter measures, and a hand that moves is asked again") {
+    "Touch check: Escape and the button skip it, Enter measures, and a hand that moves is asked to repeat") {
     {
         TouchedLesson skipped(registration());
         skipped.press(platform::Key::escape);

@@ -9,7 +9,7 @@ using namespace bolt;
 using namespace bolt::study;
 using namespace study_test;
 
-TEST_CASE("Study: a clock that was set back is told, and the retention test does not move by it") {
+TEST_CASE("Study: a clock that was set back is reported, and the retention test does not move by it") {
     StudyFolder folder;
     const content::Study study = folder.load();
     const std::int64_t right = folder.now;

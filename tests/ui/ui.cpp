@@ -128,7 +128,7 @@ TEST_CASE("Text: rasterised at its displayed size on displays of every scale") {
     CHECK(astray(stretched, *fonts, word, 28.0F) > 0.2);
 }
 
-TEST_CASE("Text: Chinese characters are available after need()") {
+TEST_CASE("Text: Chinese characters are available after add_characters()") {
     const Result<text::Fonts> fonts = text::load_fonts();
     REQUIRE(fonts.has_value());
     Screen screen;

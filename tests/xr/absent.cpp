@@ -58,8 +58,7 @@ TEST_CASE("Headset: a search is made at most once a second") {
     CHECK_FALSE(headset.find(20.0));  // it is there already
 }
 
-TEST_CASE(
-    "Headset: the search asks one instance again, and makes a new one after a loss and each half minute") {
+TEST_CASE("Headset: the search queries one instance, and makes a new one after a loss and each half minute") {
     const test::MockRuntime mock;
     mock->connect(false);
     xr::Headset headset({});

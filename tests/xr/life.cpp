@@ -207,7 +207,7 @@ TEST_CASE("Session: the program's end passes through the last states in order") 
     CHECK_FALSE(program.headset().exit_requested());
 }
 
-TEST_CASE("Session: the program's end while the headset is off asks for nothing") {
+TEST_CASE("Session: the program's end while the headset is off requests nothing") {
     const test::MockRuntime mock;
     test::Program program;
     REQUIRE(program.connect());

@@ -180,15 +180,15 @@ TEST_CASE("Mock: what swapchains may be is checked") {
     XrSwapchainCreateInfo wrong = right;
     wrong.format = VK_FORMAT_R8G8B8A8_UNORM;
     test::expect_violation(mock, create(wrong), XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED,
-                           "xrCreateSwapchain: asks for a format that is not offered");
+                           "xrCreateSwapchain: requests a format that is not offered");
     wrong = right;
     wrong.width = 257;
     test::expect_violation(mock, create(wrong), XR_ERROR_VALIDATION_FAILURE,
-                           "xrCreateSwapchain: asks for a size beyond the largest one");
+                           "xrCreateSwapchain: requests a size beyond the largest one");
     wrong = right;
     wrong.sampleCount = 4;
     test::expect_violation(mock, create(wrong), XR_ERROR_FEATURE_UNSUPPORTED,
-                           "xrCreateSwapchain: asks for samples, faces or mips");
+                           "xrCreateSwapchain: requests samples, faces or mips");
 }
 
 TEST_CASE("Mock: layers are checked") {

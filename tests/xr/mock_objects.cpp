@@ -201,7 +201,7 @@ TEST_CASE("Mock: spaces and queries are checked") {
                                                        &space);
     };
     expect_violation(mock, create(), XR_ERROR_REFERENCE_SPACE_UNSUPPORTED,
-                     "xrCreateReferenceSpace: asks for a space that is not offered");
+                     "xrCreateReferenceSpace: requests a space that is not offered");
     info.referenceSpaceType = XR_REFERENCE_SPACE_TYPE_VIEW;
     info.poseInReferenceSpace.orientation.w = 0.0F;
     expect_violation(mock, create(), XR_ERROR_POSE_INVALID,

@@ -79,7 +79,7 @@ TEST_CASE("PoseTracker: the trigger of each kind of controller, and no press whi
     }
 }
 
-TEST_CASE("PoseTracker: tells whether its poses are those in the stage") {
+TEST_CASE("PoseTracker: reports whether its poses are in the stage") {
     {
         const test::MockRuntime mock;
         CHECK(opened(xr::TrackedDevice::right_controller)->in_stage());

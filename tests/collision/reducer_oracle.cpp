@@ -15,7 +15,7 @@ namespace {
 
 constexpr int fewer = test::sanitized ? 10 : 1;
 
-struct Truth {
+struct Oracle {
     Reducer reducer;
     ClosedSurface still = surface_of(reducer.casing), moving = surface_of(reducer.wrench);
 
@@ -30,34 +30,34 @@ struct Truth {
 }  // namespace
 
 TEST_CASE("Narrow phase: on the reducer no penetration deeper than 0.1 mm is missed") {
-    const Truth truth;
-    NarrowPhaseState state = make_narrow_phase(truth.reducer.world, truth.reducer.tool);
+    const Oracle oracle;
+    NarrowPhaseState state = make_narrow_phase(oracle.reducer.world, oracle.reducer.tool);
     std::array<Contact, 32> contacts;
     const auto told = [&](const Pose& pose) {
         const ContactQueryResult found =
-            find_contacts(truth.reducer.world, truth.reducer.tool, pose, 0.6 * mm, state, contacts);
+            find_contacts(oracle.reducer.world, oracle.reducer.tool, pose, 0.6 * mm, state, contacts);
         return found.count > 0 ? contacts[0].distance : 1.0;
     };
     // Regression: a query once reported 50 µm of clearance at this pose.
     const Pose once{Vec3(0.32634405, 0.15625746, -0.12115136),
                     glm::normalize(Quat(0.78773209, 0.11951799, 0.22161258, -0.56221126))};
-    CHECK(truth.crosses(once));
-    CHECK(truth.deepest(once) > 0.1 * mm);
+    CHECK(oracle.crosses(once));
+    CHECK(oracle.deepest(once) > 0.1 * mm);
     CHECK(told(once) < -0.1 * mm);
 
     Random random(61);
     int deep = 0;
     double most = 0.0;  // m, greatest depth that was not reported
     for (int i = 0; i < 300 / fewer; ++i) {
-        const Pose start = truth.reducer.at_the_surface(random);
+        const Pose start = oracle.reducer.at_the_surface(random);
         const Vec3 way = random_direction(random);
         const auto at = [&](double s) { return Pose{start.position + s * way, start.orientation}; };
         double free = -20.0 * mm;
         double in = 4.0 * mm;
-        if (truth.crosses(at(free)) || !truth.crosses(at(in))) continue;
+        if (oracle.crosses(at(free)) || !oracle.crosses(at(in))) continue;
         while (in - free > 1e-5) {
             const double middle = 0.5 * (free + in);
-            (truth.crosses(at(middle)) ? in : free) = middle;
+            (oracle.crosses(at(middle)) ? in : free) = middle;
         }
         // Approach along the path, as the god-object does, so that the cache is warm.
         for (double s = -3.0 * mm; s < 0.0; s += 0.3 * mm) told(at(in + s));
@@ -68,7 +68,7 @@ TEST_CASE("Narrow phase: on the reducer no penetration deeper than 0.1 mm is mis
                 ++deep;
                 continue;
             }
-            const double depth = truth.deepest(pose);
+            const double depth = oracle.deepest(pose);
             CAPTURE(i);
             CAPTURE(further);
             CHECK(depth < 0.1 * mm);

@@ -12,7 +12,7 @@
 #include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
 
-namespace collision_truth_test {
+namespace collision_brute_force_test {
 
 using namespace bolt;
 using namespace bolt::collision;
@@ -213,4 +213,4 @@ TEST_CASE("Narrow phase: penetration over 0.1 mm is never missed, although sampl
         CHECK(missed_by_points > 0);
 }
 
-}  // namespace collision_truth_test
+}  // namespace collision_brute_force_test
