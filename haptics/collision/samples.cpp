@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <unordered_map>
+#include <numeric>
 
 #include "engine/base/random.hpp"
+#include "haptics/collision/point_grid.hpp"
 
 namespace bolt::collision {
 namespace {
@@ -107,38 +108,6 @@ void add_edges(const Solid& solid, double longest, SurfaceSamples& out) {
     }
 }
 
-// A grid of points for proximity tests.
-class PointGrid {
-  public:
-    explicit PointGrid(double size) : size_(size) {}
-
-    void add(const Vec3& p) { cells_[cell(p)].push_back(p); }
-    [[nodiscard]] bool has_near(const Vec3& p) const {  // true if a point is within `size`
-        const Cell middle = cell(p);
-        for (int i = 0; i < 27; ++i) {
-            const auto found =
-                cells_.find({middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1});
-            if (found == cells_.end()) continue;
-            for (const Vec3& other : found->second)
-                if (glm::dot(p - other, p - other) < size_ * size_) return true;
-        }
-        return false;
-    }
-
-  private:
-    using Cell = std::array<std::int64_t, 3>;
-    struct CellHash {
-        std::size_t operator()(const Cell& c) const {
-            return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
-        }
-    };
-    [[nodiscard]] Cell cell(const Vec3& p) const {
-        return {std::llround(p.x / size_), std::llround(p.y / size_), std::llround(p.z / size_)};
-    }
-    double size_;
-    std::unordered_map<Cell, std::vector<Vec3>, CellHash> cells_;
-};
-
 // The permitted spacing of samples (m) at each vertex, such that the surface rises by at most `round_rise`
 // between them; 0: the vertex is a corner and always a sample; infinite: it needs none.
 std::vector<double> spacings(const Solid& solid, double along_edges) {
@@ -235,7 +204,7 @@ void add_spaced(std::vector<CandidateSample> candidates, std::vector<SurfaceSamp
         // Grids of smaller spacing are not queried again.
         for (int i = 0; i <= std::min(level, grids - 1); ++i) {
             PointGrid& c = cells[static_cast<std::size_t>(i)];
-            if (!c.has_near(sample.at)) c.add(sample.at);
+            if (i == level || !c.has_near(sample.at)) c.add(sample.at);
         }
         out.push_back(sample);
     }
@@ -284,46 +253,87 @@ class PoissonSamples {
     std::vector<SurfaceSample> random_, accepted_;
 };
 
-// Builds the clusters of level 0 by recursive bisection: sorts the samples along the longest side of their
+// Builds the clusters of level 0 by recursive bisection: orders the samples along the longest side of their
 // box and splits them at a whole number of clusters.
-void build_clusters(SurfaceSamples& result, std::size_t begin, std::size_t end) {
-    std::vector<SurfaceSample>& samples = result.samples;
-    const auto half = [&](const SurfaceSample& s) {
-        return s.piece == SurfaceSample::no_piece ? Vec3(0.0) : result.pieces[s.piece].half;
-    };
-    if (begin == end) return;
-    Vec3 low(std::numeric_limits<double>::infinity());
-    Vec3 high = -low;
-    for (std::size_t i = begin; i < end; ++i) {
-        low = glm::min(low, samples[i].at - glm::abs(half(samples[i])));
-        high = glm::max(high, samples[i].at + glm::abs(half(samples[i])));
+class ClusterBuilder {
+  public:
+    explicit ClusterBuilder(SurfaceSamples& result) : result_(result), order_(result.samples.size()) {
+        std::iota(order_.begin(), order_.end(), 0U);
     }
-    if (end - begin <= cluster_size) {
-        Cluster one{0.5 * (low + high), 0.0, 0.0, static_cast<std::uint32_t>(begin),
-                    static_cast<std::uint32_t>(end)};
+
+    // Builds the clusters and puts the samples into their order.
+    void build() {
+        split(0, order_.size());
+        std::vector<SurfaceSample> ordered;
+        ordered.reserve(order_.size());
+        for (const std::uint32_t i : order_) ordered.push_back(result_.samples[i]);
+        result_.samples = std::move(ordered);
+    }
+
+  private:
+    [[nodiscard]] const SurfaceSample& sample(std::size_t place) const {
+        return result_.samples[order_[place]];
+    }
+    [[nodiscard]] Vec3 half(const SurfaceSample& s) const {
+        return s.piece == SurfaceSample::no_piece ? Vec3(0.0) : result_.pieces[s.piece].half;
+    }
+    // The order that stable sorts along one axis after another produce: by the last axis, where equal by the
+    // one before, and so on. So a split needs no sorted halves.
+    [[nodiscard]] bool before(std::uint32_t a, std::uint32_t b) const {
+        const Vec3& at_a = result_.samples[a].at;
+        const Vec3& at_b = result_.samples[b].at;
+        for (std::size_t i = axes_.size(); i-- > 0;)
+            if (at_a[axes_[i]] != at_b[axes_[i]]) return at_a[axes_[i]] < at_b[axes_[i]];
+        return a < b;
+    }
+    void add_cluster(std::size_t begin, std::size_t end, const Vec3& middle) {
+        const auto first = order_.begin();
+        std::sort(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(end),
+                  [&](std::uint32_t a, std::uint32_t b) { return before(a, b); });
+        Cluster one{middle, 0.0, 0.0, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
         for (std::size_t i = begin; i < end; ++i)
-            for (const Vec3& p : {samples[i].at - half(samples[i]), samples[i].at + half(samples[i])}) {
+            for (const Vec3& p : {sample(i).at - half(sample(i)), sample(i).at + half(sample(i))}) {
                 one.radius = std::max(one.radius, glm::length(p - one.middle));
                 one.origin_radius = std::max(one.origin_radius, glm::length(p));
             }
-        result.levels[0].push_back(one);
-        return;
+        result_.levels[0].push_back(one);
     }
-    const Vec3 size = high - low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::size_t clusters = (end - begin + cluster_size - 1) / cluster_size;
-    // The range is split at a multiple of `unit` samples: the size of a full cluster of the highest level
-    // whose clusters are smaller than the range. The clusters of all levels then follow the bisection.
-    std::size_t unit = cluster_size;
-    while (clusters * cluster_size > unit * cluster_size) unit *= cluster_size;
-    const std::size_t units = (end - begin + unit - 1) / unit;
-    const std::size_t middle = begin + units / 2 * unit;
-    std::stable_sort(samples.begin() + static_cast<std::ptrdiff_t>(begin),
-                     samples.begin() + static_cast<std::ptrdiff_t>(end),
-                     [&](const SurfaceSample& a, const SurfaceSample& b) { return a.at[axis] < b.at[axis]; });
-    build_clusters(result, begin, middle);
-    build_clusters(result, middle, end);
-}
+    void split(std::size_t begin, std::size_t end) {
+        if (begin == end) return;
+        Vec3 low(std::numeric_limits<double>::infinity());
+        Vec3 high = -low;
+        for (std::size_t i = begin; i < end; ++i) {
+            low = glm::min(low, sample(i).at - glm::abs(half(sample(i))));
+            high = glm::max(high, sample(i).at + glm::abs(half(sample(i))));
+        }
+        if (end - begin <= cluster_size) {
+            add_cluster(begin, end, 0.5 * (low + high));
+            return;
+        }
+        const Vec3 size = high - low;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const std::size_t clusters = (end - begin + cluster_size - 1) / cluster_size;
+        // The range is split at a multiple of `unit` samples: the size of a full cluster of the highest level
+        // whose clusters are smaller than the range. The clusters of all levels then follow the bisection.
+        std::size_t unit = cluster_size;
+        while (clusters * cluster_size > unit * cluster_size) unit *= cluster_size;
+        const std::size_t units = (end - begin + unit - 1) / unit;
+        const std::size_t middle = begin + units / 2 * unit;
+        axes_.push_back(axis);
+        const auto first = order_.begin();
+        std::nth_element(first + static_cast<std::ptrdiff_t>(begin),
+                         first + static_cast<std::ptrdiff_t>(middle),
+                         first + static_cast<std::ptrdiff_t>(end),
+                         [&](std::uint32_t a, std::uint32_t b) { return before(a, b); });
+        split(begin, middle);
+        split(middle, end);
+        axes_.pop_back();
+    }
+
+    SurfaceSamples& result_;
+    std::vector<std::uint32_t> order_;  // of the samples
+    std::vector<int> axes_;             // of the splits above the current range, the first split first
+};
 
 std::vector<Cluster> group_clusters(const std::vector<Cluster>& clusters) {
     std::vector<Cluster> groups;
@@ -362,7 +372,7 @@ SurfaceSamples make_samples(const Solid& solid, const SampleOptions& options) {
     }
     if (options.edges) add_edges(solid, options.max_piece, result);
     result.levels.emplace_back();
-    build_clusters(result, 0, result.samples.size());
+    ClusterBuilder(result).build();
     while (result.levels.back().size() > cluster_size)
         result.levels.push_back(group_clusters(result.levels.back()));
     return result;

@@ -20,24 +20,32 @@ constexpr std::size_t max_convexity_test = 128;
 
 class OctreeBuilder {
   public:
-    OctreeBuilder(const Solid& solid, TriangleOctree& octree) : solid_(solid), octree_(octree) {}
+    OctreeBuilder(const Solid& solid, TriangleOctree& octree) : solid_(solid), octree_(octree) {
+        bounds_.reserve(solid.corners.size());
+        for (std::size_t t = 0; t < solid.corners.size(); ++t) {
+            const auto& c = solid.corners[t];
+            bounds_.push_back({glm::min(glm::min(c[0], c[1]), c[2]), glm::max(glm::max(c[0], c[1]), c[2]),
+                               solid.mesh.face_normals[t], c[0]});
+        }
+    }
 
     // Fills a node and its children. `candidates`: triangles that may be within reach of the cell. `within`:
     // m, upper bound of the distance from the cell's middle to the surface.
     void fill(std::size_t node, std::span<const std::uint32_t> candidates, const Vec3& middle, double size,
               int level, double within) {
-        std::vector<std::uint32_t> listed;
+        std::vector<std::uint32_t>& listed = listed_[static_cast<std::size_t>(level)];
+        listed.clear();
         for (const std::uint32_t t : candidates)
-            if (is_within_reach(t, middle, 0.5 * size)) listed.push_back(t);
+            if (is_within_reach(bounds_[t], middle, 0.5 * size)) listed.push_back(t);
         const double distance = query_point(solid_, middle, within, 0.0, {}).distance;
         octree_.nodes[node].distance = static_cast<float>(distance);
-        OctreeLeaf leaf = leaf_plane(listed);
         const bool is_simple = listed.size() <= few_triangles;
         // A cell that lists nothing is not divided if all of it is clear of the surface by a fraction of its
         // size.
         const bool is_clear = std::abs(distance) > 1.25 * half_diagonal * size;
         if (level == levels || (listed.empty() ? is_clear : is_simple)) {
             if (listed.empty()) return;
+            OctreeLeaf leaf = leaf_plane(listed);
             if (listed.size() > max_listed) listed.clear();
             leaf.begin = static_cast<std::uint32_t>(octree_.triangles.size());
             octree_.triangles.insert(octree_.triangles.end(), listed.begin(), listed.end());
@@ -62,17 +70,21 @@ class OctreeBuilder {
     }
 
   private:
+    // Box and plane of a triangle.
+    struct TriangleBounds {
+        glm::vec3 low, high, normal, corner;
+    };
+
     // Returns true if the triangle may be within reach of the cell, judged by its box and its plane.
-    [[nodiscard]] bool is_within_reach(std::uint32_t t, const Vec3& middle, double half) const {
-        const auto& c = solid_.corners[t];
-        const Vec3 low(glm::min(glm::min(c[0], c[1]), c[2]));
-        const Vec3 high(glm::max(glm::max(c[0], c[1]), c[2]));
+    static bool is_within_reach(const TriangleBounds& bounds, const Vec3& middle, double half) {
         constexpr double within = listing_distance + octree_rounding;
-        const Vec3 gap = glm::max(glm::max(low - middle, middle - high) - half, Vec3(0.0));
+        const Vec3 gap =
+            glm::max(glm::max(Vec3(bounds.low) - middle, middle - Vec3(bounds.high)) - half, Vec3(0.0));
         if (glm::dot(gap, gap) > within * within) return false;
-        const Vec3 normal(solid_.mesh.face_normals[t]);
+        const Vec3 normal(bounds.normal);
         const Vec3 size = glm::abs(normal);
-        return std::abs(glm::dot(normal, middle - Vec3(c[0]))) <= half * (size.x + size.y + size.z) + within;
+        return std::abs(glm::dot(normal, middle - Vec3(bounds.corner))) <=
+               half * (size.x + size.y + size.z) + within;
     }
 
     void add_boxes(std::span<const std::uint32_t> listed, OctreeLeaf& leaf) {
@@ -85,9 +97,8 @@ class OctreeBuilder {
                         octree_.boxes.push_back(padding);
                         continue;
                     }
-                    const auto& c = solid_.corners[listed[i]];
-                    octree_.boxes.push_back(side == 0 ? std::min({c[0][k], c[1][k], c[2][k]})
-                                                      : std::max({c[0][k], c[1][k], c[2][k]}));
+                    const TriangleBounds& bounds = bounds_[listed[i]];
+                    octree_.boxes.push_back(side == 0 ? bounds.low[k] : bounds.high[k]);
                 }
     }
 
@@ -155,6 +166,8 @@ class OctreeBuilder {
 
     const Solid& solid_;
     TriangleOctree& octree_;
+    std::vector<TriangleBounds> bounds_;                         // by triangle
+    std::array<std::vector<std::uint32_t>, levels + 1> listed_;  // of the cell being filled at each level
 };
 
 }  // namespace
