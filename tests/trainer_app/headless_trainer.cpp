@@ -20,38 +20,20 @@ HeadlessTrainer::HeadlessTrainer(AppOptions options, Display display, std::optio
         outcome_ = outcome;
         return Status{};
     };
-    gpu::InstanceOptions validated;
-    validated.validation = true;
-    auto instance = gpu::Instance::create(validated);
-    if (!instance) FAIL(instance.error().message());
-    instance_.emplace(std::move(*instance));
     app_ = std::make_unique<App>(std::move(options), std::move(study));
-    make_gpu();
-}
-
-void HeadlessTrainer::make_gpu() {
-    render::RendererOptions drawn;
-    drawn.level_error_px = 0.7F;  // as in the window
-    drawn.shadow_size = 256;      // enough for such small pictures
-    auto gpu_context = view::make_gpu_context(*instance_, {}, drawn);
-    if (!gpu_context) FAIL(gpu_context.error().message());
-    gpu_context_ = std::move(*gpu_context);
-    need(app_->start(gpu_context_));
+    need(app_->start(gpu_.context()));
 }
 
 void HeadlessTrainer::lose_gpu() {
     app_->release();
-    (void)gpu_context_.device->idle();
-    gpu_context_.renderer.reset();
-    gpu_context_.frames.reset();
-    gpu_context_.device.reset();
-    make_gpu();
+    gpu_.lose();
+    need(app_->start(gpu_.context()));
 }
 
 HeadlessTrainer::~HeadlessTrainer() {
     app_->release();
-    (void)gpu_context_.device->idle();
-    for (const std::string& message : instance_->log().messages) FAIL_CHECK(message);
+    (void)gpu_.context().device->idle();
+    for (const std::string& message : gpu_.instance().log().messages) FAIL_CHECK(message);
 }
 
 // Input but for movements of the pointer and the wheel is shown and answered in its frame and the two after
@@ -76,10 +58,10 @@ Status HeadlessTrainer::run_frame(const std::vector<platform::InputEvent>& event
 }
 
 Status HeadlessTrainer::draw(const view::WindowFrame& window) {
-    const auto frame = gpu_context_.frames->begin();
+    const auto frame = gpu_.context().frames->begin();
     if (!frame) FAIL(frame.error().message());
     Status drawn = app_->draw(**frame, window);
-    need(gpu_context_.frames->submit(**frame));
+    need(gpu_.context().frames->submit(**frame));
     return drawn;
 }
 
@@ -135,10 +117,10 @@ glm::dvec2 HeadlessTrainer::hold(std::size_t joint) {
 render::Picture HeadlessTrainer::picture() {
     if (!std::exchange(drawn_, true))
         need(draw({{}, display_.size, display_.scale, 0.0, immersive ? &*immersive : nullptr, resolution}));
-    need(gpu_context_.frames->finish());
-    const render::Renderer& renderer = *gpu_context_.renderer;
+    need(gpu_.context().frames->finish());
+    const render::Renderer& renderer = *gpu_.context().renderer;
     const render::ImageLayer made = immersive ? renderer.picture(0) : app_->window_picture(renderer);
-    const auto texels = gpu::download_image(*gpu_context_.device, *made.image,
+    const auto texels = gpu::download_image(*gpu_.context().device, *made.image,
                                             gpu::ResourceUse::transfer_from, 4, 0, made.layer);
     if (!texels) FAIL(texels.error().message());
     render::Picture picture{display_.size.width, display_.size.height, {}};
@@ -147,10 +129,10 @@ render::Picture HeadlessTrainer::picture() {
 }
 
 render::Picture HeadlessTrainer::room_picture(std::uint32_t view) {
-    need(gpu_context_.frames->finish());
-    const render::ImageLayer made = gpu_context_.renderer->picture(view, view::immersive_group);
+    need(gpu_.context().frames->finish());
+    const render::ImageLayer made = gpu_.context().renderer->picture(view, view::immersive_group);
     const VkExtent2D size = immersive->groups.front().size;
-    const auto texels = need(gpu::download_image(*gpu_context_.device, *made.image,
+    const auto texels = need(gpu::download_image(*gpu_.context().device, *made.image,
                                                  gpu::ResourceUse::transfer_from, 4, 0, made.layer));
     render::Picture picture{size.width, size.height, {}};
     for (const std::byte b : texels) picture.rgba.push_back(static_cast<std::uint8_t>(b));

@@ -7,6 +7,7 @@
 
 #include "engine/render/renderer.hpp"
 #include "game/trainer/app.hpp"
+#include "tests/trainer_app/gpu_pool.hpp"
 #include "tests/trainer_app/trainer_driver.hpp"
 
 namespace bolt::test {
@@ -58,7 +59,7 @@ class HeadlessTrainer : public TrainerDriver {
     float resolution = 1.0F;  // as in view::WindowFrame
     bool draws = true;        // false: the next frames are not drawn, which is faster
     // While a lesson runs without input, one of this many frames is drawn: drawing takes most of the time.
-    int draw_interval = 5;
+    int draw_interval = 20;
     // A picture of a view of the last immersive frame.
     [[nodiscard]] render::Picture room_picture(std::uint32_t view);
 
@@ -73,15 +74,13 @@ class HeadlessTrainer : public TrainerDriver {
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
   private:
-    void make_gpu();
     Status run_frame(const std::vector<platform::InputEvent>& events, double seconds);
     Status draw(const view::WindowFrame& window);
     [[nodiscard]] bool is_due(const std::vector<platform::InputEvent>& events);
 
-    std::optional<gpu::Instance> instance_;
     std::filesystem::path folder_;
     Display display_;
-    view::GpuContext gpu_context_;
+    BorrowedGpu gpu_;
     std::unique_ptr<trainer::App> app_;
     int since_input_ = 0;  // frames
     bool drawn_ = false;   // the last frame was drawn

@@ -112,6 +112,7 @@ TEST_CASE("Close-up: shown with the wrench at a nut, from above; hidden by its k
     CHECK(c.visibility >= 0.6);
     const servo::NutGeometry& nut = driver.lesson().session->setup().nuts[joint];
     CHECK(glm::dot(c.tool * c.eye - c.tool.position, nut.axis) > 0.03);
+    driver.draw_interval = 1;  // the panels get their sizes when they are drawn
     driver.wait(0.6);
     driver.frame({}, 0.001);
     const render::Picture with = driver.picture();
