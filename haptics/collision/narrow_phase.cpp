@@ -397,6 +397,7 @@ NarrowPhaseState make_narrow_phase(const CollisionWorld& world, const ToolShape&
 void clear_cache(NarrowPhaseState& state, const CollisionWorld& world, const ToolShape& tool) {
     for (std::size_t i = 0; i < state.pairs.size(); ++i) {
         PairCache& pair = state.pairs[i];
+        if (pair.empty) continue;
         pair.empty = true;
         pair.moved = pair.turned = 0.0;
         reset(pair.of_tool, tool.samples);

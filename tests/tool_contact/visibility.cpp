@@ -19,9 +19,9 @@ double share_touching(servo::ToolContact& contact, const Pose& from, const Pose&
                       double near) {
     int touching = 0;
     constexpr int steps = 60;
+    collision::clear_cache(contact.narrow_phase, contact.world, contact.wrench);
     for (int i = 0; i <= steps; ++i) {
         const Pose pose = arc_pose(from, to, static_cast<double>(i) / steps, bulge);
-        collision::clear_cache(contact.narrow_phase, contact.world, contact.wrench);
         std::array<collision::Contact, 1> any;
         if (collision::find_contacts(contact.world, contact.wrench, pose, near, contact.narrow_phase, any)
                 .count > 0)
