@@ -107,7 +107,7 @@ for tool in wrench torque_wrench; do
 done
 check "the session names the generated tool" grep -aq 'generated open_end: size 13 mm, opening 13.2 mm' with-wrench/session.boltwright
 check "... and the torque wrench" grep -aq 'generated torque_wrench: size 13 mm' with-torque_wrench/session.boltwright
-expect 0 'film.png' "$bin/boltwright" replay with-wrench/session.boltwright --at 3 --png film.png
+expect 0 'film.png' "$bin/boltwright" replay with-wrench/session.boltwright --at 3 --png film.png --size 160x90
 mkdir open && sed 's/"contact_model": *"[^"]*",//' bare/assembly.json >open/assembly.json && cp bare/*.glb open/
 expect 3 'open/assembly.json: the assembly has no contact model; expected "contact_model"' \
     "$bin/boltwright" train open --headless --no-pictures --obstacles --quiet --out never
