@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <glm/geometric.hpp>
 #include <numeric>
 
@@ -17,33 +18,29 @@ struct HalfEdge {
     bool forward;  // from the smaller vertex to the larger
 };
 
-bool before(const glm::vec3& a, const glm::vec3& b) {
-    if (a.x != b.x) return a.x < b.x;
-    if (a.y != b.y) return a.y < b.y;
-    return a.z < b.z;
+std::uint64_t hash_of(const glm::vec3& v) {
+    std::uint64_t hash = 0;
+    for (int k = 0; k < 3; ++k)  // + 0: −0 equals 0
+        hash = (hash ^ std::bit_cast<std::uint32_t>(v[k] + 0.0F)) * 0x9e3779b97f4a7c15ULL;
+    return hash >> 32U;
 }
 
 // Merges vertices at the same position. Returns the new index of each vertex; the first of equal ones is
 // kept.
 std::vector<std::uint32_t> weld_vertices(std::span<const glm::vec3> vertices, std::vector<glm::vec3>& kept) {
-    std::vector<std::uint32_t> order(vertices.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        if (vertices[a] != vertices[b]) return before(vertices[a], vertices[b]);
-        return a < b;
-    });
-    std::vector<std::uint32_t> first(vertices.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && vertices[order[i]] == vertices[order[i - 1]];
-        first[order[i]] = same ? first[order[i - 1]] : order[i];
+    constexpr std::uint32_t none = 0xffffffffU;
+    std::vector<std::uint32_t> table(std::bit_ceil(2 * vertices.size() + 1), none);  // of kept vertices
+    std::vector<std::uint32_t> welded;
+    welded.reserve(vertices.size());
+    for (const glm::vec3& v : vertices) {
+        std::size_t slot = hash_of(v) & (table.size() - 1);
+        while (table[slot] != none && kept[table[slot]] != v) slot = (slot + 1) & (table.size() - 1);
+        if (table[slot] == none) {
+            table[slot] = static_cast<std::uint32_t>(kept.size());
+            kept.push_back(v);
+        }
+        welded.push_back(table[slot]);
     }
-    std::vector<std::uint32_t> welded(vertices.size());
-    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-        if (first[i] != i) continue;
-        welded[i] = static_cast<std::uint32_t>(kept.size());
-        kept.push_back(vertices[i]);
-    }
-    for (std::uint32_t i = 0; i < vertices.size(); ++i) welded[i] = welded[first[i]];
     return welded;
 }
 

@@ -19,12 +19,16 @@ constexpr double convexity_tolerance = 0.4 * plane_tolerance;
 constexpr std::size_t max_convexity_test = 128;
 
 class OctreeBuilder {
+    using Float4 [[gnu::vector_size(16)]] = float;
+
   public:
     OctreeBuilder(const Solid& solid, TriangleOctree& octree) : solid_(solid), octree_(octree) {
         bounds_.reserve(solid.corners.size());
         for (std::size_t t = 0; t < solid.corners.size(); ++t) {
             const auto& c = solid.corners[t];
-            bounds_.push_back({glm::min(glm::min(c[0], c[1]), c[2]), glm::max(glm::max(c[0], c[1]), c[2]),
+            const glm::vec3 low = glm::min(glm::min(c[0], c[1]), c[2]);
+            const glm::vec3 high = glm::max(glm::max(c[0], c[1]), c[2]);
+            bounds_.push_back({Float4{low.x, low.y, low.z}, Float4{high.x, high.y, high.z},
                                solid.mesh.face_normals[t], c[0]});
         }
     }
@@ -35,8 +39,7 @@ class OctreeBuilder {
               int level, double within) {
         std::vector<std::uint32_t>& listed = listed_[static_cast<std::size_t>(level)];
         listed.clear();
-        for (const std::uint32_t t : candidates)
-            if (is_within_reach(bounds_[t], middle, 0.5 * size)) listed.push_back(t);
+        list_within_reach(candidates, middle, 0.5 * size, listed);
         const double distance = query_point(solid_, middle, within, 0.0, {}).distance;
         octree_.nodes[node].distance = static_cast<float>(distance);
         const bool is_simple = listed.size() <= few_triangles;
@@ -72,14 +75,32 @@ class OctreeBuilder {
   private:
     // Box and plane of a triangle.
     struct TriangleBounds {
-        glm::vec3 low, high, normal, corner;
+        Float4 low, high;
+        glm::vec3 normal, corner;
     };
 
-    // Returns true if the triangle may be within reach of the cell, judged by its box and its plane.
+    // Appends the triangles that may be within reach of the cell, judged by their boxes and planes.
+    void list_within_reach(std::span<const std::uint32_t> candidates, const Vec3& middle, double half,
+                           std::vector<std::uint32_t>& listed) const {
+        const Float4 at{static_cast<float>(middle.x), static_cast<float>(middle.y),
+                        static_cast<float>(middle.z), 0.0F};
+        // The comparison in float rejects most triangles. The margin exceeds its error.
+        const double margin = 1e-6 * (1.0 + half + glm::length(middle));
+        const Float4 reach =
+            Float4{} + static_cast<float>(half + listing_distance + octree_rounding + margin);
+        for (const std::uint32_t t : candidates) {
+            const Float4 below = bounds_[t].low - at;
+            const Float4 above = at - bounds_[t].high;
+            const auto clear = (below > above ? below : above) > reach;
+            if ((clear[0] | clear[1] | clear[2]) == 0 && is_within_reach(bounds_[t], middle, half))
+                listed.push_back(t);
+        }
+    }
     static bool is_within_reach(const TriangleBounds& bounds, const Vec3& middle, double half) {
         constexpr double within = listing_distance + octree_rounding;
-        const Vec3 gap =
-            glm::max(glm::max(Vec3(bounds.low) - middle, middle - Vec3(bounds.high)) - half, Vec3(0.0));
+        const Vec3 low(bounds.low[0], bounds.low[1], bounds.low[2]);
+        const Vec3 high(bounds.high[0], bounds.high[1], bounds.high[2]);
+        const Vec3 gap = glm::max(glm::max(low - middle, middle - high) - half, Vec3(0.0));
         if (glm::dot(gap, gap) > within * within) return false;
         const Vec3 normal(bounds.normal);
         const Vec3 size = glm::abs(normal);
