@@ -62,9 +62,13 @@ TEST_CASE(
     "Left-hand thread: every trainee finishes with each tool, and the session replays to the same bits") {
     for (const char* tool : {"", "ring", "ratchet"}) {
         const test::Folder folder;
-        const content::Assembly cover = test::cover_with_left_threads(folder, tool);
-        for (std::size_t i = 0; i < cover.joints.size(); ++i)
-            REQUIRE((cover.joints[i].design.thread_direction == joint::ThreadDirection::left) == is_left(i));
+        const content::Assembly all_passes = test::cover_with_left_threads(folder, tool);
+        // Among obstacles rings and sockets take the longest.
+        const test::Folder other_folder;
+        const content::Assembly one_pass = test::cover_with_left_threads(other_folder, tool, true);
+        for (std::size_t i = 0; i < all_passes.joints.size(); ++i)
+            REQUIRE((all_passes.joints[i].design.thread_direction == joint::ThreadDirection::left) ==
+                    is_left(i));
         for (const char* profile : {"expert", "novice", "clumsy"})
             for (const auto obstacles : {session::Obstacles::none, session::Obstacles::required}) {
                 const bool among_obstacles = obstacles == session::Obstacles::required;
@@ -78,7 +82,8 @@ TEST_CASE(
                 session::LessonOptions options;
                 options.seed = 2;
                 options.obstacles = obstacles;
-                const Played played = play(cover, profile, options);
+                const bool once = among_obstacles && *tool != '\0';
+                const Played played = play(once ? one_pass : all_passes, profile, options);
                 CHECK(played.session.result.finished);
                 REQUIRE(played.session.result.joints.size() == 4);
                 for (const JointResult& joint : played.session.result.joints)
