@@ -132,6 +132,7 @@ assembly["more_tools"] = {
     "ratchet": {"kind": "ratchet", "size_mm": 13, "handle_length_mm": 150},
     "socket_torque_wrench": {"kind": "click_torque_wrench", "head": "socket", "size_mm": 13, "handle_length_mm": 250},
 }
+assembly["passes"] = [{"kind": "run_down"}, {"kind": "tighten", "percent": 100}]
 for joint, tool in zip(assembly["joints"], ["ring", "ratchet", "socket_torque_wrench", "wrench"]):
     joint.setdefault("override", {})["tool"] = tool
 json.dump(assembly, open(sys.argv[1], "w"))
