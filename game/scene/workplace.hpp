@@ -56,7 +56,7 @@ struct ToolPart {
     glm::dmat4 tool_from_mesh{1.0};
     std::size_t tool = 0;  // index in servo::Setup::tools
     bool in_head = false;  // turns with the head of a ratchet, not with its handle
-    std::optional<tool_models::DisplayElement> display;  // it is on the display of a torque wrench
+    std::optional<tool_models::DisplayElement> display;  // set for a part of a torque wrench's display
 };
 
 // The displayed hand.

@@ -19,7 +19,7 @@ constexpr std::array<std::uint8_t, 10> segments_of_digit = {0b0111111, 0b0000110
                                                             0b1100110, 0b1101101, 0b1111101, 0b0000111,
                                                             0b1111111, 0b1101111};
 
-// In a box of the width 0.6 and the height 1 around the origin: middle and whether the segment is upright.
+// The middle of a segment, in a box of width 0.6 and height 1 around the origin.
 struct SegmentPlace {
     double x, y;
     bool upright;

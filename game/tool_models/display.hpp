@@ -1,6 +1,6 @@
 // The display of an electronic torque wrench: a number of four digits with seven segments each, and two rings
-// of light. Every segment and ring is a node of its own, so that a program shows a reading by hiding the
-// others.
+// of light. Every segment and ring is a node of its own: to show a reading, a program hides those that are
+// off.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ bool is_on(const DisplayElement& element, const DisplayReading& reading);
 // The parts of the number on a screen from x = `from` to `to` whose face is at the height z. Millimetres.
 ToolParts number_parts(double from, double to, double z);
 
-// The rings of light around a handle along +X, between two parts that end at x.
+// The two rings of light around a handle along +X, next to each other before a part that begins at x, mm.
 ToolParts light_parts(double x, Detail detail);
 
 }  // namespace bolt::tool_models

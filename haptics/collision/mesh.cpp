@@ -20,7 +20,7 @@ struct HalfEdge {
 
 std::uint64_t hash_of(const glm::vec3& v) {
     std::uint64_t hash = 0;
-    for (int k = 0; k < 3; ++k)  // + 0: −0 equals 0
+    for (int k = 0; k < 3; ++k)  // −0 + 0 is 0: equal vertices have one hash
         hash = (hash ^ std::bit_cast<std::uint32_t>(v[k] + 0.0F)) * 0x9e3779b97f4a7c15ULL;
     return hash >> 32U;
 }
@@ -29,7 +29,7 @@ std::uint64_t hash_of(const glm::vec3& v) {
 // kept.
 std::vector<std::uint32_t> weld_vertices(std::span<const glm::vec3> vertices, std::vector<glm::vec3>& kept) {
     constexpr std::uint32_t none = 0xffffffffU;
-    std::vector<std::uint32_t> table(std::bit_ceil(2 * vertices.size() + 1), none);  // of kept vertices
+    std::vector<std::uint32_t> table(std::bit_ceil(2 * vertices.size() + 1), none);  // of indices in `kept`
     std::vector<std::uint32_t> welded;
     welded.reserve(vertices.size());
     for (const glm::vec3& v : vertices) {

@@ -10,8 +10,8 @@
 
 namespace bolt::collision {
 
-// A grid of points for proximity tests: a hash table of cells with twice the distance `size`, so that all
-// points within `size` of a point are in eight cells.
+// A grid of cubic cells with sides of 2 · `size` (m), in a hash table. All points within `size` of a point
+// are in eight cells.
 class PointGrid {
   public:
     explicit PointGrid(double size) : size_(size), slots_(64) {}
@@ -51,7 +51,7 @@ class PointGrid {
     };
     struct Slot {
         std::uint64_t key = 0;
-        std::uint32_t last = none;  // point of the cell; none: the slot is free
+        std::uint32_t last = none;  // the cell's newest point; none: the slot is free
     };
     [[nodiscard]] Cell floor(const Vec3& p) const {
         const Vec3 at = glm::floor(p / (2.0 * size_));

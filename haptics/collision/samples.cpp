@@ -277,8 +277,8 @@ class ClusterBuilder {
     [[nodiscard]] Vec3 half(const SurfaceSample& s) const {
         return s.piece == SurfaceSample::no_piece ? Vec3(0.0) : result_.pieces[s.piece].half;
     }
-    // The order that stable sorts along one axis after another produce: by the last axis, where equal by the
-    // one before, and so on. So a split needs no sorted halves.
+    // The order that a stable sort along each axis in turn would produce: by the last axis, then by the one
+    // before it, and so on, and at last by index. It is total, so a split need not sort its halves.
     [[nodiscard]] bool before(std::uint32_t a, std::uint32_t b) const {
         const Vec3& at_a = result_.samples[a].at;
         const Vec3& at_b = result_.samples[b].at;

@@ -16,9 +16,9 @@ struct PooledGpu {
     view::GpuContext context;
 };
 
-// Borrows a GPU from the pool, which creates one if all are in use, and gives it back when destroyed. A GPU
-// with messages of the validation layers is not used again, so that each test case fails for its own messages
-// only.
+// Borrows a GPU from the pool, or creates one if all are in use; its destructor puts the GPU into the pool. A
+// GPU with messages of the validation layers is not used again, so that each test case fails for its own
+// messages only.
 class BorrowedGpu {
   public:
     BorrowedGpu();
