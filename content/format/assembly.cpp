@@ -27,23 +27,21 @@ std::size_t tool_index(const Assembly& assembly, std::string_view name) {
     return found == assembly.tools.end() ? 0 : static_cast<std::size_t>(found - assembly.tools.begin());
 }
 
-// The tool that turns a joint if the trainee chooses the tool of this name.
-std::size_t tool_index_of(const Assembly& assembly, const AssemblyJoint& joint,
-                          std::string_view chosen_tool) {
-    if (!joint.tool.empty()) return tool_index(assembly, joint.tool);
-    const std::size_t chosen = tool_index(assembly, chosen_tool);
-    if (chosen >= assembly.tools.size()) return chosen;
-    const auto other = assembly.tools[chosen].instead.find(joint.design.id);
-    return other == assembly.tools[chosen].instead.end() ? chosen : tool_index(assembly, other->second);
-}
-
 }  // namespace
+
+std::size_t tool_if_chosen(const Assembly& assembly, const AssemblyJoint& joint, std::string_view chosen) {
+    if (!joint.tool.empty()) return tool_index(assembly, joint.tool);
+    const std::size_t tool = tool_index(assembly, chosen);
+    if (tool >= assembly.tools.size()) return tool;
+    const auto other = assembly.tools[tool].instead.find(joint.design.id);
+    return other == assembly.tools[tool].instead.end() ? tool : tool_index(assembly, other->second);
+}
 
 LessonTools lesson_tools(const Assembly& assembly) {
     LessonTools lesson;
     lesson.of_joint.assign(assembly.joints.size(), 0);
     const auto add = [&](std::size_t joint) {
-        const std::size_t tool = tool_index_of(assembly, assembly.joints[joint], assembly.tool);
+        const std::size_t tool = tool_if_chosen(assembly, assembly.joints[joint], assembly.tool);
         const auto known = std::find(lesson.tools.begin(), lesson.tools.end(), tool);
         lesson.of_joint[joint] = static_cast<std::size_t>(known - lesson.tools.begin());
         if (known == lesson.tools.end()) lesson.tools.push_back(tool);
@@ -71,7 +69,7 @@ std::vector<const WrenchDesign*> designs_of(const Assembly& assembly, const Less
 }
 
 const WrenchDesign& tool_of(const Assembly& assembly, const AssemblyJoint& joint) {
-    return design_of(assembly, tool_index_of(assembly, joint, assembly.tool));
+    return design_of(assembly, tool_if_chosen(assembly, joint, assembly.tool));
 }
 
 std::string turned_node(const AssemblyJoint& joint) {
@@ -201,7 +199,7 @@ std::vector<const Tool*> choosable_tools(const Assembly& assembly) {
 std::vector<std::size_t> tools_of_joint(const Assembly& assembly, std::size_t joint) {
     std::vector<std::size_t> tools;
     for (const Tool* chosen : choosable_tools(assembly)) {
-        const std::size_t tool = tool_index_of(assembly, assembly.joints[joint], chosen->name);
+        const std::size_t tool = tool_if_chosen(assembly, assembly.joints[joint], chosen->name);
         if (std::find(tools.begin(), tools.end(), tool) == tools.end()) tools.push_back(tool);
     }
     return tools;

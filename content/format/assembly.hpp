@@ -241,6 +241,10 @@ std::vector<const Tool*> choosable_tools(const Assembly& assembly);
 // tool of a lesson whose trainee has chosen none. No repetition.
 std::vector<std::size_t> tools_of_joint(const Assembly& assembly, std::size_t joint);
 
+// Index in Assembly::tools of the tool that turns a joint if the trainee chooses the tool of this name: the
+// joint's own tool, or the chosen one, or the one that the latter names instead.
+std::size_t tool_if_chosen(const Assembly& assembly, const AssemblyJoint& joint, std::string_view chosen);
+
 // Selects one of the choosable tools; empty: the default one. Fails if there is none of this name.
 Status choose_tool(Assembly& assembly, std::string_view name);
 

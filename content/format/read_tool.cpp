@@ -92,7 +92,8 @@ void read_kind(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wren
 void read_adaptor(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wrench) {
     const auto adaptor = tool.number("adaptor_mm");
     if (!adaptor) return;
-    if (wrench.head != ToolHead::open_end) {
+    if (!tool.all_valid({"kind", "head"})) return;
+    if (!is_torque_wrench(wrench.kind) || wrench.head != ToolHead::open_end) {
         reader.report(adaptor.pointer, "the adaptor lengthens only a torque wrench with an open end",
                       "the head \"open_end\", or no \"adaptor_mm\"");
         return;
@@ -111,13 +112,12 @@ void read_adaptor(JsonReader& reader, const LayeredObject& tool, WrenchDesign& w
 // Reads the members of a click-type torque wrench. On another tool they are an error.
 void read_click(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wrench) {
     if (wrench.kind != ToolKind::click_torque_wrench) {
-        refuse(reader, tool, {"click_swing_deg", "accuracy_percent", "adaptor_mm"},
-               "only a torque wrench clicks", "the kind \"click_torque_wrench\", or no such value");
+        refuse(reader, tool, {"click_swing_deg", "accuracy_percent"}, "only a torque wrench clicks",
+               "the kind \"click_torque_wrench\", or no such value");
         return;
     }
     wrench.click_swing = to_radians(tool.number("click_swing_deg").value_or(default_click_swing_deg));
     wrench.click_accuracy = tool.number("accuracy_percent").value_or(default_accuracy_percent) / 100.0;
-    read_adaptor(reader, tool, wrench);
 }
 
 // Reads ratchet and extension bar, which only tools with a square drive have.
@@ -228,6 +228,7 @@ ParsedTool parse_tool(JsonReader& reader, std::string name, const JsonNode& node
     WrenchDesign& wrench = parsed.tool.wrench;
     read_kind(reader, file, wrench);
     read_click(reader, file, wrench);
+    read_adaptor(reader, file, wrench);
     read_drive(reader, file, wrench);
     wrench.handle_length = file.number("handle_length_mm").value_or(0.0) * mm;
     const bool open_end = wrench.head == ToolHead::open_end;

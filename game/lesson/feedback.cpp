@@ -161,7 +161,8 @@ void add(std::vector<AdviceCost>& costs, TextKey advice, double points) {
 
 Review review(const content::Assembly& assembly, const LessonResult& result) {
     Review review;
-    review.arguments = {fasteners_argument(assembly), threads_argument(assembly)};
+    review.arguments.push_back(fasteners_argument(assembly));
+    review.arguments.push_back(threads_argument(assembly));
     std::vector<AdviceCost> costs;
     for (const Deduction& reason : result.reasons) {
         DeductionText deduction{

@@ -37,7 +37,9 @@ ToolReading tool_reading(const Lesson& lesson, const world::ReadHaptics& world) 
     const double ratio = content::adaptor_ratio(content::tool_of(assembly, assembly.joints[held]));
     ToolReading reading{std::abs(world::joint_at(world, held).torque) / ratio};
     const LessonStep* due = lesson.due();
-    if (due == nullptr || due->joint != held || due->kind == StepKind::loosen) return reading;
+    if (due == nullptr || due->joint != held || due->kind == StepKind::loosen ||
+        due->kind == StepKind::run_down)
+        return reading;
     const bool by_angle = due->kind == StepKind::turn;
     const content::ToleranceWindow window =
         by_angle ? angle_window(assembly, *due) : torque_window(lesson, *due);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "game/lesson/fastener_names.hpp"
+#include "game/tool_models/tool_model.hpp"
 
 namespace bolt::lesson {
 
@@ -142,7 +143,7 @@ void report_tool_choice(Lesson& lesson, std::size_t joint, const world::ReadHapt
     if (fault == ToolFault::none || lesson.reported_tool_fault != ToolFault::none) return;
     lesson.reported_tool_fault = fault;
     const content::AssemblyJoint& turned = lesson.assembly->joints[joint];
-    const double bearable = bearable_torque(content::tool_of(*lesson.assembly, turned));
+    const double bearable = tool_models::bearable_torque(content::tool_of(*lesson.assembly, turned));
     if (fault == ToolFault::too_weak)
         add_mistake(lesson, tick_of(world), MistakeKind::weak_tool, joint, bearable,
                     fmt::format("{} needs up to {:.0f} N·m, the tool bears {:.0f} N·m", turned.design.id,
@@ -401,10 +402,10 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
     lesson.guides = mode == Mode::guided;
     lesson.steps = make_plan(assembly, task);
     lesson.turns_by_angle = task == Task::tighten && turns_by_angle(assembly);
+    lesson.tool_faults = faults_of_choice(assembly, task);
     for (const content::AssemblyJoint& joint : assembly.joints) {
         JointTrack track;
         track.result.id = joint.design.id;
-        lesson.tool_faults.push_back(fault_of_choice(assembly, lesson.joints.size(), task));
         lesson.joints.push_back(std::move(track));
     }
     return lesson;

@@ -28,6 +28,10 @@ struct ObstacleName {
 // The kind of trainee. `unrecorded`: the session is from an older program, which did not record it.
 enum class TraineeKind : std::uint8_t { unrecorded, person, simulated };
 
+// The laws under which tools bend (servo::Wrench::yield_torque). The published law has one table of torques
+// for all sizes, so its torques say nothing about the strength of a tool.
+enum class ToolYield : std::uint8_t { no_law, all_laws, mechanistic_law };
+
 // The properties of a recorded lesson. The file stores them as text (header.cpp).
 struct Header {
     std::string assembly;       // name
@@ -35,9 +39,10 @@ struct Header {
     std::string assembly_text;  // the file's exact text, so that a session replays without the folder
     std::string variant;
     joint::Law law = joint::Law::mechanistic;
-    // These two follow from the format of the file.
+    // These three follow from the format of the file.
     lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;
-    bool tools_yield = true;  // since format 8
+    ToolYield tools_yield = ToolYield::mechanistic_law;  // before format 8: no_law; in format 8: all_laws
+    bool judges_tool_choice = true;                      // since format 9
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     // "person", or the simulated trainee's profile: "expert", … The key in the file is "operator".

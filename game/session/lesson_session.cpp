@@ -173,7 +173,10 @@ namespace {
 servo::Setup make_lesson_setup(const content::Assembly& assembly, const LessonOptions& options) {
     servo::Setup setup = make_setup(assembly, options.law, options.device_limits, options.seed, options.dt);
     servo::set_ratchets(setup, options.task == lesson::Task::loosen);
-    if (!options.tools_yield) servo::disable_tool_yield(setup);
+    const bool yields =
+        options.tools_yield == ToolYield::all_laws ||
+        (options.tools_yield == ToolYield::mechanistic_law && options.law == joint::Law::mechanistic);
+    if (!yields) servo::disable_tool_yield(setup);
     return setup;
 }
 

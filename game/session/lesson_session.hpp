@@ -47,8 +47,8 @@ struct LessonOptions {
     lesson::Task task = lesson::Task::tighten;
     joint::Law law = joint::Law::mechanistic;
     lesson::LawAdaptation law_adaptation =
-        lesson::LawAdaptation::yield_end;  // replays of old sessions use the other one
-    bool tools_yield = true;               // servo::Wrench::yield_torque; false: replays of old sessions
+        lesson::LawAdaptation::yield_end;                // replays of old sessions use the other one
+    ToolYield tools_yield = ToolYield::mechanistic_law;  // replays of old sessions use the others
     std::uint64_t seed = 1;
     double dt = 0.001;
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).

@@ -192,7 +192,10 @@ Result<SessionReader> SessionReader::open(const std::filesystem::path& path) {
                           "an unmodified session file");
     BOLT_TRY_ASSIGN(auto header, header_of(meta, file));
     if (session.format < 6) header.law_adaptation = lesson::LawAdaptation::before_format_6;
-    header.tools_yield = session.format >= 8;
+    header.tools_yield = session.format < 8    ? ToolYield::no_law
+                         : session.format == 8 ? ToolYield::all_laws
+                                               : ToolYield::mechanistic_law;
+    header.judges_tool_choice = session.format >= 9;
     if (session.format >= 2) {
         BOLT_TRY(read_obstacles(database, file, header.obstacle_names));
     }

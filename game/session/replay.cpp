@@ -47,7 +47,7 @@ lesson::Lesson restore_lesson(const SessionReader& session, const SessionSetup& 
     const Header& header = session.header();
     lesson::Lesson lesson = lesson::begin(start.assembly, header.mode, header.task);
     lesson.guides = header.guide.value_or(false);
-    if (!header.tools_yield) lesson.tool_faults.clear();  // both are judged since format 8
+    if (!header.judges_tool_choice) lesson.tool_faults.clear();
     return lesson;
 }
 

@@ -45,7 +45,9 @@ std::optional<DisplayElement> display_element(std::string_view node) {
     if (node == point_name) return DisplayElement{Kind::point};
     if (node == reached_name) return DisplayElement{Kind::reached};
     if (node == exceeded_name) return DisplayElement{Kind::exceeded};
-    if (!node.starts_with(segment_prefix) || node.size() != segment_prefix.size() + 3) return std::nullopt;
+    if (!node.starts_with(segment_prefix) || node.size() != segment_prefix.size() + 3 ||
+        node[segment_prefix.size() + 1] != '_')
+        return std::nullopt;
     const int digit = node[segment_prefix.size()] - '0', segment = node[segment_prefix.size() + 2] - '0';
     if (digit < 0 || digit >= digit_count || segment < 0 || segment >= 7) return std::nullopt;
     return DisplayElement{Kind::segment, digit, segment};

@@ -350,6 +350,12 @@ double yield_torque(const content::WrenchDesign& design) {
     return torque;
 }
 
+double bearable_torque(const content::WrenchDesign& design) {
+    const TestTorque limit = strength_of(design).limit;
+    const double yields = yield_torque(design);
+    return limit.source == TorqueSource::none ? yields : std::min(limit.torque, yields);
+}
+
 Result<std::string> identity_of(const ToolParameters& completed) {
     BOLT_TRY_ASSIGN(const auto bytes, assets::encode_glb(contact_model(completed)));
     Fnv1a hash;

@@ -49,6 +49,10 @@ ToolStrength strength_of(const content::WrenchDesign& design);
 // W_t τ with W_t = 0.188 s³ (Dubbel) and τ = 750 MPa, for steel of 45 HRC.
 double yield_torque(const content::WrenchDesign& design);
 
+// N·m that a tool bears: its test torque, or that of its square drive. No test torque of keys and bits is
+// known: they bear the torque at which they begin to bend. 0: unknown.
+double bearable_torque(const content::WrenchDesign& design);
+
 // Names a generated contact model in the session file: the description of the tool, and size and checksum
 // (FNV-1a, 64 bits) of the model's bytes.
 Result<std::string> identity_of(const ToolParameters& completed);

@@ -81,6 +81,7 @@ constexpr Exception exceptions[] = {
     {lesson::Situation::run_down_by_wrench, "no shipped assembly has nuts that fingers cannot turn"},
     {lesson::Situation::twist_back, "the lesson run does not limit how far fingers twist"},
     {lesson::Situation::counter_hold, "tests/lesson/counter_hold.cpp plays such a lesson"},
+    {lesson::Situation::pull_to_click_by_adaptor, "no shipped assembly has a wrench with an adaptor"},
     {lesson::Situation::turn_on, by_torque},
     {lesson::Situation::ease_to_angle, by_torque},
     {lesson::Situation::stop_at_angle, by_torque},

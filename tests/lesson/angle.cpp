@@ -65,6 +65,22 @@ content::Assembly cover_by_angle() {
 
 }  // namespace
 
+TEST_CASE("Angle: an electronic torque wrench displays the angle from the mark, and the step's window") {
+    AngleScript s;
+    s.to_the_turns();
+    REQUIRE(s.lesson.due()->kind == StepKind::turn);  // to half of 60°, 25° to 35°
+    const auto reads = [&](double degrees) {
+        for (int i = 0; i < 100; ++i) s.tick(0, servo::Grip::wrench, 80.0, to_radians(degrees) / 0.1);
+        return tool_reading(s.lesson, s.components);
+    };
+    const ToolReading before = reads(20.0), inside = reads(10.0), beyond = reads(10.0);
+    CHECK(before.value == doctest::Approx(20.0).epsilon(0.02));
+    CHECK(before.target == world::TargetState::below);
+    CHECK(inside.value == doctest::Approx(30.0).epsilon(0.02));
+    CHECK(inside.target == world::TargetState::reached);
+    CHECK(beyond.target == world::TargetState::exceeded);
+}
+
 TEST_CASE(
     "Angle: a step ends at the low edge of its share of the window, counted from where the nut rested") {
     AngleScript s;

@@ -23,10 +23,16 @@ TEST_CASE("Bent tool: a tool bends at a fifth above its test torque, but not in 
     // ISO 1711-1: 64.5 N·m for an open end of 13 mm.
     CHECK(session::prepare_session(assembly, {}).value().setup.wrench.yield_torque == doctest::Approx(77.4));
     session::LessonOptions older;
-    older.tools_yield = false;
+    older.tools_yield = session::ToolYield::no_law;
     const auto rigid = session::prepare_session(assembly, older);
     CHECK(rigid.value().setup.wrench.yield_torque == 0.0);
     for (const servo::LessonTool& tool : rigid.value().setup.tools) CHECK(tool.wrench.yield_torque == 0.0);
+    // The published law has the torques of an M16 bolt for every size.
+    session::LessonOptions published;
+    published.law = joint::Law::published;
+    CHECK(session::prepare_session(assembly, published).value().setup.wrench.yield_torque == 0.0);
+    published.tools_yield = session::ToolYield::all_laws;
+    CHECK(session::prepare_session(assembly, published).value().setup.wrench.yield_torque > 0.0);
 }
 
 TEST_CASE("Bent tool: it transmits no more than its yield torque, and each hold that bends it costs points") {

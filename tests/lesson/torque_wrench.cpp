@@ -7,6 +7,7 @@
 #include "content/format/assembly.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
+#include "tests/lesson/played_session.hpp"
 #include "tests/lesson/script.hpp"
 
 using namespace bolt;
@@ -86,6 +87,12 @@ TEST_CASE("Torque wrench: with an adaptor the scale is set lower, and the joints
     Lesson lesson = begin(assembly, Mode::practice, Task::tighten);
     while (lesson.due()->kind != StepKind::tighten || lesson.due()->fraction < 1.0) ++lesson.current;
     CHECK(wrench_set_torque(lesson) == doctest::Approx(16.0));  // 20 N·m · 160 / 200
+    session::LessonOptions options;
+    options.seed = 3;
+    const test::PlayedSession played =
+        test::play_and_replay(assembly, options, "expert", test::setup_from_memory(assembly, options));
+    CHECK(played.mismatches == 0);
+    CHECK(played.result.score == 100.0);
 }
 
 TEST_CASE("Torque wrench: an electronic one displays the torque on its scale, and where the step stands") {

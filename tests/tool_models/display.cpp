@@ -63,6 +63,7 @@ TEST_CASE("Tool display: the drawn wrench has all its nodes, and other tools hav
     CHECK_FALSE(display_element("segment_4_0"));
     CHECK_FALSE(display_element("segment_0_7"));
     CHECK_FALSE(display_element("segment_00"));
+    CHECK_FALSE(display_element("segment_0x5"));
     CHECK_FALSE(display_element("lights"));
 }
 

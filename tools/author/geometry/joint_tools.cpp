@@ -97,9 +97,9 @@ std::string suitable_tools(const content::Assembly& assembly, const joint::Joint
 std::string strong_tools(const joint::JointDesign& design, double torque) {
     std::string names;
     for (const content::WrenchDesign& usual : usual_tools(design)) {
-        const tool_models::TestTorque limit = tool_models::strength_of(usual).limit;
-        if (limit.source == tool_models::TorqueSource::none || limit.torque < torque) continue;
-        names += fmt::format("{}{} ({:.0f} N·m)", names.empty() ? "" : " or ", title_of(usual), limit.torque);
+        const double bearable = tool_models::bearable_torque(usual);
+        if (bearable < torque) continue;
+        names += fmt::format("{}{} ({:.0f} N·m)", names.empty() ? "" : " or ", title_of(usual), bearable);
     }
     return names.empty() ? "a lower target torque: no tool of this size bears it" : names;
 }
@@ -116,24 +116,40 @@ std::string origin_of(const tool_models::ToolStrength& strength) {
     }
 }
 
+// The torque that a tool bears, N·m, and a phrase that states it with its origin.
+struct BearableTorque {
+    double torque = 0.0;
+    std::string stated;
+};
+
+BearableTorque bearable_torque(const content::WrenchDesign& design) {
+    const tool_models::ToolStrength strength = tool_models::strength_of(design);
+    const double bearable = tool_models::bearable_torque(design);
+    if (strength.limit.source == tool_models::TorqueSource::none || bearable < strength.limit.torque)
+        return {bearable,
+                fmt::format(", which begins to bend at {:.0f} N·m (torsion of its hexagon)", bearable)};
+    const std::string part =
+        strength.of_drive ? fmt::format(" on a square drive of {:g} mm", strength.drive / mm) : "";
+    return {bearable,
+            fmt::format("{}, which is tested with {:.0f} N·m ({})", part, bearable, origin_of(strength))};
+}
+
 // `optional`: a lesson can be done without this tool, so its choice may be a mistake that the author intends.
 void check_torque(const content::AssemblyJoint& joint, const content::WrenchDesign& design, bool optional,
                   const std::string& name, const Messages& messages) {
-    const tool_models::ToolStrength strength = tool_models::strength_of(design);
-    const double torque = joint.spec.torque.high, limit = strength.limit.torque;
-    if (strength.limit.source == tool_models::TorqueSource::none || torque <= much_torque * limit) return;
-    const std::string part =
-        strength.of_drive ? fmt::format(" on a square drive of {:g} mm", strength.drive / mm) : "";
-    const std::string what = fmt::format(
-        "{} is {}{}, which is tested with {:.0f} N·m ({}), and the target torque of {} reaches {:.0f} N·m",
-        name, title_of(design), part, limit, origin_of(strength), content::in_quotes(joint.type), torque);
+    const BearableTorque bearable = bearable_torque(design);
+    const double torque = joint.spec.torque.high;
+    if (bearable.torque <= 0.0 || torque <= much_torque * bearable.torque) return;
+    const std::string what =
+        fmt::format("{} is {}{}, and the target torque of {} reaches {:.0f} N·m", name, title_of(design),
+                    bearable.stated, content::in_quotes(joint.type), torque);
     const std::string pointer = joint_pointer(joint.index_in_file);
-    if (torque > limit && optional)
+    if (torque > bearable.torque && optional)
         messages.note(pointer, what + "; a trainee who chooses it loses points");
-    else if (torque > limit)
+    else if (torque > bearable.torque)
         messages.error(pointer, what, strong_tools(joint.design, torque));
     else
-        messages.note(pointer, fmt::format("{}, {:.0f} % of it", what, 100.0 * torque / limit));
+        messages.note(pointer, fmt::format("{}, {:.0f} % of it", what, 100.0 * torque / bearable.torque));
 }
 
 }  // namespace

@@ -58,8 +58,9 @@ std::string JointRooms::fitting_tool_of_file(std::size_t tool) {
         std::string names;
         for (std::size_t i = 0; i < assembly.tools.size(); ++i) {
             const content::WrenchDesign& design = assembly.tools[i].wrench;
-            const bool clicks = design.click_swing > 0.0;
-            if (i == tool || (clicks == (assembly.tools[tool].wrench.click_swing > 0.0)) != same_use ||
+            const bool measures = content::is_torque_wrench(design.kind);
+            if (i == tool ||
+                (measures == content::is_torque_wrench(assembly.tools[tool].wrench.kind)) != same_use ||
                 !content::suits(design, joint.design) || !room_of(tools_.shapes()[i]).enough)
                 continue;
             names +=
