@@ -30,6 +30,7 @@ enum class TraineeKind : std::uint8_t { unrecorded, person, simulated };
 
 // The laws under which tools bend (servo::Wrench::yield_torque). The published law has one table of torques
 // for all sizes, so its torques say nothing about the strength of a tool.
+// In format 8 tools bent under both laws, and keys at less torque (tool_models::KeyStrength).
 enum class ToolYield : std::uint8_t { no_law, all_laws, mechanistic_law };
 
 // The properties of a recorded lesson. The file stores them as text (header.cpp).

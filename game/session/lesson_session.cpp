@@ -177,6 +177,12 @@ servo::Setup make_lesson_setup(const content::Assembly& assembly, const LessonOp
         options.tools_yield == ToolYield::all_laws ||
         (options.tools_yield == ToolYield::mechanistic_law && options.law == joint::Law::mechanistic);
     if (!yields) servo::disable_tool_yield(setup);
+    if (options.tools_yield != ToolYield::all_laws) return setup;
+    const auto designs = content::designs_of(assembly, content::lesson_tools(assembly));
+    for (std::size_t i = 0; i < designs.size(); ++i)
+        setup.tools[i].wrench.yield_torque =
+            tool_models::yield_torque(*designs[i], tool_models::KeyStrength::first_yield);
+    setup.wrench.yield_torque = setup.tools[setup.tool].wrench.yield_torque;
     return setup;
 }
 

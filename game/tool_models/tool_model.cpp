@@ -338,13 +338,14 @@ ToolStrength strength_of(const content::WrenchDesign& design) {
     return strength;
 }
 
-double yield_torque(const content::WrenchDesign& design) {
-    constexpr double surplus = 1.2, shear_strength = 750e6, section = 0.188;
+double yield_torque(const content::WrenchDesign& design, KeyStrength keys) {
+    constexpr double surplus = 1.2;
     const ToolStrength strength = strength_of(design);
     double torque = strength.limit.source == TorqueSource::none ? 0.0 : surplus * strength.limit.torque;
     if (design.head == content::ToolHead::hex_key || design.head == content::ToolHead::hex_bit) {
-        const double key =
-            section * parameters_of(design).size * square(parameters_of(design).size) * shear_strength;
+        const double size = parameters_of(design).size;
+        const double key = keys == KeyStrength::measured ? 0.857 * 0.2 * 1.47e9 * size * square(size)
+                                                         : 0.188 * size * square(size) * 750e6;
         torque = torque > 0.0 ? std::min(torque, key) : key;
     }
     return torque;

@@ -45,9 +45,12 @@ struct ToolStrength {
 ToolStrength strength_of(const content::WrenchDesign& design);
 
 // N·m at which a tool begins to bend for good; 0: unknown. A tool bears its test torque without that (ISO
-// 1711-1). The surplus of a fifth is ours, and the torque of a key too: that of a hexagonal bar in torsion,
-// W_t τ with W_t = 0.188 s³ (Dubbel) and τ = 750 MPa, for steel of 45 HRC.
-double yield_torque(const content::WrenchDesign& design);
+// 1711-1); the surplus of a fifth is ours. A key breaks at 0.2 R_m s³ (Bondhus; R_m = 1.47 GPa at 45 HRC) and
+// yields at 0.857 of that (Unbrako after ANSI B18.3.2M: 1.02 and 1.19 N·m at 1.5 mm).
+// `first_yield`: at the middle of its flats, W_t τ with W_t = 0.188 s³ (Dubbel) and τ = 750 MPa, where keys
+// bent in sessions of format 8.
+enum class KeyStrength : std::uint8_t { measured, first_yield };
+double yield_torque(const content::WrenchDesign& design, KeyStrength keys = KeyStrength::measured);
 
 // N·m that a tool bears: its test torque, or that of its square drive. No test torque of keys and bits is
 // known: they bear the torque at which they begin to bend. 0: unknown.

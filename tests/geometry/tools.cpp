@@ -246,7 +246,7 @@ TEST_CASE("Tools: the strength of a ratchet is that of its weaker part") {
     design = {.kind = content::ToolKind::hex_key, .head = content::ToolHead::hex_key};
     design.size = 6.0 * mm;
     CHECK(tool_models::strength_of(design).limit.source == tool_models::TorqueSource::none);
-    CHECK(tool_models::yield_torque(design) == doctest::Approx(0.188 * 6e-3 * 6e-3 * 6e-3 * 750e6));
+    CHECK(tool_models::yield_torque(design) == doctest::Approx(0.857 * 0.2 * 1.47e9 * 6e-3 * 6e-3 * 6e-3));
     design = {.kind = content::ToolKind::ratchet, .head = content::ToolHead::hex_bit};
     design.size = 6.0 * mm;
     design.handle_length = 300.0 * mm;

@@ -5,6 +5,7 @@
 
 #include "game/motion/path_planning.hpp"
 #include "game/session/lesson_session.hpp"
+#include "game/tool_models/tool_model.hpp"
 
 namespace bolt::lesson::bent_tool {
 
@@ -33,6 +34,19 @@ TEST_CASE("Bent tool: a tool bends at a fifth above its test torque, but not in 
     CHECK(session::prepare_session(assembly, published).value().setup.wrench.yield_torque == 0.0);
     published.tools_yield = session::ToolYield::all_laws;
     CHECK(session::prepare_session(assembly, published).value().setup.wrench.yield_torque > 0.0);
+}
+
+TEST_CASE(
+    "Bent tool: the smallest keys yield where Unbrako's do, and one of 6 mm bears a screw of class 12.9") {
+    content::WrenchDesign key;
+    key.kind = content::ToolKind::hex_key;
+    key.head = content::ToolHead::hex_key;
+    key.size = 2.0 * mm;  // of sizes in the table, scaled by the cube: 1.02 N·m at 1.5 mm
+    CHECK(tool_models::yield_torque(key) == doctest::Approx(1.02 * 8.0 / 3.375).epsilon(0.2));
+    key.size = 6.0 * mm;
+    CHECK(tool_models::yield_torque(key) > 43.0);  // M8 of class 12.9, µ 0.12
+    CHECK(tool_models::yield_torque(key, tool_models::KeyStrength::first_yield) ==
+          doctest::Approx(0.188 * 216e-9 * 750e6));
 }
 
 TEST_CASE("Bent tool: it transmits no more than its yield torque, and each hold that bends it costs points") {

@@ -57,16 +57,16 @@ TEST_CASE("Tool choice: a key bears the torque at which its hexagon yields") {
     content::WrenchDesign key = tool_of_24(content::ToolKind::hex_key, content::ToolHead::hex_key);
     key.size = 6.0 * mm;
     content::AssemblyJoint joint;
-    joint.spec.torque.high = 30.0;
+    joint.spec.torque.high = 54.0;
     CHECK(fault_of(key, joint, Task::tighten) == ToolFault::none);
-    joint.spec.torque.high = 31.0;  // 0.188 · (6 mm)³ · 750 MPa = 30.5 N·m
+    joint.spec.torque.high = 55.0;  // 0.857 · 0.2 · 1.47 GPa · (6 mm)³ = 54.4 N·m
     CHECK(fault_of(key, joint, Task::tighten) == ToolFault::too_weak);
     // A bit of this size on a ratchet bears no more, although its square drive does.
     content::WrenchDesign bit = tool_of_24(content::ToolKind::ratchet, content::ToolHead::hex_bit);
     bit.size = 6.0 * mm;
     bit.teeth = 72;
     CHECK(fault_of(bit, joint, Task::tighten) == ToolFault::too_weak);
-    joint.spec.torque.high = 30.0;
+    joint.spec.torque.high = 54.0;
     CHECK(fault_of(bit, joint, Task::tighten) == ToolFault::none);
 }
 
