@@ -164,7 +164,7 @@ expect 0 'no mistakes' "$author" validate flange
 check "four mistakes without \"instead\"" [ "$(grep -c . unreached)" = 4 ]
 for joint in 6 7; do
     check "the ratchet does not reach B$joint" grep -qF "the tool \"ratchet\" cannot be brought onto \"B$joint\" along the bolt: \"stand_downstream\" is in its way; expected \"instead\": { \"B$joint\": \"wrench\" or \"ring\" }, which fits" unreached
-    check "the torque wrench with a socket does not reach B$joint" grep -qF "the tool \"socket_torque_wrench\" cannot be brought onto \"B$joint\" along the bolt: \"stand_downstream\" is in its way; expected \"instead\": { \"B$joint\": \"torque_wrench\" or \"electronic_torque_wrench\" }, which fits" unreached
+    check "the torque wrench with a socket does not reach B$joint" grep -qF "the tool \"socket_torque_wrench\" cannot be brought onto \"B$joint\" along the bolt: \"stand_downstream\" is in its way; expected \"instead\": { \"B$joint\": \"electronic_torque_wrench\" or \"torque_wrench\" }, which fits" unreached
 done
 
 # An open end is too weak for a strong bolt, and a ring is not.
