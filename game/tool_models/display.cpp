@@ -69,7 +69,8 @@ bool is_on(const DisplayElement& element, const DisplayReading& reading) {
     const int place = places[static_cast<std::size_t>(element.digit)];
     if (place > 10 && tenths < place) return false;
     const auto digit = static_cast<std::size_t>(tenths / place % 10);
-    return (segments_of_digit[digit] >> static_cast<unsigned>(element.segment) & 1U) != 0;
+    const unsigned segments = segments_of_digit[digit];
+    return (segments >> static_cast<unsigned>(element.segment) & 1U) != 0;
 }
 
 ToolParts number_parts(double from, double to, double z) {
