@@ -325,11 +325,6 @@ content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& s
     return {step.torque, share * whole.low, share * whole.high};
 }
 
-content::ToleranceWindow angle_window(const content::Assembly& assembly, const LessonStep& step) {
-    const content::ToleranceWindow& whole = assembly.joints[step.joint].spec.angle;
-    return {whole.target * step.fraction, whole.low * step.fraction, whole.high * step.fraction};
-}
-
 double angle_from_mark(const Lesson& lesson, const world::ReadJoints& world, std::size_t joint) {
     const JointTrack& track = lesson.joints[joint];
     return track.snug ? joint_at(world, joint).angle - track.snug_angle : 0.0;
@@ -392,23 +387,6 @@ bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world) {
                    (step->angle > 0.0 && track.begin_angle - joint.angle >= step->angle);
     }
     return false;
-}
-
-Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
-    Lesson lesson;
-    lesson.assembly = &assembly;
-    lesson.mode = mode;
-    lesson.task = task;
-    lesson.guides = mode == Mode::guided;
-    lesson.steps = make_plan(assembly, task);
-    lesson.turns_by_angle = task == Task::tighten && turns_by_angle(assembly);
-    lesson.tool_faults = faults_of_choice(assembly, task);
-    for (const content::AssemblyJoint& joint : assembly.joints) {
-        JointTrack track;
-        track.result.id = joint.design.id;
-        lesson.joints.push_back(std::move(track));
-    }
-    return lesson;
 }
 
 void observe(Lesson& lesson, const world::ReadHaptics& world) {

@@ -177,8 +177,9 @@ void observe(Lesson& lesson, const world::ReadHaptics& world);
 // released. Returns false, without a change, in assessment or if there is no such step.
 bool undo_steps(Lesson& lesson, const world::ReadHaptics& world, std::size_t steps);
 
-// What an electronic torque wrench displays: the torque on the nut, N·m on the scale of the wrench, or in a
-// step of kind `turn` the angle from the mark, degrees. `target` refers to the window of the due step.
+// The display of an electronic torque wrench shows the torque on the nut, N·m on the scale of the wrench. In
+// a step of kind `turn` it shows the angle from the mark, degrees. `target` refers to the window of the due
+// step.
 struct ToolReading {
     double value = 0.0;
     world::TargetState target = world::TargetState::below;

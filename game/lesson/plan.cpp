@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "game/lesson/lesson.hpp"
 
@@ -75,6 +76,28 @@ bool turns_by_angle(const content::Assembly& assembly) {
 bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, double finger_torque) {
     return step.kind == StepKind::run_down &&
            assembly.joints[step.joint].design.prevailing_torque < finger_drag * finger_torque;
+}
+
+content::ToleranceWindow angle_window(const content::Assembly& assembly, const LessonStep& step) {
+    const content::ToleranceWindow& whole = assembly.joints[step.joint].spec.angle;
+    return {whole.target * step.fraction, whole.low * step.fraction, whole.high * step.fraction};
+}
+
+Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
+    Lesson lesson;
+    lesson.assembly = &assembly;
+    lesson.mode = mode;
+    lesson.task = task;
+    lesson.guides = mode == Mode::guided;
+    lesson.steps = make_plan(assembly, task);
+    lesson.turns_by_angle = task == Task::tighten && turns_by_angle(assembly);
+    lesson.tool_faults = faults_of_choice(assembly, task);
+    for (const content::AssemblyJoint& joint : assembly.joints) {
+        JointTrack track;
+        track.result.id = joint.design.id;
+        lesson.joints.push_back(std::move(track));
+    }
+    return lesson;
 }
 
 }  // namespace bolt::lesson

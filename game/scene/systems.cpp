@@ -190,7 +190,8 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     held.wrench = hand.wrench;
     const world::ToolState& tool = world.only<world::ToolState>();
     held.head_turn = tool.head_turn;
-    held.reading = {tool.displayed, static_cast<tool_models::DisplayLight>(tool.target)};
+    held.reading = {tool.displayed, tool.target == world::TargetState::reached,
+                    tool.target == world::TargetState::exceeded};
     held.rest = hand.rest;
     held.pinches = hand.pinches;
     held.closing = hand.closing;

@@ -58,9 +58,9 @@ bool is_on(const DisplayElement& element, const DisplayReading& reading) {
         case DisplayElement::Kind::point:
             return true;
         case DisplayElement::Kind::reached:
-            return reading.light == DisplayLight::reached;
+            return reading.reached;
         case DisplayElement::Kind::exceeded:
-            return reading.light == DisplayLight::exceeded;
+            return reading.exceeded;
         case DisplayElement::Kind::segment:
             break;
     }

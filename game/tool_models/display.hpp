@@ -11,11 +11,9 @@
 
 namespace bolt::tool_models {
 
-enum class DisplayLight : std::uint8_t { off, reached, exceeded };
-
 struct DisplayReading {
-    double value = 0.0;  // shown with one decimal place, 0 to 999.9
-    DisplayLight light = DisplayLight::off;
+    double value = 0.0;                      // shown with one decimal place, 0 to 999.9
+    bool reached = false, exceeded = false;  // the ring of light that is on, if any
 };
 
 // A node of the display. `digit`: from 0, the hundreds, to 3, the tenths. `segment`: from 0 at the top,

@@ -142,10 +142,6 @@ double standard_length(const ToolParameters& p) {
     }
 }
 
-bool is_torque_wrench(ModelKind kind) {
-    return kind == ModelKind::click_torque_wrench || kind == ModelKind::electronic_torque_wrench;
-}
-
 bool has_open_end(const ToolParameters& p) {
     return p.kind == ModelKind::open_end_wrench || p.kind == ModelKind::combination_wrench ||
            (is_torque_wrench(p.kind) && !has_ratchet(p));
@@ -198,6 +194,10 @@ Status check_options(const ToolParameters& p) {
 }
 
 }  // namespace
+
+bool is_torque_wrench(ModelKind kind) {
+    return kind == ModelKind::click_torque_wrench || kind == ModelKind::electronic_torque_wrench;
+}
 
 double shortest_length(const ToolParameters& p) {
     switch (p.kind) {

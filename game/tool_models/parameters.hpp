@@ -69,6 +69,9 @@ struct ToolParameters {
 
 SizeMeasure measure_of(const ToolParameters& parameters);
 
+// Returns true if tools of this kind measure torque.
+bool is_torque_wrench(ModelKind kind);
+
 // Returns true if the tool is a socket or a bit on the square drive of a ratchet.
 bool has_ratchet(const ToolParameters& completed);
 

@@ -230,9 +230,8 @@ ToolParameters open_end_parameters(const content::WrenchDesign& design) {
 }
 
 double adjusted_length(const ToolParameters& p, double handle_length) {
-    const bool measures =
-        p.kind == ModelKind::click_torque_wrench || p.kind == ModelKind::electronic_torque_wrench;
-    return std::clamp(handle_length + (measures ? 73.5 * mm : beyond_grip), shortest_length(p), longest_tool);
+    return std::clamp(handle_length + (is_torque_wrench(p.kind) ? 73.5 * mm : beyond_grip),
+                      shortest_length(p), longest_tool);
 }
 
 }  // namespace

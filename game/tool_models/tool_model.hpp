@@ -2,6 +2,7 @@
 // same bytes. Frame: that of parameters.hpp.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "content/format/assembly.hpp"
@@ -44,12 +45,13 @@ struct ToolStrength {
 };
 ToolStrength strength_of(const content::WrenchDesign& design);
 
-// N·m at which a tool begins to bend for good; 0: unknown. A tool bears its test torque without that (ISO
-// 1711-1); the surplus of a fifth is ours. A key breaks at 0.2 R_m s³ (Bondhus; R_m = 1.47 GPa at 45 HRC) and
-// yields at 0.857 of that (Unbrako after ANSI B18.3.2M: 1.02 and 1.19 N·m at 1.5 mm).
-// `first_yield`: at the middle of its flats, W_t τ with W_t = 0.188 s³ (Dubbel) and τ = 750 MPa, where keys
-// bent in sessions of format 8.
+// `measured`: a key breaks at 0.2 R_m s³ (Bondhus; R_m = 1.47 GPa at 45 HRC) and yields at 0.857 of that
+// (Unbrako after ANSI B18.3.2M: 1.02 and 1.19 N·m at 1.5 mm). `first_yield`: at the middle of its flats, W_t
+// τ with W_t = 0.188 s³ (Dubbel) and τ = 750 MPa; so in sessions of format 8.
 enum class KeyStrength : std::uint8_t { measured, first_yield };
+
+// N·m at which a tool begins to bend for good; 0: unknown. A tool bears its test torque without that (ISO
+// 1711-1); the surplus of a fifth is ours.
 double yield_torque(const content::WrenchDesign& design, KeyStrength keys = KeyStrength::measured);
 
 // N·m that a tool bears: its test torque, or that of its square drive. No test torque of keys and bits is

@@ -173,4 +173,17 @@ sed 's/"class": *"8.8"/"class": "12.9"/; s/"friction_\(thread\|bearing\)": *0.12
 expect 3 'the wrench is an open end of 13 mm, which is tested with 64 N·m \(ISO 1711-1, from a catalogue\), and the target torque of "M8x30" reaches 69 N·m; expected a ring of 13 mm \(107 N·m\) or a socket' \
     "$author" validate bare/strong.json
 
+# A key bends, so its screw cannot have a higher torque.
+cp -r "$sources/content/assemblies/pump-32-160" strong_screws
+python3 - strong_screws/assembly.json <<'END'
+import json, sys
+assembly = json.load(open(sys.argv[1]))
+screw = assembly["joint_types"]["M8 cap screw"]
+screw.update({"class": "12.9", "friction_thread": 0.3, "friction_bearing": 0.3})
+screw["spec"]["target_torque_Nm"] = 60
+json.dump(assembly, open(sys.argv[1], "w"))
+END
+expect 3 'the tool "hex_key_6" is a hexagon key of 6 mm, which begins to bend at 54 N·m \(torsion of its hexagon\), and the target torque of "M8 cap screw" reaches 66 N·m; expected a lower target torque: no tool of this size bears it' \
+    "$author" validate strong_screws
+
 finish_checks

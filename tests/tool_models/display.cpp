@@ -14,7 +14,7 @@ namespace {
 // The digits as they are drawn: three rows of three characters each, as text.
 std::string drawn_digit(int digit, double value) {
     const auto on = [&](int segment) {
-        return is_on({DisplayElement::Kind::segment, digit, segment}, {value, DisplayLight::off});
+        return is_on({DisplayElement::Kind::segment, digit, segment}, {value});
     };
     std::string text;
     text += on(0) ? " _ " : "   ";
@@ -67,12 +67,15 @@ TEST_CASE("Tool display: the drawn wrench has all its nodes, and other tools hav
     CHECK_FALSE(display_element("lights"));
 }
 
-TEST_CASE("Tool display: one ring of light at most is on") {
-    for (const DisplayLight light : {DisplayLight::off, DisplayLight::reached, DisplayLight::exceeded}) {
-        CHECK(is_on({DisplayElement::Kind::reached}, {0.0, light}) == (light == DisplayLight::reached));
-        CHECK(is_on({DisplayElement::Kind::exceeded}, {0.0, light}) == (light == DisplayLight::exceeded));
-        CHECK(is_on({DisplayElement::Kind::point}, {0.0, light}));
-    }
+TEST_CASE("Tool display: each ring of light follows its own state, and the point is always on") {
+    using Kind = DisplayElement::Kind;
+    CHECK_FALSE(is_on({Kind::reached}, {}));
+    CHECK_FALSE(is_on({Kind::exceeded}, {}));
+    CHECK(is_on({Kind::reached}, {.reached = true}));
+    CHECK_FALSE(is_on({Kind::exceeded}, {.reached = true}));
+    CHECK(is_on({Kind::exceeded}, {.exceeded = true}));
+    CHECK_FALSE(is_on({Kind::reached}, {.exceeded = true}));
+    CHECK(is_on({Kind::point}, {}));
 }
 
 }  // namespace bolt::tool_models::display_test

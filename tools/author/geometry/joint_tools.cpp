@@ -117,12 +117,12 @@ std::string origin_of(const tool_models::ToolStrength& strength) {
 }
 
 // The torque that a tool bears, N·m, and a phrase that states it with its origin.
-struct BearableTorque {
+struct StatedTorque {
     double torque = 0.0;
-    std::string stated;
+    std::string phrase;
 };
 
-BearableTorque bearable_torque(const content::WrenchDesign& design) {
+StatedTorque stated_torque(const content::WrenchDesign& design) {
     const tool_models::ToolStrength strength = tool_models::strength_of(design);
     const double bearable = tool_models::bearable_torque(design);
     if (strength.limit.source == tool_models::TorqueSource::none || bearable < strength.limit.torque)
@@ -137,12 +137,12 @@ BearableTorque bearable_torque(const content::WrenchDesign& design) {
 // `optional`: a lesson can be done without this tool, so its choice may be a mistake that the author intends.
 void check_torque(const content::AssemblyJoint& joint, const content::WrenchDesign& design, bool optional,
                   const std::string& name, const Messages& messages) {
-    const BearableTorque bearable = bearable_torque(design);
+    const StatedTorque bearable = stated_torque(design);
     const double torque = joint.spec.torque.high;
     if (bearable.torque <= 0.0 || torque <= much_torque * bearable.torque) return;
     const std::string what =
         fmt::format("{} is {}{}, and the target torque of {} reaches {:.0f} N·m", name, title_of(design),
-                    bearable.stated, content::in_quotes(joint.type), torque);
+                    bearable.phrase, content::in_quotes(joint.type), torque);
     const std::string pointer = joint_pointer(joint.index_in_file);
     if (torque > bearable.torque && optional)
         messages.note(pointer, what + "; a trainee who chooses it loses points");
