@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Checks includes and links against the dependencies that the CMakeLists.txt files declare.
+"""Checks includes and links against the dependencies that the CMakeLists.txt files declare, and that no two types share a name.
 
 usage: architecture.py SOURCES [--list]
 
 A folder with a CMakeLists.txt is a unit. Its sources may include headers of its own and of the units that its libraries and
 programs link, directly or through others. Units of one layer may link only units of that layer that come before them in the
-order of add_subdirectory, so there is no cycle; a layer may use only the layers below it. --list prints the graph.
-Exit code: 0 the graph is as declared, 1 it is not.
+order of add_subdirectory, so there is no cycle; a layer may use only the layers below it. A type at namespace scope has a name of its own, even in another
+namespace, so that a name has one meaning; SAME_SENSE lists the exceptions. --list prints the graph.
+Exit code: 0 graph and names are as declared, 1 they are not.
 """
 import os
 import re
@@ -23,6 +24,11 @@ LAYERS = {
 }
 # Simulated trainees use the trainer as people do: only programs may need them.
 USERS_ONLY = {"game/trainees": {"game/cli", "tools"}}
+
+# Types that mean the same in each file that defines them.
+SAME_SENSE = {"BoundingBox", "CloseFile", "Finish", "ModelLimits", "ProfilePoint", "UniqueHandle"}
+# C types of a maker's library, which its emulation must define under their names.
+FOREIGN_NAMES = {"Error"}
 
 
 def read(path):
@@ -90,6 +96,20 @@ def layer_allows(layer, unit):
     return any(unit == allowed or unit.startswith(allowed + "/") for allowed in LAYERS[layer])
 
 
+def names_twice(root):
+    """A fault for each type name that two files define. A header and its .cpp count as one: a class may keep parts in it."""
+    files = {}
+    for layer in LAYERS:
+        for folder, _, names in os.walk(os.path.join(root, layer)):
+            for name in sorted(n for n in names if n.endswith((".hpp", ".cpp"))):
+                path = os.path.relpath(os.path.join(folder, name), root)
+                with open(os.path.join(root, path), encoding="utf-8") as file:
+                    for found in re.findall(r"(?m)^(?:struct|class|enum class) ([A-Z]\w*) *(?:final *)?[:{][^:]", file.read()):
+                        files.setdefault(found, {}).setdefault(os.path.splitext(path)[0], path)
+    return [f"{name}: defined in {' and '.join(sorted(f.values()))}; expected two names for two meanings"
+            for name, f in sorted(files.items()) if len(f) > 1 and name not in SAME_SENSE | FOREIGN_NAMES]
+
+
 def check(root):
     """The graph (unit -> units it links) and the list of faults."""
     order = [u for u in subfolders(root, ".") if u.split("/")[0] in LAYERS]
@@ -124,7 +144,7 @@ def check(root):
                 faults.append(f"{path}:{line}: includes {header}, which is not below {unit.split('/')[0]}")
             elif other not in reach[unit]:
                 faults.append(f"{path}:{line}: includes {header}; expected {unit}/CMakeLists.txt to link {other}")
-    return graph, faults
+    return graph, faults + names_twice(root)
 
 
 def self_test():
@@ -146,7 +166,9 @@ def self_test():
     upward = {**top, "engine/base/a.hpp": '#include "haptics/joint/a.hpp"\n'}
     unlinked = {**top, "haptics/servo/CMakeLists.txt": "house_library(servo SOURCES a.cpp LINK base)"}
     backward = {**top, "haptics/joint/CMakeLists.txt": "house_library(joint SOURCES a.cpp LINK base servo)"}
-    for name, planted in (("upward include", upward), ("include without a link", unlinked), ("link to a later folder", backward)):
+    twin = {**top, "engine/base/a.hpp": "struct Jaw {\n};\n", "haptics/joint/a.hpp": "struct Jaw : Head {\n};\n"}
+    for name, planted in (("upward include", upward), ("include without a link", unlinked), ("link to a later folder", backward),
+                          ("name with two meanings", twin)):
         assert check(tree(planted))[1], f"the check misses an {name}"
 
 

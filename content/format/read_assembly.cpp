@@ -183,22 +183,22 @@ namespace fs = std::filesystem;
 namespace {
 
 // A kind of file that an assembly refers to, as its extensions.
-struct FileKind {
+struct ReferencedFileKind {
     std::vector<std::string> extensions;
     const char* what;    // "is not <what>"
     const char* remedy;  // the "expected" of that message
 };
-const FileKind model_kind{
+const ReferencedFileKind model_kind{
     {".glb"}, "a .glb file", "a binary glTF file: bolt-author import-step makes one from STEP"};
-const FileKind picture_kind{{".png", ".jpg", ".jpeg"}, "a picture", "a file .png, .jpg or .jpeg"};
+const ReferencedFileKind picture_kind{{".png", ".jpg", ".jpeg"}, "a picture", "a file .png, .jpg or .jpeg"};
 
-bool has_extension(const fs::path& path, const FileKind& kind) {
+bool has_extension(const fs::path& path, const ReferencedFileKind& kind) {
     return std::find(kind.extensions.begin(), kind.extensions.end(), path.extension().string()) !=
            kind.extensions.end();
 }
 
 // Names of the files of this kind in a folder.
-std::vector<std::string> files_in(const fs::path& folder, const FileKind& kind) {
+std::vector<std::string> files_in(const fs::path& folder, const ReferencedFileKind& kind) {
     std::vector<std::string> names;
     std::error_code problem;
     for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
@@ -225,7 +225,7 @@ struct PathBase {
 // The path of the file that a value refers to; empty after an error. Its existence is checked only if the
 // base has a root.
 std::string read_file_name(JsonReader& reader, const JsonNode& node, const PathBase& base,
-                           const FileKind& kind) {
+                           const ReferencedFileKind& kind) {
     const auto& [folder, root, folder_text] = base;
     const auto name = reader.text(node);
     if (!name) return {};
@@ -299,7 +299,7 @@ std::string read_tool_model(JsonReader& reader, const JsonNode& tool, const Mode
     return read_file_name(reader, node, {folders.tools, root, "content/tools"}, model_kind);
 }
 
-Instruction read_instruction(JsonReader& reader, const JsonNode& pass, const PassContext& context) {
+Instruction read_instruction(JsonReader& reader, const JsonNode& pass, const PassReferences& context) {
     const JsonNode node = reader.member(pass, "instruction");
     Instruction instruction;
     instruction.text = read_texts(reader, reader.member(node, "text"));

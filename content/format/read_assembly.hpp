@@ -44,15 +44,15 @@ struct AssemblyPasses {
     std::vector<Pass> tightening, loosening;
 };
 // The parts of an assembly that its passes refer to.
-struct PassContext {
+struct PassReferences {
     const VariantJoints& joints;
     const std::vector<NamedView>& views;
     const std::string& variant;
     const ModelFolders& folders;
 };
-AssemblyPasses read_passes(JsonReader& reader, const PassContext& context);
+AssemblyPasses read_passes(JsonReader& reader, const PassReferences& context);
 // The member "instruction" of a pass.
-Instruction read_instruction(JsonReader& reader, const JsonNode& pass, const PassContext& context);
+Instruction read_instruction(JsonReader& reader, const JsonNode& pass, const PassReferences& context);
 // The models that an object names: the file, or what a variant adds.
 ModelFiles read_model_files(JsonReader& reader, const JsonNode& object, const ModelFolders& folders);
 // The models that a variant adds. Reports a kind of model that only the file or only the variant has.

@@ -330,7 +330,7 @@ VariantJoints read_variant_joints(JsonReader& reader, const std::string& variant
     return result;
 }
 
-AssemblyPasses read_passes(JsonReader& reader, const PassContext& context) {
+AssemblyPasses read_passes(JsonReader& reader, const PassReferences& context) {
     const std::vector<AssemblyJoint>& joints = context.joints.joints;
     JointIds ids = read_ids(reader, joints);
     const JsonNode common_node = reader.member(reader.root(), "order");

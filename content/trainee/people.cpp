@@ -85,6 +85,7 @@ Status make_private_folder(const fs::path& folder) {
     Error error;
     error.file = folder.string();
     error.what = "this folder cannot be created: " + problem.message();
+    error.expected = "a folder that this user may write to";
     return fail(std::move(error));
 }
 

@@ -187,15 +187,19 @@ Status save_settings(const std::filesystem::path& path, const TraineeSettings& s
     std::error_code problem;
     if (!path.parent_path().empty()) std::filesystem::create_directories(path.parent_path(), problem);
     if (problem)
-        return fail(ErrorCode::failed, fmt::format("{}: this folder cannot be created: {}",
-                                                   path.parent_path().string(), problem.message()));
+        return fail(ErrorCode::failed,
+                    fmt::format("{}: this folder cannot be created: {}", path.parent_path().string(),
+                                problem.message()),
+                    "a folder that this user may write to");
     if (std::filesystem::is_regular_file(path, problem) && !load_settings(path, known)) {
         std::filesystem::path beside = path;
         beside += ".unread";
         std::filesystem::rename(path, beside, problem);
         if (problem)
-            return fail(ErrorCode::failed, fmt::format("{}: the unreadable file cannot be renamed: {}",
-                                                       path.string(), problem.message()));
+            return fail(ErrorCode::failed,
+                        fmt::format("{}: the unreadable file cannot be renamed: {}", path.string(),
+                                    problem.message()),
+                        "a folder that this user may write to");
     }
     return write_file(path, text);
 }

@@ -28,7 +28,7 @@ void append(void* context, void* data, int size) {
                                                static_cast<std::size_t>(size));
 }
 
-tl::unexpected<Error> image_error(const Bitmap& image, const std::string& why, std::string expected = {}) {
+tl::unexpected<Error> image_error(const Bitmap& image, const std::string& why, std::string expected) {
     return fail(ErrorCode::bad_content, "the image " + (image.name.empty() ? "" : image.name + " ") + why,
                 std::move(expected));
 }
@@ -38,13 +38,14 @@ tl::unexpected<Error> image_error(const Bitmap& image, const std::string& why, s
 Status decode(Bitmap& image) {
     if (!image.pixels.empty()) return {};
     const auto* bytes = image.encoded.data();
-    if (image.encoded.size() > (std::size_t{1} << 30U)) return image_error(image, "is larger than 1 GiB");
+    if (image.encoded.size() > (std::size_t{1} << 30U))
+        return image_error(image, "is larger than 1 GiB", "a smaller image");
     const int size = static_cast<int>(image.encoded.size());
     int width = 0;
     int height = 0;
     int channels = 0;
     if (size == 0 || stbi_info_from_memory(bytes, size, &width, &height, &channels) == 0)
-        return image_error(image, "is neither PNG nor JPEG");
+        return image_error(image, "is neither PNG nor JPEG", "one of the two");
     // Check the size before decoding, so that a few bytes cannot allocate all memory.
     if (width < 1 || height < 1 || width > side_limit || height > side_limit ||
         std::int64_t{width} * height > pixel_limit)
@@ -53,7 +54,7 @@ Status decode(Bitmap& image) {
             fmt::format("at most {} pixels a side and {} pixels in total", side_limit, pixel_limit));
     const std::unique_ptr<stbi_uc, FreePixels> pixels(
         stbi_load_from_memory(bytes, size, &width, &height, &channels, 0));
-    if (!pixels) return image_error(image, "cannot be decoded");
+    if (!pixels) return image_error(image, "cannot be decoded", "an undamaged image");
     image.width = width;
     image.height = height;
     image.channels = channels;
@@ -73,17 +74,18 @@ Result<std::string> encode_png(int width, int height, int channels, std::span<co
                     "width × height × channels bytes");
     std::string bytes;
     if (stbi_write_png_to_func(append, &bytes, width, height, channels, pixels.data(), width * channels) == 0)
-        return fail(ErrorCode::failed, "the PNG cannot be encoded");
+        return fail(ErrorCode::failed, "the PNG cannot be encoded", "enough memory for the picture");
     return bytes;
 }
 
 namespace {
 
-tl::unexpected<Error> hdr_error(const std::filesystem::path& path, const char* what) {
+tl::unexpected<Error> hdr_error(const std::filesystem::path& path, const char* what, const char* expected) {
     Error error;
     error.code = ErrorCode::bad_content;
     error.file = path.string();
     error.what = what;
+    error.expected = expected;
     return fail(std::move(error));
 }
 
@@ -154,14 +156,16 @@ Result<RadianceImage> decode_hdr(std::string_view file, const std::filesystem::p
     const int size = static_cast<int>(file.size());
     RadianceImage image;
     int channels = 0;
-    if (stbi_is_hdr_from_memory(bytes, size) == 0) return hdr_error(path, "is not a Radiance .hdr file");
+    if (stbi_is_hdr_from_memory(bytes, size) == 0)
+        return hdr_error(path, "is not a Radiance .hdr file", "a picture in that format");
     const std::unique_ptr<float, FreePixels> pixels(
         stbi_loadf_from_memory(bytes, size, &image.width, &image.height, &channels, 3));
-    if (!pixels) return hdr_error(path, "cannot be decoded");
+    if (!pixels) return hdr_error(path, "cannot be decoded", "an undamaged picture");
     const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     for (std::size_t i = 0; i < count; ++i) {
         const float* p = pixels.get() + 3 * i;
-        if (!std::isfinite(p[0] + p[1] + p[2])) return hdr_error(path, "has a pixel that is not finite");
+        if (!std::isfinite(p[0] + p[1] + p[2]))
+            return hdr_error(path, "has a pixel that is not finite", "finite values");
         image.pixels.emplace_back(p[0], p[1], p[2]);
     }
     return image;

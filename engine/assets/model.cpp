@@ -47,7 +47,7 @@ void append(Model& model, Model added) {
         shift(skin.skeleton, model.nodes.size());
     }
     for (Animation& animation : added.animations)
-        for (Channel& channel : animation.channels) shift(channel.node, model.nodes.size());
+        for (AnimationChannel& channel : animation.channels) shift(channel.node, model.nodes.size());
     move_to_end(model.nodes, added.nodes);
     move_to_end(model.roots, added.roots);
     move_to_end(model.meshes, added.meshes);

@@ -148,7 +148,7 @@ struct Camera {
 enum class TargetPath : std::uint8_t { translation, rotation, scale, weights };
 enum class Interpolation : std::uint8_t { step, linear, cubic };
 
-struct Channel {
+struct AnimationChannel {
     int node = -1;
     TargetPath path = TargetPath::translation;
     Interpolation interpolation = Interpolation::linear;
@@ -159,7 +159,7 @@ struct Channel {
 
 struct Animation {
     std::string name = {};
-    std::vector<Channel> channels = {};
+    std::vector<AnimationChannel> channels = {};
 };
 
 struct Model {

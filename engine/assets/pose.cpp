@@ -39,7 +39,7 @@ ModelPose rest_pose(const Model& model) {
     return pose;
 }
 
-std::vector<float> sample(const Channel& channel, float seconds) {
+std::vector<float> sample(const AnimationChannel& channel, float seconds) {
     const bool cubic = channel.interpolation == Interpolation::cubic;
     const std::size_t keys = channel.times.size();
     if (keys == 0) return {};
@@ -80,7 +80,7 @@ std::vector<float> sample(const Channel& channel, float seconds) {
 }
 
 void apply(const Animation& animation, float seconds, ModelPose& pose) {
-    for (const Channel& channel : animation.channels) {
+    for (const AnimationChannel& channel : animation.channels) {
         if (channel.node < 0 || channel.times.empty()) continue;
         NodePose& node = pose[static_cast<std::size_t>(channel.node)];
         std::vector<float> value = sample(channel, seconds);
@@ -103,7 +103,7 @@ void apply(const Animation& animation, float seconds, ModelPose& pose) {
 
 float duration(const Animation& animation) {
     float last = 0.0F;
-    for (const Channel& channel : animation.channels)
+    for (const AnimationChannel& channel : animation.channels)
         if (!channel.times.empty()) last = std::max(last, channel.times.back());
     return last;
 }

@@ -31,7 +31,7 @@ void apply(const Animation& animation, float seconds, ModelPose& pose);
 float duration(const Animation& animation);
 
 // Evaluates one channel. Returns 3 values, 4 (a unit quaternion, x y z w) or one per morph target.
-std::vector<float> sample(const Channel& channel, float seconds);
+std::vector<float> sample(const AnimationChannel& channel, float seconds);
 
 // Returns the world transform of every node.
 std::vector<glm::mat4> world_transforms(const Model& model, const ModelPose& pose);

@@ -31,6 +31,7 @@ tl::unexpected<Error> disconnected() {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = "the sound device was disconnected";
+    error.expected = "the same one again, or another";
     error.lost = true;
     return fail(std::move(error));
 }
@@ -95,7 +96,9 @@ class OpenAl final : public Sink {
     }
 
     Status play(std::span<const float, block_size> samples) override {
-        if (free_.empty()) return fail(ErrorCode::failed, "the sound device has no free buffer");
+        if (free_.empty())
+            return fail(ErrorCode::failed, "the sound device has no free buffer",
+                        "a call only after free_blocks() > 0");
         std::array<std::int16_t, block_size> pcm{};
         std::transform(samples.begin(), samples.end(), pcm.begin(), to_pcm16);
         const ALuint buffer = free_.back();

@@ -124,7 +124,8 @@ Result<Speaker> Speaker::start(FillSamples fill, OpenSink open) {
     try {
         shared->thread = std::jthread([s = shared.get()](const std::stop_token& stop) { s->run(stop); });
     } catch (const std::system_error& error) {
-        return fail(ErrorCode::failed, fmt::format("the sound thread cannot be started: {}", error.what()));
+        return fail(ErrorCode::failed, fmt::format("the sound thread cannot be started: {}", error.what()),
+                    "a system that can start another thread");
     }
     return Speaker(std::move(shared));
 }

@@ -66,6 +66,7 @@ struct WavWriter::State {
         Error error;
         error.file = path.string();
         error.what = "cannot be written: " + why;
+        error.expected = "a path that this user may write to, and free space";
         first_error = error;
         remove_part();
         return fail(error);
@@ -118,7 +119,8 @@ Status WavWriter::finish() {
         const std::string why = std::strerror(errno);
         return s.fail_writing(why);
     }
-    s.first_error = Error{ErrorCode::failed, "is already finished", {}, s.path.string(), 0, 0, {}, false};
+    s.first_error = Error{
+        ErrorCode::failed, "is already finished", "one call of finish()", s.path.string(), 0, 0, {}, false};
     if (s.not_regular) return {};
     std::error_code renamed;
     std::filesystem::rename(s.part, s.path, renamed);

@@ -20,11 +20,16 @@ struct CloseFile {
     void operator()(std::FILE* file) const { (void)std::fclose(file); }
 };
 
-tl::unexpected<Error> file_error(const std::filesystem::path& path, ErrorCode code, std::string what) {
+constexpr const char* readable_file = "a file that this user may read";
+constexpr const char* writable_path = "a path that this user may write to, and free space";
+
+tl::unexpected<Error> file_error(const std::filesystem::path& path, ErrorCode code, std::string what,
+                                 std::string expected) {
     Error error;
     error.code = code;
     error.file = path.string();
     error.what = std::move(what);
+    error.expected = std::move(expected);
     return fail(std::move(error));
 }
 
@@ -32,18 +37,21 @@ tl::unexpected<Error> file_error(const std::filesystem::path& path, ErrorCode co
 
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit, ErrorCode code) {
     std::error_code status;
-    if (std::filesystem::is_directory(path, status)) return file_error(path, code, "is a folder");
+    if (std::filesystem::is_directory(path, status)) return file_error(path, code, "is a folder", "a file");
     const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-    if (!file) return file_error(path, code, std::string("cannot be opened: ") + std::strerror(errno));
+    if (!file)
+        return file_error(path, code, std::string("cannot be opened: ") + std::strerror(errno),
+                          readable_file);
     std::string text;
     char block[65536];
     std::size_t count = 0;
     while ((count = std::fread(block, 1, sizeof block, file.get())) > 0) {
         text.append(block, count);
         if (text.size() > limit)
-            return file_error(path, code, "is larger than " + std::to_string(limit >> 20U) + " MiB");
+            return file_error(path, code, "is larger than " + std::to_string(limit >> 20U) + " MiB",
+                              "a smaller file");
     }
-    if (std::ferror(file.get()) != 0) return file_error(path, code, "cannot be read");
+    if (std::ferror(file.get()) != 0) return file_error(path, code, "cannot be read", readable_file);
     return text;
 }
 
@@ -55,21 +63,22 @@ Status write_file(const std::filesystem::path& path, std::string_view text) {
     if (!not_regular) part += ".part";  // a device or a pipe is written to, never replaced
     std::FILE* file = std::fopen(part.c_str(), "wb");
     if (file == nullptr)
-        return file_error(path, ErrorCode::failed, std::string("cannot be written: ") + std::strerror(errno));
+        return file_error(path, ErrorCode::failed, std::string("cannot be written: ") + std::strerror(errno),
+                          writable_path);
     const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
     const int write_errno = errno;
     const bool closed = std::fclose(file) == 0;
     if (!written || !closed) {
         const int reason = written ? errno : write_errno;
         if (!not_regular) (void)std::remove(part.c_str());
-        return file_error(path, ErrorCode::failed,
-                          std::string("cannot be written: ") + std::strerror(reason));
+        return file_error(path, ErrorCode::failed, std::string("cannot be written: ") + std::strerror(reason),
+                          writable_path);
     }
     if (not_regular) return {};
     std::filesystem::rename(part, path, status);
     if (!status) return {};
     (void)std::remove(part.c_str());
-    return file_error(path, ErrorCode::failed, "cannot be written: " + status.message());
+    return file_error(path, ErrorCode::failed, "cannot be written: " + status.message(), writable_path);
 }
 
 namespace {
@@ -96,8 +105,8 @@ void sync_folder(const std::filesystem::path& folder) {
 
 Status write_private_file(const std::filesystem::path& path, std::string_view text) {
     const auto failed = [&](int reason) {
-        return file_error(path, ErrorCode::failed,
-                          std::string("cannot be written: ") + std::strerror(reason));
+        return file_error(path, ErrorCode::failed, std::string("cannot be written: ") + std::strerror(reason),
+                          writable_path);
     };
     std::filesystem::path part = path;
     part += ".part";

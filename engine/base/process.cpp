@@ -37,7 +37,8 @@ Result<Pipe> make_pipe(const std::string& program) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
         return fail(ErrorCode::failed,
-                    fmt::format("a pipe to {} cannot be created: {}", program, std::strerror(errno)));
+                    fmt::format("a pipe to {} cannot be created: {}", program, std::strerror(errno)),
+                    "fewer open files");
     return Pipe{ends[0], ends[1]};
 }
 
@@ -57,7 +58,8 @@ Result<int> spawn(const std::vector<std::string>& command, std::span<const Redir
     ::posix_spawn_file_actions_destroy(&actions);
     if (error_number != 0)
         return fail(ErrorCode::failed,
-                    fmt::format("{} cannot be started: {}", command[0], std::strerror(error_number)));
+                    fmt::format("{} cannot be started: {}", command[0], std::strerror(error_number)),
+                    "an installed program");
     return child;
 }
 
@@ -122,7 +124,8 @@ Status ChildStdin::write(std::span<const std::uint8_t> bytes) {
         if (written < 0 && errno == EINTR) continue;
         if (written < 0)
             return fail(ErrorCode::failed,
-                        fmt::format("{} no longer reads its input: {}", name_, std::strerror(errno)));
+                        fmt::format("{} no longer reads its input: {}", name_, std::strerror(errno)),
+                        "a program that reads to the end");
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
     return {};
@@ -169,7 +172,8 @@ Result<ChildSocket> ChildSocket::start(const std::vector<std::string>& command) 
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
         return fail(ErrorCode::failed,
-                    fmt::format("a socket to {} cannot be created: {}", command[0], std::strerror(errno)));
+                    fmt::format("a socket to {} cannot be created: {}", command[0], std::strerror(errno)),
+                    "fewer open files");
     const Redirect input{ends[1], STDIN_FILENO};
     const Result<int> child = spawn(command, {&input, 1});
     ::close(ends[1]);
@@ -200,7 +204,8 @@ Status ChildSocket::send(std::span<const std::byte> packet) {
     const ssize_t sent = ::send(socket_, packet.data(), packet.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent == static_cast<ssize_t>(packet.size())) return {};
     return fail(ErrorCode::failed,
-                fmt::format("{} no longer receives packets: {}", name_, std::strerror(errno)));
+                fmt::format("{} no longer receives packets: {}", name_, std::strerror(errno)),
+                "a running program");
 }
 
 Result<std::optional<std::size_t>> ChildSocket::receive(std::span<std::byte> packet, double timeout) {
@@ -208,7 +213,7 @@ Result<std::optional<std::size_t>> ChildSocket::receive(std::span<std::byte> pac
     // MSG_TRUNC: the length of the packet, even if it did not fit.
     const ssize_t length = ::recv(socket_, packet.data(), packet.size(), MSG_DONTWAIT | MSG_TRUNC);
     if (length > 0) return static_cast<std::size_t>(length);
-    return fail(ErrorCode::failed, fmt::format("{} has ended", name_));
+    return fail(ErrorCode::failed, fmt::format("{} has ended", name_), "a running program");
 }
 
 ProgramEnd ChildSocket::end(double patience) {

@@ -41,7 +41,8 @@ Status print(std::string_view text) {
         std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (written) return {};
     return fail(ErrorCode::failed,
-                std::string("the standard output cannot be written: ") + std::strerror(errno));
+                std::string("the standard output cannot be written: ") + std::strerror(errno),
+                "an open pipe or free space");
 }
 
 }  // namespace bolt

@@ -51,7 +51,7 @@ using Status = Result<void>;
 
 inline tl::unexpected<Error> fail(Error error) { return tl::unexpected<Error>(std::move(error)); }
 
-inline tl::unexpected<Error> fail(ErrorCode code, std::string what, std::string expected = {}) {
+inline tl::unexpected<Error> fail(ErrorCode code, std::string what, std::string expected) {
     Error error;
     error.code = code;
     error.what = std::move(what);

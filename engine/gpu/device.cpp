@@ -312,7 +312,8 @@ Result<std::size_t> choose(const Instance& instance, const DeviceOptions& option
         BOLT_TRY_ASSIGN(const auto required, options.creator->choose_gpu(instance.get()));
         const auto at = std::find(survey.physical.begin(), survey.physical.end(), required);
         if (at == survey.physical.end())
-            return fail(ErrorCode::no_device, "the headset is connected to a GPU that Vulkan does not list");
+            return fail(ErrorCode::no_device, "the headset is connected to a GPU that Vulkan does not list",
+                        "a driver of that GPU");
         const auto index = static_cast<std::size_t>(at - survey.physical.begin());
         if (const std::string reason = unusable_reason(survey.candidates[index], options.wanted);
             !reason.empty())

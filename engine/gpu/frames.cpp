@@ -215,7 +215,8 @@ Result<DescriptorWriter> DescriptorWriter::create(Device& device, FrameContext& 
     writer.pipeline_ = &pipeline;
     writer.set_index_ = set;
     if (set >= pipeline.sets.size())
-        return fail(ErrorCode::failed, fmt::format("the pipeline has no descriptor set {}", set));
+        return fail(ErrorCode::failed, fmt::format("the pipeline has no descriptor set {}", set),
+                    "a set that its shaders declare");
     BOLT_TRY_ASSIGN(auto allocated, frame.descriptor_set(pipeline.sets[set].get()));
     writer.set_ = allocated;
     return writer;
@@ -255,7 +256,8 @@ Result<VkDescriptorSet> DescriptorWriter::finish() {
             });
         if (known == pipeline_->bindings.end())
             return fail(ErrorCode::failed,
-                        fmt::format("no shader has set {} binding {}", set_index_, write.dstBinding));
+                        fmt::format("no shader has set {} binding {}", set_index_, write.dstBinding),
+                        "a binding that a shader declares");
         write.descriptorType = known->type;
         write.dstSet = set_;
     }
@@ -264,8 +266,10 @@ Result<VkDescriptorSet> DescriptorWriter::finish() {
             writes_.begin(), writes_.end(),
             [&](const VkWriteDescriptorSet& write) { return write.dstBinding == binding.binding; });
         if (binding.set == set_index_ && !written)
-            return fail(ErrorCode::failed, fmt::format("nothing is bound to \"{}\" (set {} binding {})",
-                                                       binding.name, binding.set, binding.binding));
+            return fail(ErrorCode::failed,
+                        fmt::format("nothing is bound to \"{}\" (set {} binding {})", binding.name,
+                                    binding.set, binding.binding),
+                        "a resource for each binding");
     }
     vkUpdateDescriptorSets(device_->get(), static_cast<std::uint32_t>(writes_.size()), writes_.data(), 0,
                            nullptr);

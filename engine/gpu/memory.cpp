@@ -152,7 +152,9 @@ Result<Block*> Memory::add_block(std::uint32_t type, VkDeviceSize size, Tiling t
 
 Result<Allocation> Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, Tiling tiling) {
     const std::optional<std::uint32_t> type = memory_type(properties_, needs.memoryTypeBits, use);
-    if (!type) return fail(ErrorCode::failed, "the GPU has no suitable memory type for a resource");
+    if (!type)
+        return fail(ErrorCode::failed, "the GPU has no suitable memory type for a resource",
+                    "one with the required properties");
     const VkMemoryType& chosen = properties_.memoryTypes[*type];
     const bool visible = (chosen.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
     const VkDeviceSize block_size =

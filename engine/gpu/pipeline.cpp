@@ -59,7 +59,7 @@ std::uint32_t array_size(spvc_compiler compiler, spvc_type_id id) {
 Result<Reflection> reflect(std::span<const std::uint32_t> spirv) {
     spvc_context raw = nullptr;
     if (spvc_context_create(&raw) != SPVC_SUCCESS)
-        return fail(ErrorCode::failed, "not enough memory to reflect a shader");
+        return fail(ErrorCode::failed, "not enough memory to reflect a shader", "free memory");
     const SpirvCrossContext context(raw, spvc_context_destroy);
     spvc_parsed_ir parsed = nullptr;
     spvc_compiler compiler = nullptr;
@@ -74,7 +74,8 @@ Result<Reflection> reflect(std::span<const std::uint32_t> spirv) {
             SPVC_SUCCESS;
     if (!read)
         return fail(ErrorCode::failed,
-                    fmt::format("not a SPIR-V shader: {}", spvc_context_get_last_error_string(raw)));
+                    fmt::format("not a SPIR-V shader: {}", spvc_context_get_last_error_string(raw)),
+                    "output of glslangValidator");
 
     Reflection reflection;
     const std::optional<VkShaderStageFlagBits> stage = stage_of(spvc_compiler_get_execution_model(compiler));
@@ -149,7 +150,8 @@ Status check_streams(const GraphicsInfo& info) {
         if (!has_stream)
             return fail(ErrorCode::failed,
                         fmt::format("{}: no vertex stream for the input \"{}\" at location {}",
-                                    info.vertex->name, input.name, input.location));
+                                    info.vertex->name, input.name, input.location),
+                        "a stream for each input");
     }
     return {};
 }
@@ -240,7 +242,8 @@ Status make_pipeline_layout(const Device& device, std::span<const Shader* const>
                 return fail(
                     ErrorCode::failed,
                     fmt::format("{}: set {} binding {} (\"{}\") has another type or count in another stage",
-                                shader->name, binding.set, binding.binding, binding.name));
+                                shader->name, binding.set, binding.binding, binding.name),
+                    "the same declaration in all stages");
             entry->second.second |= static_cast<VkShaderStageFlags>(reflection.stage);
             sets = std::max(sets, binding.set + 1);
         }
@@ -252,7 +255,8 @@ Status make_pipeline_layout(const Device& device, std::span<const Shader* const>
     if (pipeline.push_size > device.limits().maxPushConstantsSize)
         return fail(ErrorCode::failed,
                     fmt::format("{} bytes of push constants exceed the limit of the GPU ({})",
-                                pipeline.push_size, device.limits().maxPushConstantsSize));
+                                pipeline.push_size, device.limits().maxPushConstantsSize),
+                    "a uniform buffer for the rest");
 
     std::vector<std::vector<VkDescriptorSetLayoutBinding>> bindings(sets);
     for (const auto& [key, value] : merged) {

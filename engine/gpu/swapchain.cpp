@@ -102,7 +102,7 @@ Result<SwapchainPlan> plan_swapchain(const SurfaceSupport& support, const Swapch
     SwapchainPlan plan;
     const VkSurfaceCapabilitiesKHR& capabilities = support.capabilities;
     if ((capabilities.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) == 0)
-        return fail(ErrorCode::no_device, "the window's images do not support copies");
+        return fail(ErrorCode::no_device, "the window's images do not support copies", "another GPU: --gpu");
     BOLT_TRY(choose_format(support, plan));
     choose_mode(support, plan);
     choose_extent(capabilities, request, plan);
@@ -204,7 +204,8 @@ Status Swapchain::replace_surface() {
         device_->physical(), device_->queue_family(), surface_.get(), &supported);
     BOLT_TRY(check(queried, "querying the surface capabilities"));
     if (supported != VK_TRUE)
-        return fail(ErrorCode::no_device, "this GPU can no longer present to the window's display");
+        return fail(ErrorCode::no_device, "this GPU can no longer present to the window's display",
+                    "the display of the start, or --gpu");
     lost_ = false;
     stale_ = true;
     return {};

@@ -45,6 +45,10 @@ Status check(VkResult result, std::string_view what) {
     Error error;
     error.code = device_missing ? ErrorCode::no_device : ErrorCode::failed;
     error.what = fmt::format("{}: {}", what, name(result));
+    const bool no_memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    error.expected = no_memory        ? "more free memory"
+                     : device_missing ? "a working GPU and its driver"
+                                      : "success";
     error.lost = result == VK_ERROR_DEVICE_LOST;
     return fail(std::move(error));
 }

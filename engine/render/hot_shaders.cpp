@@ -81,7 +81,8 @@ Result<HotShaders> HotShaders::open(const fs::path& path) {
     std::string pattern = (fs::temp_directory_path() / "boltwright-shaders-XXXXXX").string();
     if (::mkdtemp(pattern.data()) == nullptr)
         return fail(ErrorCode::failed,
-                    fmt::format("the folder for the compiler's output cannot be created: {}", pattern));
+                    fmt::format("the folder for the compiler's output cannot be created: {}", pattern),
+                    "a writable folder for temporary files");
     hot.output_folder_ = pattern;
     hot.watch();
     return hot;
@@ -123,7 +124,7 @@ Status HotShaders::compile(const std::string& name) {
           spirv.string(), (folder_ / name).string()})
         command.push_back(word);
     BOLT_TRY_ASSIGN(const auto run, run_program(command, Capture::output_and_errors));
-    if (run.exit_code != 0) return fail(ErrorCode::bad_content, run.output);
+    if (run.exit_code != 0) return fail(ErrorCode::bad_content, run.output, "a shader without mistakes");
     BOLT_TRY_ASSIGN(const auto bytes, read_file(spirv, max_file_size, ErrorCode::failed));
     std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
     std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
@@ -155,9 +156,10 @@ std::optional<Result<ShaderCode>> HotShaders::changed(double now) {
     watch();
     if (pending_.empty()) return Result<ShaderCode>(code_);
     while (!output.empty() && output.back() == '\n') output.pop_back();
-    return Result<ShaderCode>(
-        fail(ErrorCode::bad_content, fmt::format("{} shaders do not compile: {}\n{}", pending_.size(),
-                                                 fmt::join(pending_, ", "), output)));
+    return Result<ShaderCode>(fail(
+        ErrorCode::bad_content,
+        fmt::format("{} shaders do not compile: {}\n{}", pending_.size(), fmt::join(pending_, ", "), output),
+        "shaders without mistakes"));
 }
 
 }  // namespace bolt::render

@@ -22,7 +22,8 @@ Result<int> bound_port(int socket) {
     sockaddr_in address{};
     socklen_t size = sizeof address;
     if (::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0)
-        return fail(ErrorCode::failed, fmt::format("cannot read the UDP port: {}", std::strerror(errno)));
+        return fail(ErrorCode::failed, fmt::format("cannot read the UDP port: {}", std::strerror(errno)),
+                    "a usable network interface");
     return ntohs(address.sin_port);
 }
 
@@ -33,7 +34,8 @@ Result<DtrackReceiver> DtrackReceiver::open(int port) {
         return fail(ErrorCode::usage, fmt::format("{} is not a UDP port", port), "1 to 65535");
     const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (socket < 0)
-        return fail(ErrorCode::failed, fmt::format("cannot open a UDP socket: {}", std::strerror(errno)));
+        return fail(ErrorCode::failed, fmt::format("cannot open a UDP socket: {}", std::strerror(errno)),
+                    "fewer open files");
     DtrackReceiver receiver(socket, port);  // closes the socket, also after an error
     sockaddr_in address{};
     address.sin_family = AF_INET;

@@ -189,11 +189,13 @@ Status Ui::rebuild_font(gpu::FrameContext& frame) {
     builder.BuildRanges(&ranges);
     if (add_font(options_.text_size, ranges.Data) == nullptr ||
         (heading_font_ = add_font(options_.heading_size, ranges.Data)) == nullptr)
-        return fail(ErrorCode::failed, "the interface's fonts cannot be read");
+        return fail(ErrorCode::failed, "the interface's fonts cannot be read", "the fonts of packages.txt");
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
     atlas.GetTexDataAsAlpha8(&texels, &width, &height);
-    if (texels == nullptr) return fail(ErrorCode::failed, "the interface's font cannot be rasterised");
+    if (texels == nullptr)
+        return fail(ErrorCode::failed, "the interface's font cannot be rasterised",
+                    "enough memory for its characters");
     gpu::ImageInfo info;
     info.format = VK_FORMAT_R8_UNORM;
     info.extent = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};

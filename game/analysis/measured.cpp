@@ -35,7 +35,7 @@ struct Columns {
 };
 
 // The position of errors in the file.
-struct FilePosition {
+struct LineErrors {
     std::string_view file;
     int line = 0;
 
@@ -64,7 +64,7 @@ std::string comment_value(std::string_view comment, std::string_view key) {
     return std::string(comment.substr(first, last - first + 1));
 }
 
-Result<Columns> read_header(const std::vector<CsvField>& fields, const FilePosition& position) {
+Result<Columns> read_header(const std::vector<CsvField>& fields, const LineErrors& position) {
     Columns columns;
     columns.count = fields.size();
     for (const CsvField& field : fields) columns.names.push_back(field.text);
@@ -94,7 +94,7 @@ Result<Columns> read_header(const std::vector<CsvField>& fields, const FilePosit
 }
 
 Result<double> read_number(const CsvField& field, std::string_view name, double limit,
-                           const FilePosition& position) {
+                           const LineErrors& position) {
     std::string_view text = field.text;
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     double value = 0.0;
@@ -112,7 +112,7 @@ Result<double> read_number(const CsvField& field, std::string_view name, double 
 
 struct CsvParser {
     MeasuredRecord measured;
-    FilePosition position;
+    LineErrors position;
     Columns columns;
     bool has_header = false;
     std::map<std::string, std::size_t, std::less<>> by_name;

@@ -49,7 +49,7 @@ StageBand stage_band(std::span<const CycleComparison> cycles, const Pick& pick) 
     return band;
 }
 
-statistics::Interval mean_interval(const std::vector<double>& values) {
+statistics::ConfidenceInterval mean_interval(const std::vector<double>& values) {
     if (values.size() < min_repetitions) return {};
     return statistics::bootstrap_interval(
         values, [](std::span<const double> v) { return statistics::mean_deviation(v).mean; }, band_options);
@@ -95,7 +95,7 @@ CurveBand curve_band(std::span<const MeasuredCurve> measured, std::span<const Cy
         for (std::size_t i = 0; i < count; ++i)
             torques[i] = interpolate(measured[i].curve.angle, measured[i].curve.torque,
                                      angle - cycles[i].alignment.shift);
-        const statistics::Interval interval = mean_interval(torques);
+        const statistics::ConfidenceInterval interval = mean_interval(torques);
         band.angle.push_back(angle);
         band.mean.push_back(statistics::mean_deviation(torques).mean);
         band.low.push_back(interval.low);

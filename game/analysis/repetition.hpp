@@ -21,7 +21,7 @@ inline constexpr std::size_t min_repetitions = 4;
 inline constexpr std::uint64_t band_seed = 1;
 
 struct StageBand {
-    statistics::Interval mape, rmse;  // NaN: not enough repetitions with samples
+    statistics::ConfidenceInterval mape, rmse;  // NaN: not enough repetitions with samples
 };
 
 struct RepetitionBands {
@@ -30,7 +30,7 @@ struct RepetitionBands {
     StageBand all;
     // Means over the repetitions that have the value, and their intervals; NaN without one.
     double slope_error = nan, breakaway_error = nan;
-    statistics::Interval slope_interval, breakaway_interval;
+    statistics::ConfidenceInterval slope_interval, breakaway_interval;
 };
 
 RepetitionBands repetition_bands(std::span<const CycleComparison> cycles);

@@ -37,6 +37,7 @@ Result<content::Assembly> stored_assembly(const session::SessionReader& session)
         error.code = ErrorCode::failed;
         error.file = session.file();
         error.what = "the assembly stored in this session cannot be read: " + loaded.errors.front().message();
+        error.expected = "a session of this program or an older one";
         return fail(std::move(error));
     }
     BOLT_TRY(content::choose_tool(loaded.assembly, header.tool));

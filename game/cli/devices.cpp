@@ -95,9 +95,10 @@ Result<std::string> examine_device(const DevicesOptions& options) {
     const auto received = static_cast<double>(thread.snapshot().number - before);
     const device::DeviceStatus& status = thread.status();
     if (status.state != device::DeviceState::usable)
-        return fail(ErrorCode::no_device, status.fault_message.empty()
-                                              ? device.description->name + " sends nothing"
-                                              : status.fault_message);
+        return fail(
+            ErrorCode::no_device,
+            status.fault_message.empty() ? device.description->name + " sends nothing" : status.fault_message,
+            "a device that sends its state");
     std::string text = fmt::format("{}  {}\n", options.device, device.description->name);
     for (const auto& lines :
          {device::summary_lines(*device.description), device::summary_lines(status.health)})

@@ -145,10 +145,10 @@ std::string describe_walls_behind(const content::DisplayFile& displays, const Ve
 }
 
 // The direction of −z of a pose. Whole degrees, without a negative zero.
-struct Direction {
+struct LookDirection {
     double right = 0.0, up = 0.0;
 };
-Direction direction_of(const Pose& pose) {
+LookDirection direction_of(const Pose& pose) {
     const Vec3 ahead = pose.orientation * Vec3(0.0, 0.0, -1.0);
     const auto degrees = [](double angle) { return std::round(to_degrees(angle)) + 0.0; };
     return {degrees(std::atan2(ahead.x, -ahead.z)), degrees(std::asin(std::clamp(ahead.y, -1.0, 1.0)))};
@@ -163,7 +163,7 @@ std::string describe_wand(const std::optional<head_tracking::Wand>& wand) {
     std::string text = "flystick is not seen";
     if (wand->aim) {
         const Vec3& at = wand->aim->position;
-        const Direction points = direction_of(*wand->aim);
+        const LookDirection points = direction_of(*wand->aim);
         text = fmt::format(
             "flystick x {:6.3f}  y {:6.3f}  z {:6.3f} m   points {:4.0f} degrees to the right, {:3.0f} up",
             at.x, at.y, at.z, points.right, points.up);
@@ -175,7 +175,7 @@ std::string describe_wand(const std::optional<head_tracking::Wand>& wand) {
 std::string describe_shown_head(const content::DisplayFile& displays, const tracking::FilteredHead& head) {
     constexpr const char* states[] = {"tracked", "held", "lost"};
     const Vec3& at = head.pose.position;
-    const Direction looks = direction_of(head.pose);
+    const LookDirection looks = direction_of(head.pose);
     return fmt::format(
         "{:<8} x {:6.3f}  y {:6.3f}  z {:6.3f} m   looks {:4.0f} degrees to the right, {:3.0f} up{}\n",
         states[static_cast<std::size_t>(head.status)], at.x, at.y, at.z, looks.right, looks.up,

@@ -31,7 +31,7 @@ Result<gpu::Instance> make_instance(const platform::Desktop& desktop, bool valid
 
 Status validation_status(const gpu::Instance& instance) {
     if (instance.log().messages.empty()) return {};
-    return fail(ErrorCode::failed, instance.log().messages.front());
+    return fail(ErrorCode::failed, instance.log().messages.front(), "no message of the validation layer");
 }
 
 Status show_pattern(const DisplaysTestOptions& options) {
@@ -134,7 +134,8 @@ Status follow_first_process(view::WindowContent& content, OpenedWalls& opened,
         BOLT_TRY_ASSIGN(const auto instance, make_instance(desktop, options.validate));
         BOLT_TRY(view::follow_on_walls(content, *opened.walls, *opened.follower, instance, options.gpu));
         BOLT_TRY(validation_status(instance));
-        if (interrupted()) return fail(ErrorCode::failed, "the process was interrupted");
+        if (interrupted())
+            return fail(ErrorCode::failed, "the process was interrupted", "the end of the test");
         return {};
     };
     const Status done = follow();

@@ -24,13 +24,13 @@ namespace bolt::cli {
 
 namespace {
 
-struct ImportOptions {
+struct MeasureImportOptions {
     std::string rig;
     std::vector<std::string> files;
     std::string out;
 };
 
-int run_measure_import(const ImportOptions& options) {
+int run_measure_import(const MeasureImportOptions& options) {
     const measure::LoadedRig loaded = measure::load_rig(options.rig);
     if (!loaded.ok()) return print_error(loaded.errors);
     std::vector<measure::RigRun> runs;
@@ -49,7 +49,7 @@ int run_measure_import(const ImportOptions& options) {
 }
 
 void add_measure_import(CLI::App& measure, int& exit_code) {
-    auto options = std::make_shared<ImportOptions>();
+    auto options = std::make_shared<MeasureImportOptions>();
     CLI::App* command = measure.add_subcommand(
         "import", "Compute torque over angle from the files of a test rig, with uncertainty and landmarks");
     command->add_option("rig", options->rig, "Description of the rig's channels (docs/measurement.md)")
@@ -194,7 +194,7 @@ void add_measure_simulate(CLI::App& measure, int& exit_code) {
     command->callback([options, &exit_code] { exit_code = run_measure_simulate(*options); });
 }
 
-struct ValidateOptions {
+struct MeasureValidateOptions {
     std::string data, out = "out/validation";
 };
 
@@ -213,7 +213,8 @@ Result<std::string> written_validation(const measure::Validation& validation,
 }
 
 // The section of one joint; writes its comparison page.
-Result<std::string> joint_validation(const content::AssemblyJoint& joint, const ValidateOptions& options) {
+Result<std::string> joint_validation(const content::AssemblyJoint& joint,
+                                     const MeasureValidateOptions& options) {
     const std::filesystem::path file = std::filesystem::path(options.data) / (joint.design.id + ".csv");
     BOLT_TRY_ASSIGN(const auto text, read_file(file, largest_validation_file, ErrorCode::bad_content));
     const std::filesystem::path page = std::filesystem::path(options.out) / (joint.design.id + ".html");
@@ -229,7 +230,7 @@ Result<std::string> joint_validation(const content::AssemblyJoint& joint, const 
     return measure::loosening_text(validation);
 }
 
-Result<std::string> validation_text(const ValidateOptions& options) {
+Result<std::string> validation_text(const MeasureValidateOptions& options) {
     const std::filesystem::path data(options.data);
     std::vector<std::filesystem::path> assemblies;
     std::error_code problem;
@@ -259,7 +260,7 @@ Result<std::string> validation_text(const ValidateOptions& options) {
     return out + section;
 }
 
-int run_measure_validate(const ValidateOptions& options) {
+int run_measure_validate(const MeasureValidateOptions& options) {
     std::error_code ignored;  // write_file reports the error
     std::filesystem::create_directories(options.out, ignored);
     Result<std::string> text = validation_text(options);
@@ -272,7 +273,7 @@ int run_measure_validate(const ValidateOptions& options) {
 }
 
 void add_measure_validate(CLI::App& measure, int& exit_code) {
-    auto options = std::make_shared<ValidateOptions>();
+    auto options = std::make_shared<MeasureValidateOptions>();
     CLI::App* command = measure.add_subcommand(
         "validate", "Compare the mechanistic law with published measurements and tables");
     command->add_option("data", options->data, "Folder with the data and its joints, such as docs/validation")

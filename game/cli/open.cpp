@@ -26,7 +26,7 @@ Status make_film(const std::string& session, const std::string& language, const 
     if (!view.empty()) command.insert(command.end(), {"--view", view});
     if (!language.empty()) command.insert(command.end(), {"--language", language});
     BOLT_TRY_ASSIGN(const auto done, run_program(command, Capture::output_and_errors));
-    return done.exit_code == 0 ? Status() : fail(ErrorCode::failed, done.output);
+    return done.exit_code == 0 ? Status() : fail(ErrorCode::failed, done.output, "a film");
 }
 
 Status run_open(const OpenArguments& options) {
@@ -62,7 +62,8 @@ Status run_open(const OpenArguments& options) {
     BOLT_TRY(view::run_in_window(*viewer, window, instance,
                                  {.gpu = options.gpu, .stop = [] { return interrupted(); }}));
     return instance.log().messages.empty() ? Status()
-                                           : fail(ErrorCode::failed, instance.log().messages.front());
+                                           : fail(ErrorCode::failed, instance.log().messages.front(),
+                                                  "no message of the validation layer");
 }
 
 }  // namespace

@@ -78,17 +78,17 @@ Result<const assets::Animation*> find_animation(const assets::Model& model, cons
                              : fmt::format("did you mean \"{}\"?", near));
 }
 
-struct FrameTime {
+struct TimedFrame {
     double milliseconds = 0.0;
     std::vector<gpu::PassTiming> passes;
 };
 
 std::string timings_json(const std::string& device, const render::Statistics& statistics,
-                         const std::vector<FrameTime>& times) {
+                         const std::vector<TimedFrame>& times) {
     nlohmann::ordered_json json{
         {"device", device}, {"triangles", statistics.triangles}, {"draws", statistics.draws}};
     std::vector<double> sorted;
-    for (const FrameTime& time : times) {
+    for (const TimedFrame& time : times) {
         nlohmann::ordered_json passes = nlohmann::ordered_json::object();
         for (const gpu::PassTiming& pass : time.passes)  // a pass has one entry for each view
             passes[pass.name] = passes.value(pass.name, 0.0) + pass.milliseconds;
@@ -251,7 +251,7 @@ Status draw_view(Drawing& drawing, const view::Viewpoint& view, std::size_t view
         view::separate_labels(*drawing.fonts, scene.labels, eyes.front(),
                               {drawing.extent.width, drawing.extent.height});
     std::vector<render::Picture> pictures;
-    std::vector<FrameTime> times;
+    std::vector<TimedFrame> times;
     for (int frame = 0; frame < options.frames; ++frame) {
         const auto start = std::chrono::steady_clock::now();
         BOLT_TRY_ASSIGN(auto taken,
@@ -286,7 +286,9 @@ Status render_all(RenderOptions options) {
     BOLT_TRY_ASSIGN(const auto views, viewpoints(options, model, shown->box, drawing.aspect));
     for (const view::Viewpoint& view : views) BOLT_TRY(draw_view(drawing, view, views.size()));
     (void)gpu.renderer->save_pipelines();  // a failure only slows down the next start
-    if (!instance->log().messages.empty()) return fail(ErrorCode::failed, instance->log().messages.front());
+    if (!instance->log().messages.empty())
+        return fail(ErrorCode::failed, instance->log().messages.front(),
+                    "no message of the validation layer");
     return {};
 }
 

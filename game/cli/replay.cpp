@@ -60,7 +60,8 @@ Status merge_film(const std::string& pictures, const std::string& sound, const s
                                  sound, "-c:v", "copy", "-movflags", "+faststart", film},
                                 Capture::output_and_errors));
     if (done.exit_code != 0)
-        return fail(ErrorCode::failed, fmt::format("ffmpeg could not write {}: {}", film, done.output));
+        return fail(ErrorCode::failed, fmt::format("ffmpeg could not write {}: {}", film, done.output),
+                    "free space, and an ffmpeg with x264");
     return {};
 }
 
@@ -98,7 +99,8 @@ class ReplayCamera {
             return fail(ErrorCode::usage, "the session ends before the first picture",
                         "an earlier --at or --from");
         if (encoder_ && encoder_->finish() != 0)
-            return fail(ErrorCode::failed, "ffmpeg could not write the film");
+            return fail(ErrorCode::failed, "ffmpeg could not write the film",
+                        "free space, and an ffmpeg with x264");
         if (!options_.png.empty()) BOLT_TRY(view::write_picture(last_, options_.png));
         return film_.check_validation();
     }

@@ -79,6 +79,7 @@ int run_export(const std::string& file, const std::string& csv, std::uint64_t ev
     std::FILE* out = std::fopen(csv.c_str(), "wb");
     Error error;
     error.file = csv;
+    error.expected = "a path that this user may write to, and free space";
     if (out == nullptr) {
         error.what = std::string("cannot be written: ") + std::strerror(errno);
         return print_error(error);

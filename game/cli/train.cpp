@@ -106,6 +106,7 @@ Status make_folder(const std::filesystem::path& out) {
         Error error;
         error.file = out.string();
         error.what = "this folder cannot be created: " + problem.message();
+        error.expected = "a folder that this user may write to";
         return fail(error);
     }
     return {};
@@ -232,7 +233,8 @@ Status run_window(WindowRequest request, const Surroundings& surroundings, platf
     catch_interruption();
     StudyDisplay display(desktop, options.quiet);
     BOLT_TRY(run_on_displays(app, *window, instance, run_options, display));
-    if (!instance.log().messages.empty()) return fail(ErrorCode::failed, instance.log().messages.front());
+    if (!instance.log().messages.empty())
+        return fail(ErrorCode::failed, instance.log().messages.front(), "no message of the validation layer");
     return {};
 }
 

@@ -221,9 +221,9 @@ Result<trainees::TrainOptions> train_options(const TrainArguments& options,
     train.lesson.task = options.task == "loosen" ? lesson::Task::loosen : lesson::Task::tighten;
     train.lesson.law = joint::law_named(options.law).value_or(assembly.law);
     train.lesson.seed = options.seed;
-    train.lesson.obstacles = options.no_obstacles ? session::Obstacles::none
-                             : options.obstacles  ? session::Obstacles::required
-                                                  : session::Obstacles::if_any;
+    train.lesson.obstacles = options.no_obstacles ? session::ObstacleUse::none
+                             : options.obstacles  ? session::ObstacleUse::required
+                                                  : session::ObstacleUse::if_any;
     train.lesson.guide = !options.no_guide;
     if (options.view_help) train.view_help = view::make_view_helper();
     Result<trainees::TraineeProfile> trainee = trainees::find_profile(options.trainee_profile);

@@ -132,7 +132,9 @@ Finding disk_finding(const ComputerFacts& facts) {
 Result<GpuFacts> find_gpu() {
     BOLT_TRY_ASSIGN(const auto instance, gpu::Instance::create({}));
     BOLT_TRY_ASSIGN(const auto found, gpu::survey_devices(instance, {}));
-    if (found.choice.index < 0) return fail(ErrorCode::no_device, "no Vulkan device can be used");
+    if (found.choice.index < 0)
+        return fail(ErrorCode::no_device, "no Vulkan device can be used",
+                    "a driver, such as lavapipe of the package mesa-vulkan-drivers");
     const gpu::DeviceCandidate& used = found.candidates[static_cast<std::size_t>(found.choice.index)];
     return GpuFacts{used.name, used.type == VK_PHYSICAL_DEVICE_TYPE_CPU};
 }

@@ -169,7 +169,7 @@ Result<render::Picture> Film::draw(const session::ReplayTick& tick, double secon
 Status Film::check_validation() const {
     const std::vector<std::string>& messages = state_->gpu.instance->log().messages;
     if (messages.empty()) return {};
-    return fail(ErrorCode::failed, messages.front());
+    return fail(ErrorCode::failed, messages.front(), "no message of the validation layer");
 }
 
 }  // namespace bolt::film

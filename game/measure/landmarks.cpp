@@ -141,8 +141,8 @@ Rise settle_linear(const GradientTable& table, Rise range, std::size_t peak, dou
 }
 
 // The first point from which the gradient stays low over an angle of `window`.
-std::optional<CurvePoint> yield_point(const analysis::TorqueCurve& curve, const GradientTable& table,
-                                      const LinearPart& linear, std::size_t after, double window) {
+std::optional<Landmark> yield_point(const analysis::TorqueCurve& curve, const GradientTable& table,
+                                    const LinearPart& linear, std::size_t after, double window) {
     const double low = yield_share * linear.slope;
     std::optional<std::size_t> first;
     for (std::size_t i = after; i < curve.size(); ++i) {
@@ -151,7 +151,7 @@ std::optional<CurvePoint> yield_point(const analysis::TorqueCurve& curve, const 
         else if (!first)
             first = i;
         if (first && i >= *first + 3 && curve.angle[i] - curve.angle[*first] >= window)
-            return CurvePoint{curve.angle[*first], curve.torque[*first]};
+            return Landmark{curve.angle[*first], curve.torque[*first]};
     }
     return std::nullopt;
 }

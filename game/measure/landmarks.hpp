@@ -19,7 +19,7 @@
 
 namespace bolt::measure {
 
-struct CurvePoint {
+struct Landmark {
     double angle = 0.0;   // rad, as in the curve
     double torque = 0.0;  // N·m
 };
@@ -42,12 +42,12 @@ struct LinearPart {
 };
 
 struct Landmarks {
-    CurvePoint peak;                   // highest torque; loosening: breakaway (lowest torque)
-    CurvePoint last;                   // end of the curve
+    Landmark peak;                     // highest torque; loosening: breakaway (lowest torque)
+    Landmark last;                     // end of the curve
     std::optional<FreeTurning> free;   // run-down before the seat; loosening: after the clamp force is gone
     std::optional<LinearPart> linear;  // tightening only, as the next two
     std::optional<double> seat;        // rad; assumes no free torque if the run-down was not recorded
-    std::optional<CurvePoint> yield;   // where it begins
+    std::optional<Landmark> yield;     // where it begins
     std::optional<double> released;    // loosening: rad at which the torque has fallen to 5 % of the peak
     std::string missing;               // why there is no linear part; may be empty
 };

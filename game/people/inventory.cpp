@@ -170,6 +170,7 @@ class Collector {
         Error error;
         error.file = folder.string();
         error.what = "this folder cannot be searched: " + problem.message();
+        error.expected = "a folder that this user may read";
         inventory_.file_errors.push_back(error);
     }
 

@@ -75,6 +75,7 @@ Status copy_one(const fs::path& from, const fs::path& to) {
     Error error;
     error.file = from.string();
     error.what = fmt::format("cannot be copied to {}: {}", to.string(), problem.message());
+    error.expected = "a readable file, a writable folder and free space";
     return fail(std::move(error));
 }
 
@@ -150,6 +151,7 @@ Result<PersonExport> export_person(const DataFolders& folders, const PersonData&
         Error error;
         error.file = out.string();
         error.what = "this folder cannot be created: " + problem.message();
+        error.expected = "a folder that this user may write to";
         return fail(std::move(error));
     }
     fs::permissions(out, fs::perms::owner_all, problem);  // a failure leaves the user's own umask

@@ -112,14 +112,14 @@ std::string error_value(const analysis::StageError& e, double value) {
 }
 
 // " [0.012 … 0.034]"; empty without an interval.
-std::string interval_text(const statistics::Interval& i, int decimals) {
+std::string interval_text(const statistics::ConfidenceInterval& i, int decimals) {
     if (!std::isfinite(i.low)) return "";
     return fmt::format(" [{} … {}]", number(i.low, decimals), number(i.high, decimals));
 }
 
 // "−3.2 % [−4.1 … −2.2]"
-std::string share_text(double share, const statistics::Interval& i) {
-    const statistics::Interval percent{100.0 * i.low, 100.0 * i.high};
+std::string share_text(double share, const statistics::ConfidenceInterval& i) {
+    const statistics::ConfidenceInterval percent{100.0 * i.low, 100.0 * i.high};
     return plot::signed_number(100.0 * share, 1) + " %" + interval_text(percent, 1);
 }
 

@@ -22,11 +22,11 @@ struct ArrowProfile {
 };
 
 // A ring of vertices. `lean`: component of the normal along the arrow, −1 … 1; 0: radial.
-struct Ring {
+struct ArrowRing {
     double at = 0.0, radius = 0.0, lean = 0.0;
 };
 
-void add_ring(assets::Primitive& mesh, const ArrowProfile& profile, const Ring& ring, bool joined) {
+void add_ring(assets::Primitive& mesh, const ArrowProfile& profile, const ArrowRing& ring, bool joined) {
     const Pose pose = profile.spine(ring.at);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const double outward = std::sqrt(1.0 - ring.lean * ring.lean);

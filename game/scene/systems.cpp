@@ -154,11 +154,11 @@ void place_tool(SceneWorld& world, std::size_t tool, const ToolAndHand& state) {
 void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& state) {
     constexpr double change = 0.07;        // s, time constant of a change of posture
     constexpr double max_tremor = 1.2e-3;  // m
-    const hand::Skeleton goal = state.gloved != nullptr ? *state.gloved
-                                : state.wrench
-                                    ? handle_posture(postures, state.handle_posture_index, state.effort)
-                                : state.pinches ? pinch_posture(postures, state.effort)
-                                                : interpolate(postures.open, postures.on_nut, state.closing);
+    const hand::Skeleton goal =
+        state.gloved != nullptr ? *state.gloved
+        : state.wrench          ? handle_posture(postures, state.handle_posture_index, state.effort)
+        : state.pinches         ? pinch_posture(postures, state.effort)
+                                : interpolate(postures.open, postures.on_nut, state.closed_share);
     world.view<SkinnedHand, Transform>().each(
         [&](ecs::Entity entity, SkinnedHand& fingers, Transform& transform) {
             if (world.find<GhostPart>(entity) != nullptr) return;
@@ -194,7 +194,7 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
                     tool.target == world::TargetState::exceeded};
     held.rest = hand.rest;
     held.pinches = hand.pinches;
-    held.closing = hand.closing;
+    held.closed_share = hand.closed_share;
     held.palm = hand.palm;
     held.at_nut = hand.nut.has_value();
     // The wrist is on the palm's side of a straight hand, because at a nut the fingers are bent.

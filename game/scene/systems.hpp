@@ -24,7 +24,7 @@ struct ToolAndHand {
     double seconds = 0.0;                  // since the last frame; changes of posture are smoothed over time
     double effort = 0.0;                   // 0 … 1, Effort::share
     double tremor = 0.0;                   // −1 … 1, Effort::tremor
-    double closing = 0.0;                  // 0 … 1, of the fingers of an empty hand
+    double closed_share = 0.0;             // 0 (open) … 1: the fingers of an empty hand
     // world::GloveHand::joints; null: no glove.
     const hand::Skeleton* gloved = nullptr;
     // The displayed hand stays out of these solids; null: no solids.

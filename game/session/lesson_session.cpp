@@ -124,10 +124,10 @@ Header make_header(const SessionSetup& start, const LessonOptions& options) {
 namespace {
 
 Result<std::optional<ContactModels>> obstacles_of(const content::Assembly& assembly,
-                                                  const servo::Setup& setup, Obstacles obstacles) {
-    if (obstacles == Obstacles::none) return std::nullopt;
+                                                  const servo::Setup& setup, ObstacleUse obstacles) {
+    if (obstacles == ObstacleUse::none) return std::nullopt;
     Result<std::optional<ContactModels>> models = load_contact_models(assembly, setup);
-    if (models && !models->has_value() && obstacles == Obstacles::required)
+    if (models && !models->has_value() && obstacles == ObstacleUse::required)
         return fail(*missing_contact_model(assembly));
     return models;
 }

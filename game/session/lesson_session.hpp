@@ -33,7 +33,7 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
 Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, servo::State& state);
 
 // `if_any`: obstacles if the assembly has contact models.
-enum class Obstacles : std::uint8_t { none, if_any, required };
+enum class ObstacleUse : std::uint8_t { none, if_any, required };
 
 // The recording of an interrupted lesson, to continue it (resume.hpp).
 struct InterruptedLesson {
@@ -52,7 +52,7 @@ struct LessonOptions {
     std::uint64_t seed = 1;
     double dt = 0.001;
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).
-    Obstacles obstacles = Obstacles::none;
+    ObstacleUse obstacles = ObstacleUse::none;
     bool guide = true;               // in guided mode a force guides the hand to the nut
     std::string trainee_profile;     // "person", or the simulated trainee's profile: "expert", …
     std::string trainee;             // as session::Header::trainee

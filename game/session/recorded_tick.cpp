@@ -262,7 +262,8 @@ Result<std::span<const std::byte>> ChunkEncoder::encode(std::uint64_t first_tick
     const std::size_t size =
         ZSTD_compress2(state.zstd.get(), out, state.packed.size() - header_bytes, state.columns.data(), raw);
     if (ZSTD_isError(size) != 0)
-        return fail(ErrorCode::failed, std::string("ticks cannot be compressed: ") + ZSTD_getErrorName(size));
+        return fail(ErrorCode::failed, std::string("ticks cannot be compressed: ") + ZSTD_getErrorName(size),
+                    "free memory");
     return std::span<const std::byte>(state.packed).first(header_bytes + size);
 }
 

@@ -69,7 +69,7 @@ Result<SessionSetup> restore_setup(const SessionReader& session) {
     options.seed = header.seed;
     options.dt = header.dt;
     options.device_limits = *header.device_limits;
-    options.obstacles = header.contact_models->empty() ? Obstacles::none : Obstacles::required;
+    options.obstacles = header.contact_models->empty() ? ObstacleUse::none : ObstacleUse::required;
     Result<SessionSetup> start = prepare_session(assembly, options);
     if (!start) return start;
     if (start->contact_models != *header.contact_models)

@@ -18,7 +18,7 @@ ControllerTip::ControllerTip(ControllerIo io, const Vec3& tip, const TouchOption
 // Waits for one poll.
 Result<ControllerSample> ControllerTip::next_sample() {
     io_.timer.wait(controller_period);
-    if (io_.stop()) return fail(ErrorCode::failed, "the registration was interrupted");
+    if (io_.stop()) return fail(ErrorCode::failed, "the registration was interrupted", "its end");
     BOLT_TRY_ASSIGN(const ControllerSample sample, io_.read());
     if (!origin_moves_) origin_moves_ = sample.origin_moves;
     if (sample.origin_moves != *origin_moves_)
@@ -64,7 +64,7 @@ Result<std::vector<Pose>> ControllerTip::tracked_poses(double seconds) {
     return poses;
 }
 
-Result<PivotFit> ControllerTip::find_tip(const Pivot& pivot) {
+Result<PivotFit> ControllerTip::find_tip(const PivotRequest& pivot) {
     while (true) {
         io_.show(
             fmt::format("Hold {} on a fixed point, {}, and turn {} about the tip in all directions for "

@@ -49,7 +49,7 @@ inline constexpr TouchOptions controller_touch{0.3, 3.0e-3, 5, 1.0};
 inline constexpr double pivot_time = 6.0, max_pivot_rms = 2.0e-3;
 
 // A tip that stays on a fixed point while the user turns the object to which it belongs.
-struct Pivot {
+struct PivotRequest {
     // Names of the tip and the object in requests to the user.
     std::string_view tip = "the tip of the controller", turned = "the controller";
     double max_rms = max_pivot_rms;  // m
@@ -66,7 +66,7 @@ class ControllerTip {
     // Measures the position of a tip in the frame of the grip, and uses it in all later touches: the user
     // keeps the tip on one point and turns the controller about it. Repeats this if the turns do not
     // determine the tip, or if the tip has slipped.
-    Result<PivotFit> find_tip(const Pivot& pivot = {});
+    Result<PivotFit> find_tip(const PivotRequest& pivot = {});
 
     // Shows `request` and waits until point `number`, from 0, is measured. Fails if the tracker is lost, its
     // origin has moved since the first sample, or the user interrupts.

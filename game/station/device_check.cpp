@@ -140,9 +140,10 @@ Result<DeviceCheck> check_device(device::DeviceThread& thread, const DeviceCheck
     }
     const device::DeviceStatus& status = thread.status();
     if (status.state != device::DeviceState::usable)
-        return fail(ErrorCode::no_device, status.fault_message.empty()
-                                              ? check.description.name + " sends nothing"
-                                              : status.fault_message);
+        return fail(
+            ErrorCode::no_device,
+            status.fault_message.empty() ? check.description.name + " sends nothing" : status.fault_message,
+            "a device that sends its state");
     check.health = status.health;
     check.malformed_samples = status.malformed_samples;
     check.writes = status.writes;

@@ -32,7 +32,7 @@ void WornGlove::update() {
         sample_ = sample.number;
         hand::update(measured_, wearer_, sample.frame, sample.time);
         fingers_.joints = hand::joints(wearer_.hand, measured_.angles, {});
-        fingers_.closing = closed_share(measured_.angles);
+        fingers_.closed_share = closed_share(measured_.angles);
         fingers_.measured = true;
     }
     fingers_.lost = fingers_.measured && steady_seconds() - sample.time > hand::GraspOptions{}.silence;

@@ -16,9 +16,9 @@ namespace bolt::station_setup {
 struct WornFingers {
     hand::Skeleton joints;  // in the frame of the wrist
     hand::Side side = hand::Side::right;
-    double closing = 0.0;   // 0 … 1, of closed_share()
-    bool measured = false;  // the glove has sent at least one sample
-    bool lost = false;      // the glove sends no valid samples; the fingers stay as they were last
+    double closed_share = 0.0;  // 0 … 1, of closed_share()
+    bool measured = false;      // the glove has sent at least one sample
+    bool lost = false;          // the glove sends no valid samples; the fingers stay as they were last
 };
 
 // The share by which the four fingers are closed, 0 … 1: the mean of their flexion at MCP and PIP, relative

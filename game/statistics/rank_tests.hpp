@@ -17,8 +17,8 @@ std::vector<double> midranks(std::span<const double> values);
 // An estimate of a location shift with its interval (Hodges and Lehmann 1963).
 struct Shift {
     double estimate = std::numeric_limits<double>::quiet_NaN();
-    Interval interval;        // from one of the averages or differences to another
-    double confidence = 0.0;  // of the interval; exact without ties, below 100 values
+    ConfidenceInterval interval;  // from one of the averages or differences to another
+    double confidence = 0.0;      // of the interval; exact without ties, below 100 values
 };
 
 // Wilcoxon's signed rank test of paired differences.

@@ -37,9 +37,9 @@ MeanDeviation mean_deviation(std::span<const double> values) {
     return m;
 }
 
-Interval bootstrap_interval(std::span<const double> values,
-                            FunctionRef<double(std::span<const double>)> statistic,
-                            const BootstrapOptions& options) {
+ConfidenceInterval bootstrap_interval(std::span<const double> values,
+                                      FunctionRef<double(std::span<const double>)> statistic,
+                                      const BootstrapOptions& options) {
     if (values.empty() || options.resamples == 0) return {};
     Random random(options.seed);
     std::vector<double> sample(values.size()), results(options.resamples);

@@ -28,7 +28,7 @@ struct MeanDeviation {
 };
 MeanDeviation mean_deviation(std::span<const double> values);
 
-struct Interval {
+struct ConfidenceInterval {
     double low = std::numeric_limits<double>::quiet_NaN(), high = low;
 };
 
@@ -40,9 +40,9 @@ struct BootstrapOptions {
 
 // The percentile interval of a statistic (Efron and Tibshirani, An Introduction to the Bootstrap, 1993, ch.
 // 13): its quantiles over samples that are drawn from the values with replacement. NaN without values.
-Interval bootstrap_interval(std::span<const double> values,
-                            FunctionRef<double(std::span<const double>)> statistic,
-                            const BootstrapOptions& options = {});
+ConfidenceInterval bootstrap_interval(std::span<const double> values,
+                                      FunctionRef<double(std::span<const double>)> statistic,
+                                      const BootstrapOptions& options = {});
 
 // The GRIM test (Brown and Heathers, Soc. Psychol. Personal. Sci. 8 (2017) 363): false if no `n` answers in
 // steps of `step` from `low` have a mean that is printed as `mean` with so many decimals.

@@ -142,16 +142,16 @@ Status Participation::complete() {
     const auto incomplete = [&](std::string what, std::string expected) {
         return fail(participant_error(folder_, std::move(what), std::move(expected)));
     };
-    if (step.kind == StepKind::language && progress_.language.empty())
+    if (step.kind == StudyStepKind::language && progress_.language.empty())
         return incomplete("no language was chosen", "one of the study's languages");
-    if (step.kind == StepKind::consent)
+    if (step.kind == StudyStepKind::consent)
         for (std::size_t i = 0; i < study_->consent.at(progress_.language).size(); ++i)
             if (!agreed(i)) return incomplete("a statement is not agreed to", "agreement to all of them");
-    if (step.kind == StepKind::form && first_unanswered() < due_form().items.size())
+    if (step.kind == StudyStepKind::form && first_unanswered() < due_form().items.size())
         return incomplete("an item is not answered", "an answer, or the choice not to answer");
     if (is_lesson(step.kind)) {
         const bool trained =
-            step.kind == StepKind::training && progress_.training >= study_->training->duration;
+            step.kind == StudyStepKind::training && progress_.training >= study_->training->duration;
         if (!trained) return incomplete("the lesson is not finished", "a lesson to its end");
     }
     if (remaining_wait() > 0.0)
@@ -161,8 +161,8 @@ Status Participation::complete() {
 
 const content::StudyLesson& Participation::lesson() const {
     const Step& step = *due();
-    if (step.kind == StepKind::training) return study_->training->lesson;
-    if (step.kind == StepKind::retention) return study_->retention->lesson;
+    if (step.kind == StudyStepKind::training) return study_->training->lesson;
+    if (step.kind == StudyStepKind::retention) return study_->retention->lesson;
     return study_->conditions[step.condition].lesson;
 }
 
@@ -224,7 +224,7 @@ Status Participation::end_lesson(const std::map<std::string, double>& measures) 
                            std::isfinite(value) ? std::optional(value) : std::nullopt});
     const auto duration = measures.find("duration_s");
     const double trained = progress_.training + (duration == measures.end() ? 0.0 : duration->second);
-    if (step.kind != StepKind::training || trained >= study_->training->duration)
+    if (step.kind != StudyStepKind::training || trained >= study_->training->duration)
         entries.push_back({JournalKind::step_done, 0, step.id, {}, {}, std::nullopt});
     return append(std::move(entries));
 }
@@ -252,11 +252,11 @@ double Participation::remaining_wait() const {
     const std::size_t index = due_step(steps_, progress_);
     if (index == steps_.size()) return 0.0;
     const Step& step = steps_[index];
-    if (step.kind == StepKind::retention) {
+    if (step.kind == StudyStepKind::retention) {
         const auto due_time = retention_due(*study_, progress_);
         return due_time ? std::max(0.0, static_cast<double>(*due_time) - now) : 0.0;
     }
-    if (step.kind != StepKind::pause || index == 0) return 0.0;
+    if (step.kind != StudyStepKind::pause || index == 0) return 0.0;
     const auto before = progress_.done.find(steps_[index - 1].id);
     const double passed = before == progress_.done.end() ? 0.0 : now - static_cast<double>(before->second);
     return std::clamp(study_->design.shortest_break - std::max(passed, 0.0), 0.0,

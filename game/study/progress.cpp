@@ -18,7 +18,7 @@ void add_forms(const content::Study& study, content::FormTime time, const std::s
     for (std::size_t i = 0; i < study.forms.size(); ++i) {
         if (!study.forms[i].is_at(time)) continue;
         Step step = like;
-        step.kind = StepKind::form;
+        step.kind = StudyStepKind::form;
         step.form = i;
         step.id = prefix + study.forms[i].id;
         steps.push_back(std::move(step));
@@ -28,7 +28,7 @@ void add_forms(const content::Study& study, content::FormTime time, const std::s
 void add_condition(const content::Study& study, std::size_t part, std::size_t condition,
                    std::vector<Step>& steps) {
     const std::string prefix = fmt::format("part-{}/", part + 1);
-    Step step{StepKind::lesson, {}, no_index, part, condition, 0};
+    Step step{StudyStepKind::lesson, {}, no_index, part, condition, 0};
     for (std::size_t lesson = 0; lesson < study.design.lessons; ++lesson) {
         step.lesson = lesson;
         step.id = fmt::format("{}lesson-{}", prefix, lesson + 1);
@@ -41,32 +41,33 @@ void add_condition(const content::Study& study, std::size_t part, std::size_t co
 
 }  // namespace
 
-bool is_lesson(StepKind kind) {
-    return kind == StepKind::lesson || kind == StepKind::training || kind == StepKind::retention;
+bool is_lesson(StudyStepKind kind) {
+    return kind == StudyStepKind::lesson || kind == StudyStepKind::training ||
+           kind == StudyStepKind::retention;
 }
 
 std::vector<Step> steps_of(const content::Study& study, const std::vector<std::size_t>& conditions) {
     using content::FormTime;
-    std::vector<Step> steps{{StepKind::language, "language"},
-                            {StepKind::information, "information"},
-                            {StepKind::consent, "consent"}};
+    std::vector<Step> steps{{StudyStepKind::language, "language"},
+                            {StudyStepKind::information, "information"},
+                            {StudyStepKind::consent, "consent"}};
     add_forms(study, FormTime::before, "before/", {}, steps);
     if (study.training) {
-        steps.push_back({StepKind::training, "training"});
+        steps.push_back({StudyStepKind::training, "training"});
         add_forms(study, FormTime::after_training, "training/", {}, steps);
     }
     for (std::size_t part = 0; part < conditions.size(); ++part) {
-        if (part > 0) steps.push_back({StepKind::pause, fmt::format("break-{}", part), no_index, part});
+        if (part > 0) steps.push_back({StudyStepKind::pause, fmt::format("break-{}", part), no_index, part});
         add_condition(study, part, conditions[part], steps);
     }
     add_forms(study, FormTime::after, "after/", {}, steps);
-    steps.push_back({StepKind::comment, "comment"});
+    steps.push_back({StudyStepKind::comment, "comment"});
     if (study.retention) {
-        steps.push_back({StepKind::end_of_visit, "end-of-visit"});
-        steps.push_back({StepKind::retention, "retention"});
+        steps.push_back({StudyStepKind::end_of_visit, "end-of-visit"});
+        steps.push_back({StudyStepKind::retention, "retention"});
         add_forms(study, FormTime::retention, "retention/", {}, steps);
     }
-    steps.push_back({StepKind::farewell, "farewell"});
+    steps.push_back({StudyStepKind::farewell, "farewell"});
     return steps;
 }
 

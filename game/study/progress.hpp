@@ -15,7 +15,7 @@
 
 namespace bolt::study {
 
-enum class StepKind : std::uint8_t {
+enum class StudyStepKind : std::uint8_t {
     language,     // choice among the languages in which everything can be read
     information,  // a text to read
     consent,      // statements to agree to
@@ -30,12 +30,12 @@ enum class StepKind : std::uint8_t {
 };
 
 // Returns true if a lesson is played in the step.
-bool is_lesson(StepKind kind);
+bool is_lesson(StudyStepKind kind);
 
 inline constexpr std::size_t no_index = std::numeric_limits<std::size_t>::max();
 
 struct Step {
-    StepKind kind = StepKind::information;
+    StudyStepKind kind = StudyStepKind::information;
     std::string id;                    // unique in the study: "part-2/lesson-1"
     std::size_t form = no_index;       // index into Study::forms
     std::size_t part = no_index;       // counts the participant's conditions from 0; none outside of them

@@ -137,7 +137,7 @@ session::LessonOptions lesson_options(const content::StudyLesson& lesson, joint:
                                                : lesson::Mode::assessment;
     options.task = lesson.task == "loosen" ? lesson::Task::loosen : lesson::Task::tighten;
     options.law = joint::law_named(lesson.law).value_or(assembly_law);
-    options.obstacles = session::Obstacles::if_any;
+    options.obstacles = session::ObstacleUse::if_any;
     options.guide = lesson.guide;
     return options;
 }
@@ -200,11 +200,11 @@ std::vector<Error> check_equipment(const content::Study& study, const fs::path& 
                                    std::span<const Step> steps, const EquipmentCheck& equipment) {
     std::vector<Error> errors;
     for (const Step& step : steps) {
-        if (step.kind == StepKind::training)
+        if (step.kind == StudyStepKind::training)
             add_missing({{}, "/training", &study.training->lesson}, folder, equipment, errors);
-        if (step.kind == StepKind::retention)
+        if (step.kind == StudyStepKind::retention)
             add_missing({{}, "/retention", &study.retention->lesson}, folder, equipment, errors);
-        if (step.kind == StepKind::lesson)
+        if (step.kind == StudyStepKind::lesson)
             add_missing(
                 {{}, fmt::format("/conditions/{}", step.condition), &study.conditions[step.condition].lesson},
                 folder, equipment, errors);

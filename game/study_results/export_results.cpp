@@ -17,7 +17,7 @@ ordered_json number(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-ordered_json json_of(const Sample& sample) {
+ordered_json json_of(const MeasureSample& sample) {
     return {{"name", sample.name},
             {"n", sample.values.size()},
             {"min", number(sample.min)},
@@ -34,7 +34,7 @@ ordered_json json_of(const ComparisonResult& result) {
     if (!result.planned->factor.empty()) json["factor"] = result.planned->factor;
     if (!result.planned->interaction.empty()) json["interaction"] = result.planned->interaction;
     for (const content::FormTime time : result.planned->times) json["times"].push_back(content::name(time));
-    for (const Sample& group : result.groups)
+    for (const MeasureSample& group : result.groups)
         json["groups"].push_back({{"name", group.name}, {"median", number(group.quartiles.median)}});
     json["n"] = result.n;
     if (result.signed_rank) {
@@ -112,8 +112,9 @@ std::string results_json(const content::Study& study, const StudyData& data, con
     json["measures"] = ordered_json::array();
     for (const MeasureResult& measure : results.measures) {
         ordered_json entry{{"id", measure.info.id}, {"title", measure.info.title}};
-        for (const Sample& sample : measure.conditions) entry["conditions"].push_back(json_of(sample));
-        for (const Sample& sample : measure.other_times) entry["other_times"].push_back(json_of(sample));
+        for (const MeasureSample& sample : measure.conditions) entry["conditions"].push_back(json_of(sample));
+        for (const MeasureSample& sample : measure.other_times)
+            entry["other_times"].push_back(json_of(sample));
         if (measure.published != nullptr)
             entry["published"] = {
                 {"mean", measure.published->mean},

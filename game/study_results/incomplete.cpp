@@ -20,7 +20,7 @@ std::vector<IncompleteForm> incomplete_forms(const content::Study& study,
     for (const ParticipantState& state : states)
         for (const Step& step : state.steps) {
             const auto answers = state.progress.answers.find(step.id);
-            if (step.kind != StepKind::form || answers == state.progress.answers.end()) continue;
+            if (step.kind != StudyStepKind::form || answers == state.progress.answers.end()) continue;
             const content::Questionnaire& form = study.questionnaires[step.form];
             IncompleteForm one{state.participant, step.id, content::text_in(form.titles), {}, {}, {}};
             for (const content::QuestionnaireItem& item : form.items) {

@@ -56,7 +56,7 @@ void put_lessons(std::string& out, const content::Study& study, const StudyData&
     std::size_t played = 0;
     for (const ParticipantState& state : data.participants)
         for (const Step& step : state.steps)
-            played += step.kind == StepKind::lesson && state.progress.measures.contains(step.id);
+            played += step.kind == StudyStepKind::lesson && state.progress.measures.contains(step.id);
     put(out, "{} of {} planned {} in the conditions {} played. ", played,
         data.participants.size() * study.design.lessons *
             (study.design.subjects == content::StudySubjects::between ? 1 : study.conditions.size()),

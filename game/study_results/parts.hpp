@@ -7,8 +7,8 @@
 namespace bolt::study {
 
 // Describes values; leaves out those that are not finite. Without `bootstrap` the mean has no interval.
-Sample sample_of(std::string name, const std::vector<double>& values,
-                 const statistics::BootstrapOptions* bootstrap);
+MeasureSample sample_of(std::string name, const std::vector<double>& values,
+                        const statistics::BootstrapOptions* bootstrap);
 
 // Between subjects a form at the end belongs to the participant's only condition, unless it is presented in
 // the condition too.

@@ -19,7 +19,7 @@ StudyData simulated_forms(const content::Study& study, const PowerOptions& optio
         state.progress.simulated = true;
         const double trait = random.normal();
         for (const Step& step : state.steps) {
-            if (step.kind != StepKind::form) continue;
+            if (step.kind != StudyStepKind::form) continue;
             const bool between = study.design.subjects == content::StudySubjects::between;
             const std::size_t condition = between ? state.conditions.front() : step.condition;
             if (condition == no_index) continue;

@@ -47,7 +47,7 @@ std::string waiting_text(const content::Study& study, const ParticipantState& st
             "run --participant {} --accept-clock`{}",
             time_text(state.progress.latest), ahead / 86400.0, state.participant, declined);
     const auto due = retention_due(study, state.progress);
-    if (due && state.due < state.steps.size() && state.steps[state.due].kind == StepKind::retention)
+    if (due && state.due < state.steps.size() && state.steps[state.due].kind == StudyStepKind::retention)
         return (*due > now ? "retention test from " : "retention test since ") + local_date(*due) + declined;
     return "last entry " + time_text(state.progress.latest) + declined;
 }

@@ -53,7 +53,7 @@ void add_training(const ParticipantState& state, Observation common, StudyData& 
 }
 
 ObservationTime time_of(const Step& step) {
-    if (step.kind == StepKind::retention || step.id.starts_with("retention/"))
+    if (step.kind == StudyStepKind::retention || step.id.starts_with("retention/"))
         return ObservationTime::retention;
     if (step.condition != no_index) return ObservationTime::condition;
     if (step.id.starts_with("before/")) return ObservationTime::before;
@@ -71,9 +71,9 @@ std::optional<content::ScoreRange> scores_of(const content::Study& study, const 
 
 }  // namespace
 
-Sample sample_of(std::string name, const std::vector<double>& values,
-                 const statistics::BootstrapOptions* bootstrap) {
-    Sample sample;
+MeasureSample sample_of(std::string name, const std::vector<double>& values,
+                        const statistics::BootstrapOptions* bootstrap) {
+    MeasureSample sample;
     sample.name = std::move(name);
     for (const double value : values)
         if (std::isfinite(value)) sample.values.push_back(value);
@@ -124,8 +124,8 @@ StudyData collect(const content::Study& study, std::vector<ParticipantState> sta
                 common.time = ObservationTime::condition;
             common.part = step.part;
             common.lesson = step.lesson;
-            if (step.kind == StepKind::form) add_scores(study, state, step, common, data);
-            if (step.kind == StepKind::lesson || step.kind == StepKind::retention)
+            if (step.kind == StudyStepKind::form) add_scores(study, state, step, common, data);
+            if (step.kind == StudyStepKind::lesson || step.kind == StudyStepKind::retention)
                 add_measures(state, step, common, data);
         }
         common.condition = common.part = no_index;
@@ -192,7 +192,7 @@ Results analyse(const content::Study& study, const StudyData& data,
         for (const ObservationTime time :
              {ObservationTime::before, ObservationTime::after_training, ObservationTime::after,
               ObservationTime::retention, ObservationTime::training}) {
-            Sample sample =
+            MeasureSample sample =
                 sample_of(std::string(name(time)), participant_means(data, {info.id, time}), &bootstrap);
             if (!sample.values.empty() || data.without_score.contains({info.id, time}))
                 measure.other_times.push_back(std::move(sample));

@@ -73,18 +73,18 @@ struct Selection {
 std::vector<double> participant_means(const StudyData& data, const Selection& selection);
 
 // The values of one measure in one condition, one for each participant who has any.
-struct Sample {
+struct MeasureSample {
     std::string name;  // title of the condition, or the time
     std::vector<double> values;
     statistics::Quartiles quartiles;
-    double mean = 0.0, min = 0.0, max = 0.0;  // NaN without values
-    statistics::Interval mean_interval;       // bootstrap
+    double mean = 0.0, min = 0.0, max = 0.0;       // NaN without values
+    statistics::ConfidenceInterval mean_interval;  // bootstrap
 };
 
 struct MeasureResult {
     MeasureInfo info;
-    std::vector<Sample> conditions;   // in the order of the plan
-    std::vector<Sample> other_times;  // with values: before, after training, after, retention
+    std::vector<MeasureSample> conditions;   // in the order of the plan
+    std::vector<MeasureSample> other_times;  // with values: before, after training, after, retention
     const content::PublishedValue* published = nullptr;
     std::optional<bool> published_is_possible{};  // GRIM test; none: it cannot be checked
 };
@@ -92,7 +92,7 @@ struct MeasureResult {
 struct ComparisonResult {
     const content::PlannedComparison* planned = nullptr;
     MeasureInfo info;
-    std::vector<Sample> groups;
+    std::vector<MeasureSample> groups;
     std::size_t n = 0;  // participants in the test
     // One of these, by the design and the number of groups.
     std::optional<statistics::SignedRankTest> signed_rank;

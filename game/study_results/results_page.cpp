@@ -63,7 +63,7 @@ std::string facts(const content::Study& study, const StudyData& data) {
 }
 
 // The row of a measure in one condition: n, minimum, maximum, mean with interval, median, quartiles.
-void put_row(std::string& out, const MeasureResult& measure, const Sample& sample, bool first) {
+void put_row(std::string& out, const MeasureResult& measure, const MeasureSample& sample, bool first) {
     const MeasureInfo& info = measure.info;
     put(out,
         "<tr><td class=\"w\">{}</td><td class=\"w\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
@@ -93,8 +93,8 @@ std::string description_table(const Results& results, bool objective) {
     for (const MeasureResult& measure : results.measures) {
         if (measure.info.definition.empty() == objective) continue;
         bool first = true;
-        for (const std::vector<Sample>* samples : {&measure.conditions, &measure.other_times})
-            for (const Sample& sample : *samples) {
+        for (const std::vector<MeasureSample>* samples : {&measure.conditions, &measure.other_times})
+            for (const MeasureSample& sample : *samples) {
                 if (sample.values.empty() && samples == &measure.conditions && !measure.other_times.empty())
                     continue;  // a form that is not presented in the conditions
                 put_row(rows, measure, sample, first);
@@ -141,12 +141,12 @@ std::string box_plot(const MeasureResult& measure) {
     strips.title = measure.info.title;
     strips.unit = measure.info.unit;
     strips.left = 110.0;
-    std::vector<const Sample*> samples;
-    for (const std::vector<Sample>* all : {&measure.conditions, &measure.other_times})
-        for (const Sample& sample : *all)
+    std::vector<const MeasureSample*> samples;
+    for (const std::vector<MeasureSample>* all : {&measure.conditions, &measure.other_times})
+        for (const MeasureSample& sample : *all)
             if (!sample.values.empty()) samples.push_back(&sample);
     double low = 0.0, high = 0.0;
-    for (const Sample* sample : samples) {
+    for (const MeasureSample* sample : samples) {
         plot::StripRow row;
         row.label = shortened(sample->name, 18);
         const double scale = measure.info.scale;
@@ -169,7 +169,7 @@ std::string box_plots(const Results& results) {
     std::string out = "<h2>Every value</h2>\n<div class=\"grid\">\n";
     for (const MeasureResult& measure : results.measures) {
         const bool any = std::any_of(measure.conditions.begin(), measure.conditions.end(),
-                                     [](const Sample& s) { return !s.values.empty(); });
+                                     [](const MeasureSample& s) { return !s.values.empty(); });
         if (any || !measure.other_times.empty()) out += box_plot(measure);
     }
     return out +
@@ -258,7 +258,7 @@ std::string comparisons_table(const Results& results) {
         "class=\"n\">p</th><th class=\"n\">p (Holm)</th></tr></thead><tbody>\n";
     for (const ComparisonResult& result : results.comparisons) {
         std::string groups, difference = "–";
-        for (const Sample& group : result.groups)
+        for (const MeasureSample& group : result.groups)
             groups += fmt::format("{}{} <span class=\"of\">{}</span>", groups.empty() ? "" : ", ",
                                   plot::escape(group.name), shown(result.info, group.quartiles.median));
         if (result.shift && std::isfinite(result.shift->estimate)) {

@@ -69,21 +69,21 @@ Status do_step(const Simulation& simulation, SimulatedPerson& person) {
     const Step& step = *person.participation.due();
     *person.now += static_cast<std::int64_t>(person.participation.remaining_wait());
     switch (step.kind) {
-        case StepKind::language:
+        case StudyStepKind::language:
             BOLT_TRY(
                 person.participation.choose_language(content::complete_languages(simulation.study).front()));
             break;
-        case StepKind::consent:
+        case StudyStepKind::consent:
             for (std::size_t i = 0; i < simulation.study.consent.begin()->second.size(); ++i)
                 BOLT_TRY(person.participation.agree(i));
             break;
-        case StepKind::form:
+        case StudyStepKind::form:
             return answer_form(simulation, person, step);
-        case StepKind::training:
+        case StudyStepKind::training:
             *person.now += static_cast<std::int64_t>(simulation.study.training->duration);
             return person.participation.end_lesson({{"duration_s", simulation.study.training->duration}});
-        case StepKind::lesson:
-        case StepKind::retention:
+        case StudyStepKind::lesson:
+        case StudyStepKind::retention:
             return play_lesson(simulation, person, step);
         default:
             break;
@@ -95,7 +95,7 @@ Status do_all_steps(Simulation& simulation, SimulatedPerson& person) {
     while (person.participation.due() != nullptr && !simulation.stopped) {
         const Step step = *person.participation.due();
         BOLT_TRY(do_step(simulation, person));
-        if (step.kind != StepKind::lesson && step.kind != StepKind::retention) continue;
+        if (step.kind != StudyStepKind::lesson && step.kind != StudyStepKind::retention) continue;
         const std::lock_guard lock(simulation.progress_mutex);
         if (!simulation.progress(person.participation.participant(), step)) simulation.stopped = true;
     }
@@ -148,7 +148,7 @@ Status simulate(const content::Study& study, const fs::path& folder, const Simul
     work();
     threads.clear();
     for (Status& result : results) BOLT_TRY(std::move(result));
-    if (simulation.stopped) return fail(ErrorCode::failed, "the simulation was stopped");
+    if (simulation.stopped) return fail(ErrorCode::failed, "the simulation was stopped", "its end");
     return {};
 }
 

@@ -73,13 +73,13 @@ bool is_on(const DisplayElement& element, const DisplayReading& reading) {
     return (segments >> static_cast<unsigned>(element.segment) & 1U) != 0;
 }
 
-ToolParts number_parts(double from, double to, double z) {
+ToolModelParts number_parts(double from, double to, double z) {
     constexpr double pitch = 0.85;  // between digits, in heights of a digit
     const double height = std::min(13.0, 0.28 * (to - from)), half = 0.055 * height;
     const auto middle_of = [&](double digit) {
         return 0.5 * (from + to) + (digit - 0.5 * (digit_count - 1)) * pitch * height;
     };
-    ToolParts parts;
+    ToolModelParts parts;
     for (int digit = 0; digit < digit_count; ++digit)
         for (std::size_t i = 0; i < segment_places.size(); ++i) {
             const SegmentPlace& at = segment_places[i];
@@ -95,7 +95,7 @@ ToolParts number_parts(double from, double to, double z) {
     return parts;
 }
 
-ToolParts light_parts(double x, Detail detail) {
+ToolModelParts light_parts(double x, Detail detail) {
     const auto ring = [&](double begin, double end) {
         return lathe_x(
             std::vector<ProfilePoint>{{begin, 13.2}, {begin + 0.5, 14.4}, {end - 0.3, 14.4}, {end, 13.6}},

@@ -31,9 +31,9 @@ std::optional<DisplayElement> display_element(std::string_view node);
 bool is_on(const DisplayElement& element, const DisplayReading& reading);
 
 // The parts of the number on a screen from x = `from` to `to` whose face is at the height z. Millimetres.
-ToolParts number_parts(double from, double to, double z);
+ToolModelParts number_parts(double from, double to, double z);
 
 // The two rings of light around a handle along +X, next to each other before a part that begins at x, mm.
-ToolParts light_parts(double x, Detail detail);
+ToolModelParts light_parts(double x, Detail detail);
 
 }  // namespace bolt::tool_models

@@ -63,10 +63,10 @@ Shell knurled_z(double from, double to, double radius, double depth, int teeth, 
 }
 
 // A text around a vertical cylinder, with its middle at −Y.
-void add_text_around(ToolParts& parts, std::string_view text, double height, double radius, double z,
+void add_text_around(ToolModelParts& parts, std::string_view text, double height, double radius, double z,
                      Detail detail) {
     if (detail == Detail::contact) return;
-    ToolPart part{"socket_size", Finish::chrome_vanadium, {}};
+    ToolModelPart part{"socket_size", Finish::chrome_vanadium, {}};
     const double raised = std::max(0.2, 0.05 * height);
     for (Shell& stroke : text_shells(text, height, 0.17 * height, -0.4, raised))
         part.shells.push_back(moved(std::move(stroke), [=](const Vec3& p) {
@@ -81,7 +81,7 @@ double key_bend(double s) { return std::max(1.5 * s, 3.0); }
 
 }  // namespace
 
-ToolParts hex_key_parts(const ToolParameters& p, Detail detail) {
+ToolModelParts hex_key_parts(const ToolParameters& p, Detail detail) {
     const double s = p.size / mm, flat = 0.5 * p.opening / mm, corner = flat / std::cos(pi / 6.0);
     const KeyArms arms = key_arms(p.size);
     const double tip = -0.5 * key_engagement * s;
@@ -110,12 +110,12 @@ ToolParts hex_key_parts(const ToolParameters& p, Detail detail) {
     const double end = p.length / mm;
     add(end - 0.6 * lead, top, 0.5 * pi, 1.0);
     add(end, top, 0.5 * pi, 1.0 - lead / corner);
-    ToolParts parts{{"key", Finish::black_oxide, {loft(loops)}}};
+    ToolModelParts parts{{"key", Finish::black_oxide, {loft(loops)}}};
     add_text(parts, size_text(s), 0.62 * s, bend + 0.35 * (end - bend), top + flat, detail);
     return parts;
 }
 
-ToolParts hex_bit_parts(const ToolParameters& p, Detail detail) {
+ToolModelParts hex_bit_parts(const ToolParameters& p, Detail detail) {
     const double s = p.size / mm, drive = p.drive / mm, flat = 0.5 * p.opening / mm;
     const bool fine = detail == Detail::drawn;
     const double radius = std::max(0.88 * drive, 0.62 * s + 1.0);
@@ -128,8 +128,8 @@ ToolParts hex_bit_parts(const ToolParameters& p, Detail detail) {
     std::vector<ProfilePoint> profile;
     add_outside(profile, body, top, radius, 0.8, fine ? 4 : 2);
     add_square_hole(profile, top, drive);
-    ToolParts parts{{"bit", Finish::black_oxide, {bit}},
-                    {"socket", Finish::chrome_vanadium, {lathe_z(profile, fine ? 64 : 32)}}};
+    ToolModelParts parts{{"bit", Finish::black_oxide, {bit}},
+                         {"socket", Finish::chrome_vanadium, {lathe_z(profile, fine ? 64 : 32)}}};
     add_text_around(parts, size_text(s), 0.4 * drive, radius, body + 0.75 * drive, detail);
     return parts;
 }
@@ -185,12 +185,13 @@ struct RatchetHead {
 RatchetHead ratchet_head(double drive, double low) { return {1.35 * drive + 2.0, low, 1.5 * drive + 3.0}; }
 
 // A round head on the drive, with a lever for the direction.
-ToolParts ratchet_head_parts(const RatchetHead& r, double drive, Detail detail) {
+ToolModelParts ratchet_head_parts(const RatchetHead& r, double drive, Detail detail) {
     const bool fine = detail == Detail::drawn;
     std::vector<ProfilePoint> head;
     add_outside(head, r.low, r.low + r.high, r.radius, 0.12 * r.high, fine ? 5 : 2);
-    ToolParts parts{{"drive", Finish::chrome_vanadium, {square_pin(r.low - 0.9 * drive, r.low + 1.0, drive)}},
-                    {"head", Finish::chrome_vanadium, {lathe_z(head, fine ? 64 : 24)}}};
+    ToolModelParts parts{
+        {"drive", Finish::chrome_vanadium, {square_pin(r.low - 0.9 * drive, r.low + 1.0, drive)}},
+        {"head", Finish::chrome_vanadium, {lathe_z(head, fine ? 64 : 24)}}};
     if (!fine) return parts;
     // The lever and the disc that carries it stand on top of the head.
     const double top = r.low + r.high;
@@ -207,10 +208,11 @@ ToolParts ratchet_head_parts(const RatchetHead& r, double drive, Detail detail) 
 }
 
 // The neck and the grip of a ratchet, to x = `end`.
-ToolParts ratchet_handle_parts(const RatchetHead& head, double drive, int teeth, double end, Detail detail) {
+ToolModelParts ratchet_handle_parts(const RatchetHead& head, double drive, int teeth, double end,
+                                    Detail detail) {
     const bool fine = detail == Detail::drawn;
     const double radius = head.radius, high = head.high, z = head.middle();
-    ToolParts parts;
+    ToolModelParts parts;
     std::vector<HandleSection> neck;
     const double grip_from = 0.45 * end, grip_half = 0.85 * drive + 3.0;
     const int steps = fine ? 16 : 5;
@@ -246,7 +248,7 @@ ToolParts ratchet_handle_parts(const RatchetHead& head, double drive, int teeth,
 }
 
 // A shaft with a square drive below and a square hole above. The origin is in the middle of the lower drive.
-ToolParts shaft_parts(double lower, double upper, double top, Detail detail) {
+ToolModelParts shaft_parts(double lower, double upper, double top, Detail detail) {
     const bool fine = detail == Detail::drawn;
     const double tip = -0.45 * lower, shoulder = 0.45 * lower;
     const double upper_radius = 0.88 * upper, upper_from = std::max(top - 1.6 * upper, shoulder + 1.0);
@@ -256,8 +258,8 @@ ToolParts shaft_parts(double lower, double upper, double top, Detail detail) {
     if (slope_from > shoulder + 1.0) profile.push_back({slope_from, shaft});
     add_outside(profile, upper_from, top, upper_radius, 0.9, fine ? 4 : 2);
     add_square_hole(profile, top, upper);
-    ToolParts parts{{"drive", Finish::chrome_vanadium, {square_pin(tip, shoulder + 1.0, lower)}},
-                    {"shaft", Finish::chrome_vanadium, {lathe_z(profile, fine ? 64 : 32)}}};
+    ToolModelParts parts{{"drive", Finish::chrome_vanadium, {square_pin(tip, shoulder + 1.0, lower)}},
+                         {"shaft", Finish::chrome_vanadium, {lathe_z(profile, fine ? 64 : 32)}}};
     const double knurl = upper_from + 0.45 * (top - upper_from), wide = 0.22 * (top - upper_from);
     parts.push_back({"grip",
                      Finish::chrome_vanadium,
@@ -270,7 +272,7 @@ constexpr double bit_length = 55.0;  // mm, of a bit on a ratchet
 // The parts on the square drive of a ratchet: a socket or a bit, with its extension bar. The drive's shoulder
 // is at the height `top`.
 struct AttachmentParts {
-    ToolParts parts;
+    ToolModelParts parts;
     double top = 0.0;
 };
 
@@ -292,7 +294,7 @@ AttachmentParts attachment_parts(const ToolParameters& p, Detail detail) {
     if (p.extension <= 0.0) return end;
     // A shaft's origin is in the middle of its lower drive.
     const double shoulder = 0.45 * drive, from = end.top + 0.5 - shoulder;
-    for (ToolPart& part : shaft_parts(drive, drive, shoulder + p.extension / mm, detail)) {
+    for (ToolModelPart& part : shaft_parts(drive, drive, shoulder + p.extension / mm, detail)) {
         for (Shell& shell : part.shells)
             shell = moved(std::move(shell), [from](const Vec3& q) { return q + Vec3(0.0, 0.0, from); });
         part.name = "bar_" + part.name;
@@ -302,8 +304,8 @@ AttachmentParts attachment_parts(const ToolParameters& p, Detail detail) {
     return end;
 }
 
-void append(ToolParts& parts, ToolParts more) {
-    for (ToolPart& part : more) parts.push_back(std::move(part));
+void append(ToolModelParts& parts, ToolModelParts more) {
+    for (ToolModelPart& part : more) parts.push_back(std::move(part));
 }
 
 }  // namespace
@@ -327,7 +329,7 @@ RatchetWithAttachment ratchet_with_attachment(const ToolParameters& p, Detail de
     return {std::move(end.parts), head.radius, head.middle(), head.high};
 }
 
-ToolParts ratchet_parts(const ToolParameters& p, Detail detail) {
+ToolModelParts ratchet_parts(const ToolParameters& p, Detail detail) {
     const double drive = p.drive / mm;
     AttachmentParts end = attachment_parts(p, detail);
     const RatchetHead head = ratchet_head(drive, end.top + 0.5);
@@ -336,15 +338,15 @@ ToolParts ratchet_parts(const ToolParameters& p, Detail detail) {
     return std::move(end.parts);
 }
 
-ToolParts extension_bar_parts(const ToolParameters& p, Detail detail) {
+ToolModelParts extension_bar_parts(const ToolParameters& p, Detail detail) {
     const double drive = p.size / mm, top = p.length / mm;
-    ToolParts parts = shaft_parts(drive, drive, top, detail);
+    ToolModelParts parts = shaft_parts(drive, drive, top, detail);
     add_text_around(parts, size_text(drive), 0.6 * drive, 0.72 * drive + 0.6, 0.5 * top - 0.6 * drive,
                     detail);
     return parts;
 }
 
-ToolParts adaptor_parts(const ToolParameters& p, Detail detail) {
+ToolModelParts adaptor_parts(const ToolParameters& p, Detail detail) {
     return shaft_parts(p.size / mm, p.drive / mm, p.length / mm, detail);
 }
 

@@ -34,10 +34,10 @@ constexpr KindInfo kinds[] = {
 constexpr double nut_sizes[] = {5.5, 7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 21, 22,
                                 24,  25, 27, 28, 30, 32, 34, 36, 38, 41, 42, 44, 46, 50, 55, 60};
 // ISO 2936, as in the table iso2936def.csv of the Fasteners workbench of FreeCAD.
-struct KeyRow {
+struct HexKeyRow {
     double size, arm, handle;  // mm
 };
-constexpr KeyRow key_rows[] = {
+constexpr HexKeyRow key_rows[] = {
     {2, 18, 52},   {2.5, 20.5, 58.5}, {3, 23, 66},   {3.5, 25.5, 69.5}, {4, 29, 74},   {4.5, 30.5, 80},
     {5, 33, 85},   {6, 38, 96},       {7, 41, 102},  {8, 44, 108},      {9, 47, 114},  {10, 50, 122},
     {11, 53, 129}, {12, 57, 137},     {13, 63, 145}, {14, 70, 154},     {15, 73, 161}, {16, 76, 168},
@@ -262,7 +262,7 @@ KeyArms key_arms(double size) {
     const double s = size / mm;
     std::size_t i = 0;
     while (i + 2 < std::size(key_rows) && s > key_rows[i + 1].size) ++i;
-    const KeyRow &a = key_rows[i], &b = key_rows[i + 1];
+    const HexKeyRow &a = key_rows[i], &b = key_rows[i + 1];
     const double part = (s - a.size) / (b.size - a.size);
     return {(a.arm + part * (b.arm - a.arm)) * mm, (a.handle + part * (b.handle - a.handle)) * mm,
             same(s, a.size) || same(s, b.size)};

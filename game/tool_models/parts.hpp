@@ -16,12 +16,12 @@ enum class Finish : std::uint8_t { chrome_vanadium, black_oxide, rubber, signal_
 
 enum class Detail : std::uint8_t { drawn, contact };
 
-struct ToolPart {
+struct ToolModelPart {
     std::string name;
     Finish finish = Finish::chrome_vanadium;
     std::vector<Shell> shells;
 };
-using ToolParts = std::vector<ToolPart>;
+using ToolModelParts = std::vector<ToolModelPart>;
 
 // Dimensions of an open-end head; the proportions are those of tools/assets/models/wrench.cpp.
 struct OpenEndHead {
@@ -54,15 +54,15 @@ struct RingHead {
 RingHead ring_head(const ToolParameters& p);
 Shell ring_shell(const RingHead& ring, Detail detail);
 
-ToolParts open_end_parts(const ToolParameters& p, Detail detail);
-ToolParts ring_parts(const ToolParameters& p, Detail detail);
-ToolParts combination_parts(const ToolParameters& p, Detail detail);
-ToolParts hex_key_parts(const ToolParameters& p, Detail detail);
-ToolParts ratchet_parts(const ToolParameters& p, Detail detail);
-ToolParts extension_bar_parts(const ToolParameters& p, Detail detail);
-ToolParts adaptor_parts(const ToolParameters& p, Detail detail);
-ToolParts hex_bit_parts(const ToolParameters& p, Detail detail);
-ToolParts torque_wrench_parts(const ToolParameters& p, Detail detail);
+ToolModelParts open_end_parts(const ToolParameters& p, Detail detail);
+ToolModelParts ring_parts(const ToolParameters& p, Detail detail);
+ToolModelParts combination_parts(const ToolParameters& p, Detail detail);
+ToolModelParts hex_key_parts(const ToolParameters& p, Detail detail);
+ToolModelParts ratchet_parts(const ToolParameters& p, Detail detail);
+ToolModelParts extension_bar_parts(const ToolParameters& p, Detail detail);
+ToolModelParts adaptor_parts(const ToolParameters& p, Detail detail);
+ToolModelParts hex_bit_parts(const ToolParameters& p, Detail detail);
+ToolModelParts torque_wrench_parts(const ToolParameters& p, Detail detail);
 
 // The gripping part of a socket, mm: lower end, end of the flats, chamfer and diameter.
 struct SocketGrip {
@@ -79,17 +79,17 @@ KeyGrip key_grip(const ToolParameters& p);
 // A ratchet head with its socket or bit, for a torque wrench. mm: radius, middle and height of the ratchet
 // head.
 struct RatchetWithAttachment {
-    ToolParts parts;
+    ToolModelParts parts;
     double radius = 0.0, middle = 0.0, high = 0.0;
 };
 RatchetWithAttachment ratchet_with_attachment(const ToolParameters& p, Detail detail);
 
-ToolParts parts_of(const ToolParameters& completed, Detail detail);
+ToolModelParts parts_of(const ToolParameters& completed, Detail detail);
 
 // A size as it is written on a tool: "24", "12.5".
 std::string size_text(double size_mm);
 
 // A part "size" with raised strokes at the height z of a level face, read along +X; none in a contact model.
-void add_text(ToolParts& parts, std::string_view text, double height, double x, double z, Detail detail);
+void add_text(ToolModelParts& parts, std::string_view text, double height, double x, double z, Detail detail);
 
 }  // namespace bolt::tool_models

@@ -140,7 +140,7 @@ void add_node(assets::Model& model, const std::string& name, assets::Primitive p
 
 }  // namespace
 
-ToolParts parts_of(const ToolParameters& p, Detail detail) {
+ToolModelParts parts_of(const ToolParameters& p, Detail detail) {
     switch (p.kind) {
         case ModelKind::open_end_wrench:
             return open_end_parts(p, detail);
@@ -168,7 +168,7 @@ ToolParts parts_of(const ToolParameters& p, Detail detail) {
 assets::Model drawn_model(const ToolParameters& completed) {
     assets::Model model = rooted_model(completed);
     std::vector<Finish> used;
-    for (const ToolPart& part : parts_of(completed, Detail::drawn)) {
+    for (const ToolModelPart& part : parts_of(completed, Detail::drawn)) {
         assets::Primitive primitive;
         for (const Shell& shell : part.shells) append_smooth(shell, primitive);
         const auto found = std::find(used.begin(), used.end(), part.finish);
@@ -184,7 +184,7 @@ assets::Model drawn_model(const ToolParameters& completed) {
 
 assets::Model contact_model(const ToolParameters& completed) {
     assets::Model model = rooted_model(completed);
-    for (const ToolPart& part : parts_of(completed, Detail::contact))
+    for (const ToolModelPart& part : parts_of(completed, Detail::contact))
         for (std::size_t i = 0; i < part.shells.size(); ++i)
             add_node(model, i == 0 ? part.name : fmt::format("{}_{}", part.name, i + 1),
                      bare(part.shells[i]));
@@ -283,7 +283,7 @@ Result<GrippingHead> gripping_head(const ToolParameters& p) {
     }
     if (p.kind == ModelKind::hex_key || measure_of(p) == SizeMeasure::socket_screw) {
         const KeyGrip key = key_grip(p);
-        gripping.head = Key{p.opening, key.tip * mm, key.chamfer * mm, key.length * mm, tooth};
+        gripping.head = HexKey{p.opening, key.tip * mm, key.chamfer * mm, key.length * mm, tooth};
         gripping.head_angle = pi / 6.0;
         return gripping;
     }

@@ -50,7 +50,7 @@ Shell knurled_x(double from, double to, double radius, double depth, int teeth, 
 }
 
 // The insert: the head and the shank that reaches into the holder.
-ToolPart insert_part(const OpenEndHead& head, double end, Detail detail) {
+ToolModelPart insert_part(const OpenEndHead& head, double end, Detail detail) {
     const double edge = std::min(1.6, 0.2 * head.thickness), half = std::min(14.0, 0.8 * head.radius);
     const double from = std::min(head.slot_end() + 0.06 * head.size, 0.8 * head.radius);
     std::vector<HandleSection> shank;
@@ -69,7 +69,7 @@ ToolPart insert_part(const OpenEndHead& head, double end, Detail detail) {
 }
 
 // The adaptor: a socket for the insert's shank and a shank of its own, which reaches into the holder.
-ToolPart adaptor_part(double from, double to, double thickness, Detail detail) {
+ToolModelPart adaptor_part(double from, double to, double thickness, Detail detail) {
     const int steps = detail == Detail::drawn ? 4 : 2;
     const double high = std::max(11.5, 0.5 * thickness + 1.5), socket = std::min(30.0, 0.6 * (to - from));
     return {"adaptor",
@@ -78,7 +78,7 @@ ToolPart adaptor_part(double from, double to, double thickness, Detail detail) {
              block({from + socket - 2.0, -10.0, -8.0}, {to + 6.0, 10.0, 8.0}, 2.0, 1.2, steps)}};
 }
 
-ToolPart holder_part(double from, double to, double thickness, Detail detail) {
+ToolModelPart holder_part(double from, double to, double thickness, Detail detail) {
     const bool fine = detail == Detail::drawn;
     const double length = to - from, high = std::max(13.0, 0.5 * thickness + 2.5);
     const Shell square =
@@ -90,7 +90,7 @@ ToolPart holder_part(double from, double to, double thickness, Detail detail) {
                                                          {from + 0.98 * length, 14.0},
                                                          {to, 13.0}},
                                fine ? 64 : 24);
-    ToolPart part{"holder", Finish::black_oxide, {square, neck}};
+    ToolModelPart part{"holder", Finish::black_oxide, {square, neck}};
     return part;
 }
 
@@ -114,8 +114,8 @@ Shell tube_shell(double from, double to, double flat_from, double flat_to, Detai
 }
 
 // The painted marks of the scale, 40 to 200 N·m.
-ToolPart scale_part(double from, double to) {
-    ToolPart part{"scale", Finish::black_oxide, {}};
+ToolModelPart scale_part(double from, double to) {
+    ToolModelPart part{"scale", Finish::black_oxide, {}};
     const double z = flat_height, pitch = (to - from) / 160.0;
     const double height = std::min(3.4, 14.0 * pitch);
     const auto place = [&](Shell shell, double x, double y) {
@@ -158,11 +158,11 @@ Shell grip_shell(double from, double to, Detail detail) {
                    fine ? 128 : 24);
 }
 
-ToolParts click_parts(const TorqueWrenchEnds& x, Detail detail) {
+ToolModelParts click_parts(const TorqueWrenchEnds& x, Detail detail) {
     const bool fine = detail == Detail::drawn;
     const double room = x.tube - x.holder;
     const double scale_from = x.holder + 0.46 * room, scale_to = x.tube - 0.1 * room;
-    ToolParts parts;
+    ToolModelParts parts;
     parts.push_back(
         {"tube",
          Finish::chrome_vanadium,
@@ -185,10 +185,10 @@ ToolParts click_parts(const TorqueWrenchEnds& x, Detail detail) {
     return parts;
 }
 
-ToolParts electronic_parts(const TorqueWrenchEnds& x, Detail detail) {
+ToolModelParts electronic_parts(const TorqueWrenchEnds& x, Detail detail) {
     const bool fine = detail == Detail::drawn;
     const int steps = fine ? 4 : 2;
-    ToolParts parts;
+    ToolModelParts parts;
     parts.push_back(
         {"tube",
          Finish::chrome_vanadium,
@@ -203,15 +203,16 @@ ToolParts electronic_parts(const TorqueWrenchEnds& x, Detail detail) {
                      Finish::screen,
                      {block({screen_from, -13.0, 17.0}, {screen_to, 13.0, 19.4}, 2.0, 0.3, steps)}});
     if (fine)
-        for (ToolPart& part : number_parts(screen_from, screen_to, 19.4)) parts.push_back(std::move(part));
-    ToolPart keys{"keys", Finish::signal_red, {}};
+        for (ToolModelPart& part : number_parts(screen_from, screen_to, 19.4))
+            parts.push_back(std::move(part));
+    ToolModelPart keys{"keys", Finish::signal_red, {}};
     for (const double y : {-7.0, 7.0}) {
         const double key = from + 0.82 * (to - from), wide = 0.06 * (to - from);
         keys.shells.push_back(
             block({key - wide, y - 4.0, 18.0}, {key + wide, y + 4.0, 20.2}, 2.0, 0.6, steps));
     }
     parts.push_back(std::move(keys));
-    for (ToolPart& part : light_parts(from, detail)) parts.push_back(std::move(part));
+    for (ToolModelPart& part : light_parts(from, detail)) parts.push_back(std::move(part));
     parts.push_back({"grip", Finish::rubber, {grip_shell(x.sleeve - 0.5, x.grip, detail)}});
     parts.push_back(
         {"knob",
@@ -225,18 +226,18 @@ ToolParts electronic_parts(const TorqueWrenchEnds& x, Detail detail) {
 
 namespace {
 
-ToolParts body_parts(const ToolParameters& p, const TorqueWrenchEnds& x, Detail detail) {
+ToolModelParts body_parts(const ToolParameters& p, const TorqueWrenchEnds& x, Detail detail) {
     return p.kind == ModelKind::click_torque_wrench ? click_parts(x, detail) : electronic_parts(x, detail);
 }
 
 // A torque wrench with a ratchet head; its handle is at the height of this head.
-ToolParts ratchet_torque_wrench_parts(const ToolParameters& p, Detail detail) {
+ToolModelParts ratchet_torque_wrench_parts(const ToolParameters& p, Detail detail) {
     RatchetWithAttachment head = ratchet_with_attachment(p, detail);
     const TorqueWrenchEnds x = ends_of(head.radius, 0.0, p.length / mm);
-    ToolParts body = body_parts(p, x, detail);
+    ToolModelParts body = body_parts(p, x, detail);
     const double thickness = 0.8 * head.high;
     body.push_back(holder_part(0.7 * head.radius, x.holder, thickness, detail));
-    for (ToolPart& part : body) {
+    for (ToolModelPart& part : body) {
         for (Shell& shell : part.shells)
             shell = moved(std::move(shell), [&](const Vec3& q) { return q + Vec3(0.0, 0.0, head.middle); });
         if (part.name == "ring") part.name = "band";
@@ -247,11 +248,11 @@ ToolParts ratchet_torque_wrench_parts(const ToolParameters& p, Detail detail) {
 
 }  // namespace
 
-ToolParts torque_wrench_parts(const ToolParameters& p, Detail detail) {
+ToolModelParts torque_wrench_parts(const ToolParameters& p, Detail detail) {
     if (has_ratchet(p)) return ratchet_torque_wrench_parts(p, detail);
     const OpenEndHead head = open_end_head(p);
     const TorqueWrenchEnds x = ends_of(head.middle + head.radius, p.adaptor_length / mm, p.length / mm);
-    ToolParts parts = body_parts(p, x, detail);
+    ToolModelParts parts = body_parts(p, x, detail);
     parts.insert(parts.begin(), {insert_part(head, x.insert, detail),
                                  holder_part(x.adaptor, x.holder, head.thickness, detail)});
     if (x.adaptor > x.insert) parts.push_back(adaptor_part(x.insert, x.adaptor, head.thickness, detail));

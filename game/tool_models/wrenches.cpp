@@ -234,7 +234,7 @@ std::vector<HandleSection> forged_handle(const ToolParameters& p, double from, d
 }
 
 // The size and the steel, raised in the hollows of a forged handle.
-void add_forged_texts(ToolParts& parts, const ToolParameters& p, double from, double to, Detail detail) {
+void add_forged_texts(ToolModelParts& parts, const ToolParameters& p, double from, double to, Detail detail) {
     const HandleSize size = handle_size(p.size / mm);
     const double floor = 0.66 * size.high, height = 0.85 * size.half;
     if (to - from < 8.0 * height) return;
@@ -246,7 +246,7 @@ double neck_texts_from(const ToolParameters& p, double R) { return 0.84 * R + 1.
 
 }  // namespace
 
-ToolParts open_end_parts(const ToolParameters& p, Detail detail) {
+ToolModelParts open_end_parts(const ToolParameters& p, Detail detail) {
     const OpenEndHead head = open_end_head(p);
     const HandleSize size = handle_size(head.size);
     const double round_end = waisted(size.half, 1.0), end = p.length / mm - round_end;
@@ -255,8 +255,8 @@ ToolParts open_end_parts(const ToolParameters& p, Detail detail) {
                       0.5 * head.thickness, end, detail);
     const HandleSection last = sections.back();
     add_round_end(sections, last, detail == Detail::drawn ? 10 : 4);
-    ToolParts parts{{"head", Finish::chrome_vanadium, {open_end_shell(head, 0.42 * size.high, detail)}},
-                    {"handle", Finish::chrome_vanadium, {handle_shell(sections, detail)}}};
+    ToolModelParts parts{{"head", Finish::chrome_vanadium, {open_end_shell(head, 0.42 * size.high, detail)}},
+                         {"handle", Finish::chrome_vanadium, {handle_shell(sections, detail)}}};
     add_forged_texts(parts, p, neck_texts_from(p, head.radius), end - size.half, detail);
     return parts;
 }
@@ -274,7 +274,7 @@ Shell placed_ring(const RingHead& ring, double x, double z, double tilt, Detail 
 
 }  // namespace
 
-ToolParts ring_parts(const ToolParameters& p, Detail detail) {
+ToolModelParts ring_parts(const ToolParameters& p, Detail detail) {
     const RingHead ring = ring_head(p);
     const double s = p.size / mm, R = 0.5 * ring.outside;
     const HandleSize size = handle_size(s);
@@ -303,8 +303,8 @@ ToolParts ring_parts(const ToolParameters& p, Detail detail) {
     }
     const HandleSection last = sections.back();
     add_round_end(sections, last, fine ? 10 : 4);
-    ToolParts parts{{"ring", Finish::chrome_vanadium, {ring_shell(ring, detail)}},
-                    {"handle", Finish::chrome_vanadium, {handle_shell(sections, detail)}}};
+    ToolModelParts parts{{"ring", Finish::chrome_vanadium, {ring_shell(ring, detail)}},
+                         {"handle", Finish::chrome_vanadium, {handle_shell(sections, detail)}}};
     const double first = crank_from + crank, height = 0.75 * half;
     if (end - first > 8.0 * height) {
         const double top = lift + 1.35 * size.high;
@@ -314,7 +314,7 @@ ToolParts ring_parts(const ToolParameters& p, Detail detail) {
     return parts;
 }
 
-ToolParts combination_parts(const ToolParameters& p, Detail detail) {
+ToolModelParts combination_parts(const ToolParameters& p, Detail detail) {
     const OpenEndHead head = open_end_head(p);
     const RingHead ring = ring_head(p);
     const HandleSize size = handle_size(head.size);
@@ -328,16 +328,18 @@ ToolParts combination_parts(const ToolParameters& p, Detail detail) {
                       0.5 * head.thickness, end, detail);
     // The ring's near rim is at the height of the handle.
     const double z = R * std::sin(ring_tilt);
-    ToolParts parts{{"head", Finish::chrome_vanadium, {open_end_shell(head, 0.42 * size.high, detail)}},
-                    {"handle", Finish::chrome_vanadium, {handle_shell(sections, detail)}},
-                    {"ring", Finish::chrome_vanadium, {placed_ring(ring, middle, z, -ring_tilt, detail)}}};
+    ToolModelParts parts{
+        {"head", Finish::chrome_vanadium, {open_end_shell(head, 0.42 * size.high, detail)}},
+        {"handle", Finish::chrome_vanadium, {handle_shell(sections, detail)}},
+        {"ring", Finish::chrome_vanadium, {placed_ring(ring, middle, z, -ring_tilt, detail)}}};
     add_forged_texts(parts, p, neck_texts_from(p, head.radius), end - size.half, detail);
     return parts;
 }
 
 std::string size_text(double size_mm) { return fmt::format("{:g}", size_mm); }
 
-void add_text(ToolParts& parts, std::string_view text, double height, double x, double z, Detail detail) {
+void add_text(ToolModelParts& parts, std::string_view text, double height, double x, double z,
+              Detail detail) {
     if (detail == Detail::contact) return;
     if (parts.back().name != "size") parts.push_back({"size", Finish::chrome_vanadium, {}});
     const double raised = std::max(0.25, 0.06 * height);

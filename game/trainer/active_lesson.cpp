@@ -30,11 +30,11 @@ bool loosening(const session::LessonSession& session) {
 
 // Decides whether a press moves the hand or the view.
 void press(ActiveLesson& active, MouseCommand& command) {
-    active.pointer.drags_hand = active.pointer.nut.has_value() || active.pointer.on_wrench;
+    active.pointer.drags_hand = active.pointer.nut.has_value() || active.pointer.can_take_wrench;
     if (active.pointer.nut) {
         command.nut = active.pointer.nut;
         command.loosens = loosening(*active.session);
-    } else if (active.pointer.on_wrench) {
+    } else if (active.pointer.can_take_wrench) {
         command.take_wrench = true;
     }
 }
@@ -74,7 +74,7 @@ DragScene drag_scene(const scene::SceneWorld& world, const ActiveLesson& active,
     scene.projection = projection;
     scene.wrench = hand_of(active).wrench;
     scene.tool = scene.wrench ? tool_of(active).pose : client.latest.commanded_tool;
-    scene.points_at_reachable = active.pointer.on_wrench || active.pointer.nut.has_value();
+    scene.points_at_reachable = active.pointer.can_take_wrench || active.pointer.nut.has_value();
     scene.engaged = client.latest.output.joint >= 0;
     if (const auto nut = hand_of(active).nut)
         scene.nut = force::Pivot{world::nut_centre(world, setup, *nut), setup.nuts[*nut].axis};
@@ -134,7 +134,8 @@ void update_pointer(const scene::SceneWorld& world, ActiveLesson& active, const 
     active.pointer.nut = nut_at(projection, pointer, setup, nut_centres(world, setup));
     const Vec3 end = hand_of(active).rest * Vec3(setup.wrench.handle_length, 0.0, 0.0);
     const auto off = pixels_to_segment(projection, pointer, hand_of(active).rest.position, end);
-    active.pointer.on_wrench = !hand_of(active).wrench && !active.pointer.nut && off && *off < wrench_reach;
+    active.pointer.can_take_wrench =
+        !hand_of(active).wrench && !active.pointer.nut && off && *off < wrench_reach;
 }
 
 // Handles the input for a station's hand, which a device moves, or the mouse through a simulated arm.
@@ -145,7 +146,8 @@ void handle_station_input(const scene::SceneWorld& world, const LessonFrame& fra
     StationClient& client = *active.station;
     // A device has no pointer: its hand takes what is beside it.
     if (!client.dragged || active.pointer.nut != hand_of(active).nut) active.pointer.nut.reset();
-    active.pointer.on_wrench = client.near_wrench && (active.pointer.on_wrench || !client.dragged);
+    active.pointer.can_take_wrench =
+        client.near_wrench && (active.pointer.can_take_wrench || !client.dragged);
     active.pointer.drags_hand = client.dragged.has_value();
     if (client.dragged && !active.clock.paused)
         drag_hand(*client.dragged,
@@ -405,9 +407,9 @@ void guidance_system(scene::SceneWorld& world, LessonFrame& frame) {
         scene::outline_joint(world, i, color);
     }
     const bool take_wrench_hint = hint != nullptr && hint->arrow() == lesson::HintMotion::take;
-    scene::outline_tool(world, active.pointer.on_wrench ? pointer_color
-                               : take_wrench_hint       ? active.palette.due
-                                                        : no_color);
+    scene::outline_tool(world, active.pointer.can_take_wrench ? pointer_color
+                               : take_wrench_hint             ? active.palette.due
+                                                              : no_color);
     show_hint_visuals(world, active, hint);
     scene::show_dial(world, scene::dial_of(lesson, active.session->setup(), world, active.palette));
     show_force(world, active, frame.seconds);

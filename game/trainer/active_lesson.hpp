@@ -38,7 +38,7 @@ struct PointerState {
     std::optional<std::size_t> nut;  // under the pointer
     // The wrench at rest is under the pointer (helped hand), within reach of the hand (device or tracked
     // hand), or both (dragged hand).
-    bool on_wrench = false;
+    bool can_take_wrench = false;
 };
 
 // Lesson time compared with real time.

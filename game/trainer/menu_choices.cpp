@@ -25,10 +25,10 @@ float label_width(const ScreenContext& context) {
 }
 
 // A label with buttons beside it, of which one is chosen. Buttons that do not fit go into another line.
-class ChoiceRow {
+class ChoiceButtons {
   public:
     // `width`: px, of label and buttons.
-    ChoiceRow(const ScreenContext& context, const std::string& label, float width)
+    ChoiceButtons(const ScreenContext& context, const std::string& label, float width)
         : left_(ImGui::GetCursorPosX() + label_width(context)), right_(ImGui::GetCursorPosX() + width) {
         ImGui::AlignTextToFramePadding();
         ImGui::PushStyleColor(ImGuiCol_Text, {muted_text.r, muted_text.g, muted_text.b, 1.0F});
@@ -71,12 +71,12 @@ void text_field(const char* id, float width, std::string& value) {
 
 void draw_task_and_mode(const ScreenContext& context, float width, LessonChoice& choice) {
     const words::Words& words = context.words;
-    ChoiceRow tasks(context, words["menu.task"], width);
+    ChoiceButtons tasks(context, words["menu.task"], width);
     for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen}) {
         if (tasks.button(words[lesson::text_key(task)], choice.task == task)) choice.task = task;
         note_widget(context, lesson::text_key(task));
     }
-    ChoiceRow modes(context, words["menu.mode"], width);
+    ChoiceButtons modes(context, words["menu.mode"], width);
     for (const lesson::Mode mode : {lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment}) {
         if (modes.button(words[lesson::text_key(mode)], choice.mode == mode)) choice.mode = mode;
         note_widget(context, lesson::text_key(mode));
@@ -94,7 +94,7 @@ void draw_task_and_mode(const ScreenContext& context, float width, LessonChoice&
 void draw_laws(const ScreenContext& context, float width, joint::Law assembly_law, LessonChoice& choice,
                content::TraineeSettings& settings) {
     const joint::Law selected = effective_law(choice, settings, assembly_law);
-    ChoiceRow row(context, context.words["menu.law"], width);
+    ChoiceButtons row(context, context.words["menu.law"], width);
     for (const auto& [key, law] : {std::pair{words::TextKey("menu.law.mechanistic"), joint::Law::mechanistic},
                                    std::pair{words::TextKey("menu.law.published"), joint::Law::published}}) {
         if (row.button(context.words[key], selected == law)) {
@@ -122,7 +122,7 @@ void draw_variants_and_tools(const ScreenContext& context, float width, const As
                              LessonChoice& choice) {
     const std::string& language = context.words.language;
     if (entry.variants.size() > 1) {
-        ChoiceRow row(context, context.words["menu.variant"], width);
+        ChoiceButtons row(context, context.words["menu.variant"], width);
         for (const VariantEntry& listed : entry.variants) {
             const content::AssemblyVariant& variant = listed.variant;
             const std::string value = variant.name == entry.default_variant ? std::string() : variant.name;
@@ -135,7 +135,7 @@ void draw_variants_and_tools(const ScreenContext& context, float width, const As
     }
     const std::vector<content::Tool>& tools = variant_of(entry, choice.variant).tools;
     if (tools.size() > 1) {
-        ChoiceRow row(context, context.words["menu.tool"], width);
+        ChoiceButtons row(context, context.words["menu.tool"], width);
         for (const content::Tool& tool : tools) {
             const std::string value = tool.name == tools.front().name ? std::string() : tool.name;
             if (row.button(in_language(tool.title, language, tool.name), choice.tool == value))
@@ -152,7 +152,7 @@ words::TextKey hand_key(HandMode hand) {
 
 void draw_devices(const ScreenContext& context, float width, std::span<const DeviceOption> devices,
                   Equipment& equipment) {
-    ChoiceRow row(context, context.words["menu.device"], width);
+    ChoiceButtons row(context, context.words["menu.device"], width);
     for (const DeviceOption& option : devices) {
         const std::string name =
             option.name.empty() ? context.words[hand_key(option.equipment.hand)] : option.name;
@@ -173,7 +173,7 @@ ScreenAction draw_trainee(const ScreenContext& context, float width, const Selec
     const std::string shown_code =
         words::format_text(context.words, "menu.trainee.code", {{"code", code.empty() ? "T-000000" : code}});
     const float beside = ImGui::CalcTextSize(shown_code.c_str()).x + 8.0F * context.scale;
-    ChoiceRow row(context, context.words["menu.trainee"], width);
+    ChoiceButtons row(context, context.words["menu.trainee"], width);
     text_field("##trainee", width - label_width(context) - beside, choice.trainee);
     note_widget(context, "menu.trainee");
     const bool entered = ImGui::IsItemDeactivatedAfterEdit();

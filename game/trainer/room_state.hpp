@@ -100,9 +100,9 @@ inline constexpr double raise_step = 0.05;  // m, by a key or a button
 void raise(RoomState& room, double height);
 
 // The pose of the scene in the room, when the arm's frame is registered to it: the end of the handle is shown
-// where the hand is. `room_from_arm`: the registration; `arm_in_scene`: StationTick::mover_in_assembly.
-inline Pose registered_scene(const Pose& room_from_arm, const Pose& arm_in_scene) {
-    return room_from_arm * inverse(arm_in_scene);
+// where the hand is. `arm_in_room`: the registration; `arm_in_scene`: StationTick::mover_in_assembly.
+inline Pose registered_scene(const Pose& arm_in_room, const Pose& arm_in_scene) {
+    return arm_in_room * inverse(arm_in_scene);
 }
 
 // The point, px, where a ray along −z of `aim` meets the panel; none: it does not.

@@ -162,7 +162,7 @@ WorkingHand hand_of(const StationClient& client) {
     hand.rest = client.latest.resting_wrench.value_or(client.rest);
     if (client.tracked && client.tracked->motion.target)
         hand.palm = hand.pose * palm_joint_at_fingertips(client.tracked->side);
-    if (client.has_gripper) hand.closing = 1.0 - client.latest.gripper.opening;
+    if (client.has_gripper) hand.closed_share = 1.0 - client.latest.gripper.opening;
     if (client.gloved && engaged && client.latest.input.grip == servo::Grip::fingers)
         hand.free_swing = std::max(
             0.0, forearm_range - std::abs(client.latest.output.nut_angle - client.nut_angle_at_grip));

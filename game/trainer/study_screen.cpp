@@ -272,13 +272,13 @@ ScreenAction StudyScreen::draw_lesson(const ScreenContext& context, const study:
     const content::Study& study = participation_.study();
     const auto minutes = [](double seconds) { return Number{seconds / 60.0, 0}; };
     bool ready = true;
-    if (step.kind == study::StepKind::training) {
+    if (step.kind == study::StudyStepKind::training) {
         draw_heading(context, context.words["study.training"]);
         draw_wrapped(words::format_text(context.words, "study.trained",
                                         {{"done", minutes(participation_.progress().training)},
                                          {"of", minutes(study.training->duration)}}),
                      muted_text);
-    } else if (step.kind == study::StepKind::retention) {
+    } else if (step.kind == study::StudyStepKind::retention) {
         draw_heading(context, context.words["study.retention"]);
         ready = participation_.remaining_wait() <= 0.0;
         const auto date = study::retention_due(study, participation_.progress());
@@ -321,7 +321,7 @@ void StudyScreen::draw_comment(const ScreenContext& context) {
 }
 
 ScreenAction StudyScreen::draw_last_pages(const ScreenContext& context, const study::Step& step) {
-    const bool farewell = step.kind == study::StepKind::farewell;
+    const bool farewell = step.kind == study::StudyStepKind::farewell;
     draw_heading(context, participation_.text(participation_.study().titles));
     draw_wrapped(farewell ? words::format_text(context.words, "study.farewell",
                                                {{"participant", participation_.participant()}})
@@ -361,30 +361,30 @@ ScreenAction StudyScreen::draw_stop_dialog(const ScreenContext& context) {
 
 ScreenAction StudyScreen::draw_step(const ScreenContext& context, const study::Step& step) {
     switch (step.kind) {
-        case study::StepKind::language:
+        case study::StudyStepKind::language:
             draw_language(context);
             return ScreenAction::none;
-        case study::StepKind::information:
+        case study::StudyStepKind::information:
             draw_information(context);
             return ScreenAction::none;
-        case study::StepKind::consent:
+        case study::StudyStepKind::consent:
             draw_consent(context);
             return ScreenAction::none;
-        case study::StepKind::form:
+        case study::StudyStepKind::form:
             draw_form(context, participation_.study().questionnaires[step.form]);
             return ScreenAction::none;
-        case study::StepKind::training:
-        case study::StepKind::lesson:
-        case study::StepKind::retention:
+        case study::StudyStepKind::training:
+        case study::StudyStepKind::lesson:
+        case study::StudyStepKind::retention:
             return draw_lesson(context, step);
-        case study::StepKind::pause:
+        case study::StudyStepKind::pause:
             draw_break(context);
             return ScreenAction::none;
-        case study::StepKind::comment:
+        case study::StudyStepKind::comment:
             draw_comment(context);
             return ScreenAction::none;
-        case study::StepKind::end_of_visit:
-        case study::StepKind::farewell:
+        case study::StudyStepKind::end_of_visit:
+        case study::StudyStepKind::farewell:
             break;
     }
     return draw_last_pages(context, step);
@@ -429,7 +429,7 @@ ScreenAction StudyScreen::draw(const ScreenContext& context, const LessonDisplay
         if (step.id != shown_step_) {
             shown_step_ = step.id;
             if (on_step_) on_step_();
-            item_ = step.kind == study::StepKind::form ? participation_.first_unanswered() : 0;
+            item_ = step.kind == study::StudyStepKind::form ? participation_.first_unanswered() : 0;
         }
         action = draw_step(context, step);
     }

@@ -32,7 +32,7 @@ void show_phase(TouchCheck& check, TouchPhase phase) {
 // Collects positions for the duration of a touch, and for longer if slow frames give too few of them.
 void measure(TouchCheck& check, const std::optional<station::MoverSample>& mover) {
     const station_setup::TouchOptions options;
-    if (mover) check.touched.push_back(check.room_from_arm * (mover->pose * check.tip));
+    if (mover) check.touched.push_back(check.arm_in_room * (mover->pose * check.tip));
     if (mover && (check.shown_for < options.duration || check.touched.size() < options.min_samples)) return;
     const Result<Vec3> mean = station_setup::average_touch(check.touched, options);
     check.moved = !mover || !mean;
@@ -51,7 +51,7 @@ std::optional<TouchCheck> touch_check_of(const content::Registration& registrati
     if (!found || !found->check_point) return std::nullopt;
     TouchCheck check;
     check.marker = found->check_point->to;
-    check.room_from_arm = found->pose;
+    check.arm_in_room = found->pose;
     check.tip = found->tip;
     return check;
 }
@@ -168,7 +168,7 @@ void show_touch_marker(render::Scene& scene, const scene::GpuLessonModels& model
     add_label(scene, room_in_scene * (check.marker + Vec3(0.0, marker_length + touch_label_gap, 0.0)),
               view.words["touch.mark"], marker_color);
     if (!view.handle) return;
-    const Pose handle = check.room_from_arm * *view.handle;
+    const Pose handle = check.arm_in_room * *view.handle;
     const Vec3 tip = handle * check.tip;
     if (glm::distance(tip, check.marker) < hidden_tip_distance) return;
     // From the handle to the tip; from above if the tip is the handle's own point.

@@ -24,9 +24,9 @@ enum class TouchPhase : std::uint8_t {
 };
 
 struct TouchCheck {
-    Vec3 marker{0.0};    // m, the check point in the room
-    Pose room_from_arm;  // the registration
-    Vec3 tip{0.0};       // m, in the frame of the arm's handle
+    Vec3 marker{0.0};  // m, the check point in the room
+    Pose arm_in_room;  // the registration
+    Vec3 tip{0.0};     // m, in the frame of the arm's handle
 
     TouchPhase phase = TouchPhase::waiting;
     bool moved = false;         // the hand moved in the last touch

@@ -31,7 +31,7 @@ Quat grip_at_palm_joint(xr::Side side) {
 
 }  // namespace
 
-double closure(const xr::HandInput& hand) {
+double closed_share(const xr::HandInput& hand) {
     double by_fingers = 0.0;
     if (hand.joints) {
         const xr::HandJoint &thumb = (*hand.joints)[thumb_tip], &index = (*hand.joints)[index_tip];
@@ -79,7 +79,7 @@ xr::HandInput with_glove(const xr::Hands& hands, const station_setup::WornFinger
                 inverse(palm_at_wrist);
     }
     xr::HandInput gloved;
-    gloved.grasp = static_cast<float>(fingers.closing);
+    gloved.grasp = static_cast<float>(fingers.closed_share);
     gloved.active = wrist.has_value();
     if (!wrist) return gloved;
     xr::HandJoints& joints = gloved.joints.emplace();
@@ -119,7 +119,7 @@ std::optional<hand::Skeleton> skeleton_of(const xr::HandInput& hand, const Pose&
 void track_hand(TrackedHand& tracked, const TrackedHandInput& input) {
     const std::optional<Pose> palm = palm_of(input.hand, tracked.side);
     tracked.present = palm.has_value();
-    tracked.motion.gripper = palm ? 1.0 - closure(input.hand) : 1.0;
+    tracked.motion.gripper = palm ? 1.0 - closed_share(input.hand) : 1.0;
     if (!palm) return;
     const Pose hand = input.room_in_assembly * *palm;
     tracked.joints = skeleton_of(input.hand, input.room_in_assembly);

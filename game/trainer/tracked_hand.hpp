@@ -29,8 +29,8 @@ struct TrackedHandInput {
     bool engaged = false;   // the tool holds a nut
 };
 
-// The closure of the hand, 0 … 1, from a button of the controller or from the fingers.
-double closure(const xr::HandInput& hand);
+// How far the hand is closed, 0 (open) … 1, from a button of the controller or from the fingers.
+double closed_share(const xr::HandInput& hand);
 
 // The pose of the palm in the room; none: not tracked. It is the controller's grip pose, or made from the
 // palm joint of XR_EXT_hand_tracking. Its axes are those of OpenXR's grip pose: X out of a left palm and into

@@ -33,23 +33,23 @@ enum class MessageKind : std::uint8_t {
     end,      // the first process ends; the reason
 };
 
-enum class EventKind : std::uint8_t { key, text, close };
+enum class SentEventKind : std::uint8_t { key, text, close };
 
 void put_events(MessageWriter& message, std::span<const InputEvent> events) {
     std::uint32_t count = 0;
     MessageWriter kept;
     for (const InputEvent& event : events) {
         if (const auto* key = std::get_if<platform::KeyEvent>(&event)) {
-            kept.put(EventKind::key);
+            kept.put(SentEventKind::key);
             kept.put(key->key);
             for (const bool state : {key->down, key->repeated, key->modifiers.shift, key->modifiers.control,
                                      key->modifiers.alt, key->modifiers.super})
                 kept.put(state);
         } else if (const auto* text = std::get_if<platform::TextEvent>(&event)) {
-            kept.put(EventKind::text);
+            kept.put(SentEventKind::text);
             kept.put(text->character);
         } else if (std::holds_alternative<platform::CloseEvent>(event)) {
-            kept.put(EventKind::close);
+            kept.put(SentEventKind::close);
         } else {
             continue;
         }
@@ -65,8 +65,8 @@ std::vector<InputEvent> get_events(MessageReader& message) {
     MessageReader kept(bytes);
     std::vector<InputEvent> events;
     for (std::uint32_t i = 0; i < count && kept.ok(); ++i) {
-        switch (kept.get<EventKind>()) {
-            case EventKind::key: {
+        switch (kept.get<SentEventKind>()) {
+            case SentEventKind::key: {
                 platform::KeyEvent key;
                 key.key = kept.get<platform::Key>();
                 if (static_cast<std::size_t>(key.key) >= platform::key_count) kept.mark_damaged();
@@ -76,10 +76,10 @@ std::vector<InputEvent> get_events(MessageReader& message) {
                 events.emplace_back(key);
                 break;
             }
-            case EventKind::text:
+            case SentEventKind::text:
                 events.emplace_back(platform::TextEvent{kept.get<char32_t>()});
                 break;
-            case EventKind::close:
+            case SentEventKind::close:
                 events.emplace_back(platform::CloseEvent{});
                 break;
             default:

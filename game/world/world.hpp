@@ -96,7 +96,7 @@ struct WorkingHand {
     HandAction action = HandAction::resting;
     bool wrench = false;             // the wrench is in the hand
     bool pinches = false;            // the fingers are closed on a nut
-    double closing = 0.0;            // 0 … 1, closure of an empty hand by the gripper of a device
+    double closed_share = 0.0;       // 0 (open) … 1: an empty hand, by the gripper of a device
     std::optional<std::size_t> nut;  // joint that the hand moves to, is at or holds
     Pose pose;                       // commanded pose of the tool or the empty hand
     Pose to;                         // end of a reach

@@ -115,14 +115,15 @@ class SurfaceQueryPass {
         double displacement;  // m; no sample has moved further
         double turn;          // rad
     };
-    [[nodiscard]] SampleMotion motion_of(const Cluster& cluster, const AccumulatedMotion& motion) const {
+    [[nodiscard]] SampleMotion motion_of(const SampleCluster& cluster,
+                                         const AccumulatedMotion& motion) const {
         return {motion.moved + motion.turned * (of_tool_ ? cluster.origin_radius : motion.origin_radius),
                 motion.turned};
     }
 
     void visit(SurfaceQueryCache& cache, const AccumulatedMotion& motion, std::size_t level,
                std::uint32_t i) const {
-        const Cluster& cluster = samples_.levels[level][i];
+        const SampleCluster& cluster = samples_.levels[level][i];
         DistanceBound& bound = cache.levels[level][i];
         const SampleMotion accumulated = motion_of(cluster, motion);
         if (holds(bound, accumulated)) return;
@@ -141,7 +142,7 @@ class SurfaceQueryPass {
     }
 
     DistanceBound query_children(SurfaceQueryCache& cache, const AccumulatedMotion& motion, std::size_t level,
-                                 const Cluster& cluster, const Vec3& middle,
+                                 const SampleCluster& cluster, const Vec3& middle,
                                  const SampleMotion& accumulated) const {
         const double all = lower_bound_of(cluster, middle);
         if (all > band_) return {all + accumulated.displacement, infinite_distance};
@@ -173,7 +174,7 @@ class SurfaceQueryPass {
         return {std::min(a.lower, b.lower), std::min(a.turn, b.turn)};
     }
     // Lower bound of the signed distance of all samples of a cluster, without a query of the surface.
-    [[nodiscard]] double lower_bound_of(const Cluster& all, const Vec3& middle) const {
+    [[nodiscard]] double lower_bound_of(const SampleCluster& all, const Vec3& middle) const {
         const double lower = std::max(distance_to_box(middle), query(octree_, middle, cursor_).lower);
         return lower - all.radius - rounding;
     }
@@ -186,7 +187,7 @@ class SurfaceQueryPass {
     // Queries those samples of a cluster whose bounds no longer hold. `remaining`: m, what remains of the
     // cluster's own bound. If a sample was near at the last query, a new bound of the whole cluster is
     // unlikely to help and is not computed.
-    DistanceBound query_cluster(SurfaceQueryCache& cache, const Cluster& cluster, const Vec3& middle,
+    DistanceBound query_cluster(SurfaceQueryCache& cache, const SampleCluster& cluster, const Vec3& middle,
                                 double remaining, bool near_before, const SampleMotion& accumulated) const {
         const std::span<DistanceBound> sample_bounds =
             std::span(cache.samples).subspan(cluster.begin, cluster.end - cluster.begin);
@@ -205,7 +206,7 @@ class SurfaceQueryPass {
         return bound;
     }
 
-    [[nodiscard]] double cluster_bound(const Cluster& cluster, const Vec3& middle, double bound) const {
+    [[nodiscard]] double cluster_bound(const SampleCluster& cluster, const Vec3& middle, double bound) const {
         const double all = lower_bound_of(cluster, middle);
         if (!octree_.nodes.empty() || all > band_ + cluster_lookahead) return all;
         const double radius =

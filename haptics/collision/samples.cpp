@@ -290,7 +290,8 @@ class ClusterBuilder {
         const auto first = order_.begin();
         std::sort(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(end),
                   [&](std::uint32_t a, std::uint32_t b) { return before(a, b); });
-        Cluster one{middle, 0.0, 0.0, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+        SampleCluster one{middle, 0.0, 0.0, static_cast<std::uint32_t>(begin),
+                          static_cast<std::uint32_t>(end)};
         for (std::size_t i = begin; i < end; ++i)
             for (const Vec3& p : {sample(i).at - half(sample(i)), sample(i).at + half(sample(i))}) {
                 one.radius = std::max(one.radius, glm::length(p - one.middle));
@@ -335,8 +336,8 @@ class ClusterBuilder {
     std::vector<int> axes_;             // of the splits above the current range, the first split first
 };
 
-std::vector<Cluster> group_clusters(const std::vector<Cluster>& clusters) {
-    std::vector<Cluster> groups;
+std::vector<SampleCluster> group_clusters(const std::vector<SampleCluster>& clusters) {
+    std::vector<SampleCluster> groups;
     for (std::size_t begin = 0; begin < clusters.size(); begin += cluster_size) {
         const std::size_t end = std::min(clusters.size(), begin + cluster_size);
         Vec3 low(std::numeric_limits<double>::infinity());
@@ -345,8 +346,8 @@ std::vector<Cluster> group_clusters(const std::vector<Cluster>& clusters) {
             low = glm::min(low, clusters[i].middle - clusters[i].radius);
             high = glm::max(high, clusters[i].middle + clusters[i].radius);
         }
-        Cluster result{0.5 * (low + high), 0.0, 0.0, static_cast<std::uint32_t>(begin),
-                       static_cast<std::uint32_t>(end)};
+        SampleCluster result{0.5 * (low + high), 0.0, 0.0, static_cast<std::uint32_t>(begin),
+                             static_cast<std::uint32_t>(end)};
         for (std::size_t i = begin; i < end; ++i) {
             result.radius =
                 std::max(result.radius, glm::length(clusters[i].middle - result.middle) + clusters[i].radius);

@@ -28,7 +28,7 @@ struct PieceExtent {
 };
 
 // A bounding sphere of samples, including the ends of edge pieces.
-struct Cluster {
+struct SampleCluster {
     Vec3 middle{0.0};            // m
     double radius = 0.0;         // m
     double origin_radius = 0.0;  // m, greatest distance of its samples from the frame's origin
@@ -42,7 +42,7 @@ struct SurfaceSamples {
     std::vector<SurfaceSample> samples;  // those of a cluster are consecutive
     std::vector<PieceExtent> pieces;
     // Level 0 holds samples; the last level has at most cluster_size clusters.
-    std::vector<std::vector<Cluster>> levels;
+    std::vector<std::vector<SampleCluster>> levels;
 };
 
 struct SampleOptions {

@@ -57,7 +57,7 @@ HexagonEdges edges_of(const HexagonPrism& prism) {
     return {corner_radius(prism.across_flats), 0.0, {drop, prism.height - drop}};
 }
 
-HexagonEdges edges_of(const Key& key) {
+HexagonEdges edges_of(const HexKey& key) {
     return {corner_radius(key.width), key_corner, {key.tip + key.chamfer, key.tip + key.length}};
 }
 
@@ -123,7 +123,7 @@ PrismInHole prism_in_hole(const Ring& ring, const HexagonPrism& prism) {
             true};
 }
 
-PrismInHole prism_in_hole(const Key& key, const HexagonSocket& socket) {
+PrismInHole prism_in_hole(const HexKey& key, const HexagonSocket& socket) {
     return {hole_of(socket), edges_of(key), key_corner, sixth, false};
 }
 
@@ -207,7 +207,7 @@ std::size_t contacts_in_hole(const GripQuery& query, const PrismInHole& pair, co
         add_floor_contacts(0.5 * prism.bearing, prism.height, ring->high, {0, 0, 1}, to_hole, query.band,
                            found);
     }
-    if (const Key* key = std::get_if<Key>(&query.head))
+    if (const HexKey* key = std::get_if<HexKey>(&query.head))
         add_floor_contacts(corner_radius(key->width) - key->chamfer, key->tip, pair.hole.flats.low,
                            {0, 0, -1}, to_hole, query.band, found);
     for (std::size_t i = 0; i < found.count; ++i) {
@@ -270,7 +270,7 @@ Result<Convex> disc(double diameter, double low, double high) {
     return make_convex(planes);
 }
 
-Result<Convex> key_solid(const Key& key) {
+Result<Convex> key_solid(const HexKey& key) {
     std::vector<HalfSpace> planes;
     add_ends(key.tip, key.tip + key.length, planes);
     const double diagonal = std::sqrt(0.5);
@@ -286,13 +286,13 @@ Result<Convex> key_solid(const Key& key) {
 }  // namespace
 
 bool grips(const ToolHead& head, const TurnedShape& shape) {
-    return std::holds_alternative<Key>(head) == std::holds_alternative<HexagonSocket>(shape);
+    return std::holds_alternative<HexKey>(head) == std::holds_alternative<HexagonSocket>(shape);
 }
 
 double width_across_flats(const ToolHead& head) {
     return std::visit(
         Overloaded{[](const Jaw& jaw) { return jaw.opening; }, [](const Ring& ring) { return ring.opening; },
-                   [](const Key& key) { return key.width; }},
+                   [](const HexKey& key) { return key.width; }},
         head);
 }
 
@@ -315,13 +315,13 @@ double fitting_angle(const ToolHead& head) {
 double thickness(const ToolHead& head) {
     return std::visit(Overloaded{[](const Jaw& jaw) { return jaw.thickness; },
                                  [](const Ring& ring) { return ring.high - ring.low; },
-                                 [](const Key& key) { return -2.0 * key.tip; }},
+                                 [](const HexKey& key) { return -2.0 * key.tip; }},
                       head);
 }
 
 double grip_height(const ToolHead& head, const TurnedShape& shape) {
     if (const auto* socket = std::get_if<HexagonSocket>(&shape)) {
-        const Key* key = std::get_if<Key>(&head);
+        const HexKey* key = std::get_if<HexKey>(&head);
         const double tip = key != nullptr ? key->tip : -0.5 * socket->depth;
         return socket->mouth - socket->depth - tip + axis_clearance;
     }
@@ -334,7 +334,7 @@ double grip_height(const ToolHead& head, const TurnedShape& shape) {
 }
 
 HeadFit head_fit(const ToolHead& head, const TurnedShape& shape, const Pose& tool) {
-    if (const auto* key = std::get_if<Key>(&head))
+    if (const auto* key = std::get_if<HexKey>(&head))
         return fit_of(prism_in_hole(*key, std::get<HexagonSocket>(shape)), key->tooth_angle, tool);
     const auto& prism = std::get<HexagonPrism>(shape);
     if (const auto* ring = std::get_if<Ring>(&head))
@@ -347,7 +347,7 @@ Result<std::vector<Convex>> head_solids(const ToolHead& head) {
         BOLT_TRY_ASSIGN(auto parts, jaw_parts(*jaw));
         return std::vector<Convex>(parts.begin(), parts.end());
     }
-    if (const Key* key = std::get_if<Key>(&head)) {
+    if (const HexKey* key = std::get_if<HexKey>(&head)) {
         BOLT_TRY_ASSIGN(auto solid, key_solid(*key));
         return std::vector<Convex>{std::move(solid)};
     }
@@ -393,7 +393,7 @@ std::size_t grip_contacts(const GripQuery& query, const Pose& tool, const Pose& 
                           std::span<Contact, max_grip_contacts> out) {
     if (std::holds_alternative<Jaw>(query.head))
         return solid_contacts(query.solids, tool, shape, query.band, query.obstacle, out);
-    const Key* key = std::get_if<Key>(&query.head);
+    const HexKey* key = std::get_if<HexKey>(&query.head);
     PrismInHole pair = key != nullptr
                            ? prism_in_hole(*key, std::get<HexagonSocket>(query.shape))
                            : prism_in_hole(std::get<Ring>(query.head), std::get<HexagonPrism>(query.shape));

@@ -31,7 +31,7 @@ struct Ring {
 };
 
 // The tip of a hexagon key or bit.
-struct Key {
+struct HexKey {
     double width = 0.0;        // m, across the flats; a corner is at 30° from the tool's +X
     double tip = 0.0;          // m, height of the key's end along Z; negative
     double chamfer = 0.0;      // m, legs of the 45° chamfer at the end
@@ -39,7 +39,7 @@ struct Key {
     double tooth_angle = 0.0;  // as Ring::tooth_angle
 };
 
-using ToolHead = std::variant<Jaw, Ring, Key>;
+using ToolHead = std::variant<Jaw, Ring, HexKey>;
 
 // The hexagonal socket of a screw head.
 struct HexagonSocket {

@@ -53,7 +53,7 @@ struct Row {
     Vec3 projected_force_ahead{0.0};  // at the end of the Newton direction
 };
 
-struct Problem {
+struct ConstraintProblem {
     std::array<Row, max_constraints> rows;
     std::size_t count = 0;
     double penalty = first_penalty;
@@ -148,7 +148,7 @@ double dot(const Vec6& a, const Vec6& b) {
     return sum;
 }
 
-void update_trial_forces(Problem& p) {
+void update_trial_forces(ConstraintProblem& p) {
     for (std::size_t k = 0; k < p.count; ++k) {
         Row& row = p.rows[k];
         const Vec3 room = point_motion(row, p.motion) + (row.slack + row.slip_slack) * row.normal;
@@ -158,7 +158,7 @@ void update_trial_forces(Problem& p) {
 }
 
 // The negative gradient of the cost at the current motion.
-Vec6 negative_gradient(const Problem& p) {
+Vec6 negative_gradient(const ConstraintProblem& p) {
     Vec3 force(0.0), moment(0.0);
     for (std::size_t k = 0; k < p.count; ++k) {
         force += p.rows[k].projected_force;
@@ -171,7 +171,7 @@ Vec6 negative_gradient(const Problem& p) {
 
 // Derivative of the cost along a direction, at the fraction t of it: slope_at_start + curvature · t, plus the
 // contributions of the contacts.
-double slope(Problem& p, double slope_at_start, double curvature, double t) {
+double slope(ConstraintProblem& p, double slope_at_start, double curvature, double t) {
     double sum = slope_at_start + curvature * t;
     for (std::size_t k = 0; k < p.count; ++k) {
         Row& row = p.rows[k];
@@ -184,7 +184,7 @@ double slope(Problem& p, double slope_at_start, double curvature, double t) {
 // Step length along a Newton direction: the point where the derivative of the convex cost has nearly
 // vanished, found by false position (Illinois). 1 unless the direction overshoots. `at_start` is the
 // derivative at 0.
-double line_search(Problem& p, const Vec6& direction, double at_start) {
+double line_search(ConstraintProblem& p, const Vec6& direction, double at_start) {
     for (std::size_t k = 0; k < p.count; ++k)
         p.rows[k].trial_force_rate = -p.penalty * point_motion(p.rows[k], direction);
     Vec6 deviation;
@@ -214,7 +214,7 @@ double line_search(Problem& p, const Vec6& direction, double at_start) {
 
 // Minimises the augmented cost until its gradient is less than `tolerance`. Returns the number of Newton
 // steps.
-int minimise(Problem& p, double tolerance) {
+int minimise(ConstraintProblem& p, double tolerance) {
     update_trial_forces(p);
     for (int step = 0; step < max_newton_steps; ++step) {
         const Vec6 down = negative_gradient(p);
@@ -256,7 +256,7 @@ double slack_for_slip(const Row& row, const Vec6& motion) {
 }
 
 // Sets the multipliers to the projected forces. Returns the greatest change, in m of violation.
-double update_multipliers(Problem& p) {
+double update_multipliers(ConstraintProblem& p) {
     double change = 0.0;
     for (std::size_t k = 0; k < p.count; ++k) {
         Row& row = p.rows[k];
@@ -269,7 +269,7 @@ double update_multipliers(Problem& p) {
 // Moves every slip slack by a fraction of its deficit (Aitken's relaxation). The fraction is chosen so that
 // the deficits of the bearing contacts, extrapolated linearly from the last two rounds, vanish. Returns the
 // greatest change, m.
-double update_slip_slacks(Problem& p, bool first, double& relaxation) {
+double update_slip_slacks(ConstraintProblem& p, bool first, double& relaxation) {
     double correlation = 0.0, change_squared = 0.0;
     for (std::size_t k = 0; k < p.count; ++k) {
         Row& row = p.rows[k];
@@ -293,7 +293,7 @@ double update_slip_slacks(Problem& p, bool first, double& relaxation) {
 
 // Iterates until motion and slip slacks have converged, with at most max_full_rounds rounds at the full
 // penalty. Returns false if `has_fallback` and Newton's method does not converge in max_newton_steps.
-bool iterate(Problem& p, double full_penalty, bool has_fallback, int& factorisations) {
+bool iterate(ConstraintProblem& p, double full_penalty, bool has_fallback, int& factorisations) {
     double relaxation = initial_relaxation;
     for (int round = 0, full_rounds = 0; full_rounds < max_full_rounds; ++round) {
         const bool full = p.penalty >= full_penalty;
@@ -312,14 +312,14 @@ bool iterate(Problem& p, double full_penalty, bool has_fallback, int& factorisat
     return true;
 }
 
-bool solve_warm(Problem& p, const Vec6& initial_guess, int& factorisations) {
+bool solve_warm(ConstraintProblem& p, const Vec6& initial_guess, int& factorisations) {
     p.motion = initial_guess;
     p.penalty = penalty_warm;
     for (std::size_t k = 0; k < p.count; ++k) p.rows[k].slip_slack = slack_for_slip(p.rows[k], initial_guess);
     return iterate(p, penalty_warm, true, factorisations);
 }
 
-void solve_cold(Problem& p, int& factorisations) {
+void solve_cold(ConstraintProblem& p, int& factorisations) {
     p.motion = p.wanted;
     p.penalty = first_penalty;
     for (std::size_t k = 0; k < p.count; ++k) {
@@ -336,7 +336,7 @@ ConstrainedMotion constrain(const Metric& metric, const Twist& wanted,
                             std::span<const Constraint> constraints, std::span<Vec3> forces,
                             const std::optional<Twist>& initial_guess) {
     const double length = std::sqrt(metric.angular / metric.linear);
-    Problem p;
+    ConstraintProblem p;
     p.count = std::min(constraints.size(), max_constraints);
     for (std::size_t k = 0; k < p.count; ++k) {
         const Constraint& c = constraints[k];

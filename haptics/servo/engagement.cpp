@@ -186,7 +186,7 @@ double corner_torque(const Setup& setup, const NutGeometry& nut, double rounded,
     const collision::ToolHead& head = setup.wrench.head;
     const collision::HeadFit& fit = e.fit;
     const double width = collision::width_across_flats(head);
-    if (std::holds_alternative<collision::Key>(head)) {
+    if (std::holds_alternative<collision::HexKey>(head)) {
         const double clearance = 0.5 * (collision::width_across_flats(shape_of(nut)) - width);
         return joint::ring_torque(nut.corner_pressure, {fit.overlap, width, 6, fit.tilt, clearance, rounded});
     }

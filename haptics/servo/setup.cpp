@@ -71,7 +71,7 @@ collision::TurnedShape shape_of(const NutGeometry& nut) {
 }
 
 double half_play(const Wrench& wrench, double across_flats, double rounded) {
-    if (const auto* key = std::get_if<collision::Key>(&wrench.head))
+    if (const auto* key = std::get_if<collision::HexKey>(&wrench.head))
         return joint::rounded_half_play(across_flats + key_clearance, key->width, rounded);
     return joint::rounded_half_play(collision::width_across_flats(wrench.head), across_flats, rounded);
 }

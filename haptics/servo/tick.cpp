@@ -121,15 +121,15 @@ force::ForceRequest release_request(const Setup& setup, ReleaseFade& release_fad
 }
 
 // A pose in the last tick and in this one.
-struct Motion {
+struct PoseStep {
     Pose before, now;
 };
 
 // The work (J) of the guiding force on the motion of the commanded tool relative to the constrained one. The
 // guiding force acts on the hand, but derives from a potential of the constrained pose; where contacts hold
 // the tool back the two differ, and the difference counts as injected energy.
-double relative_work(const force::OutputCommand& guiding, const Motion& commanded,
-                     const Motion& constrained) {
+double relative_work(const force::OutputCommand& guiding, const PoseStep& commanded,
+                     const PoseStep& constrained) {
     const Vec3 relative = (commanded.now.position - commanded.before.position) -
                           (constrained.now.position - constrained.before.position);
     return glm::dot(guiding.force, relative) +
@@ -172,15 +172,15 @@ std::uint8_t update_checkpoints(const Setup& setup, State& state, const ToolPose
 }
 
 // The tool at the pose that contacts permit, and the force of the contacts.
-struct ConstrainedTool {
+struct ContactResult {
     ToolPose pose;
     force::ForceRequest contacts;
 };
 
 // Part 1. Without contact simulation, or without a wrench in the hand, the constrained tool is the commanded
 // one.
-ConstrainedTool constrain_tool(const Setup& setup, State& state, const ToolPose& commanded_tool, Grip grip) {
-    ConstrainedTool constrained{commanded_tool, {}};
+ContactResult constrain_tool(const Setup& setup, State& state, const ToolPose& commanded_tool, Grip grip) {
+    ContactResult constrained{commanded_tool, {}};
     if (!state.tool_contact || !commanded_tool.valid) return constrained;
     const proxy::GodObjectState before = state.tool_contact->god_object;
     const bool was_in_hand = state.tool_contact->in_hand;

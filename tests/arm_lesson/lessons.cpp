@@ -25,7 +25,7 @@ Played play(HeldArm& arm, const char* name) {
     REQUIRE(loaded.ok());
     const Folder folder;
     session::LessonOptions options;
-    options.obstacles = session::Obstacles::if_any;
+    options.obstacles = session::ObstacleUse::if_any;
     PlayedLesson lesson(arm, loaded.assembly, options, folder / "session.boltwright");
     constexpr double patience = 1800.0;  // s of the lesson
     while (!lesson.finished() && lesson.session().time() < patience) lesson.tick();

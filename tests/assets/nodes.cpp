@@ -152,7 +152,7 @@ TEST_CASE("Animations: every target has one channel, and channels without a node
     const Model model = read(document);
     REQUIRE(model.animations.size() == 1);
     REQUIRE(model.animations[0].channels.size() == 1);
-    const Channel& channel = model.animations[0].channels[0];
+    const AnimationChannel& channel = model.animations[0].channels[0];
     json foreign = document;
     foreign["animations"][0]["channels"].erase(1);
     CHECK(read(foreign).animations.empty());

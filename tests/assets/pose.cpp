@@ -20,8 +20,8 @@ constexpr float float_pi = std::numbers::pi_v<float>;
 // A rotation about the y axis.
 std::vector<float> turn(float angle) { return {0.0F, std::sin(angle / 2), 0.0F, std::cos(angle / 2)}; }
 
-Channel rotation(const std::vector<float>& from, const std::vector<float>& to) {
-    Channel channel{.node = 0, .path = TargetPath::rotation, .times = {1.0F, 3.0F}, .values = from};
+AnimationChannel rotation(const std::vector<float>& from, const std::vector<float>& to) {
+    AnimationChannel channel{.node = 0, .path = TargetPath::rotation, .times = {1.0F, 3.0F}, .values = from};
     channel.values.insert(channel.values.end(), to.begin(), to.end());
     return channel;
 }
@@ -44,7 +44,7 @@ double difference(const glm::mat4& a, const glm::mat4& b) {
 }  // namespace
 
 TEST_CASE("Animation: a rotation has constant angular velocity") {
-    const Channel channel = rotation(turn(0.3F), turn(2.1F));
+    const AnimationChannel channel = rotation(turn(0.3F), turn(2.1F));
     for (const float t : {0.0F, 0.1F, 0.25F, 0.5F, 0.9F, 1.0F}) {
         CAPTURE(t);
         check_near(sample(channel, 1.0F + 2.0F * t), turn(0.3F + t * 1.8F), 1e-6);
@@ -61,7 +61,8 @@ TEST_CASE("Animation: a rotation has constant angular velocity") {
 }
 
 TEST_CASE("Animation: values are stepped or linear between the keys and constant outside them") {
-    Channel channel{.node = 0, .times = {0.5F, 1.0F, 2.0F}, .values = {1, 2, 3, 5, 6, 7, -1, -2, -3}};
+    AnimationChannel channel{
+        .node = 0, .times = {0.5F, 1.0F, 2.0F}, .values = {1, 2, 3, 5, 6, 7, -1, -2, -3}};
     check_near(sample(channel, 0.0F), {1, 2, 3}, 0.0);
     check_near(sample(channel, 0.5F), {1, 2, 3}, 0.0);
     check_near(sample(channel, 0.75F), {3, 4, 5}, 1e-6);
@@ -78,7 +79,8 @@ TEST_CASE("Animation: a cubic spline through keys of a cubic reproduces the cubi
     // Values and slopes of x³ − 2x² + 3x − 4 at three unequal steps determine the cubic spline.
     const auto f = [](double x) { return ((x - 2.0) * x + 3.0) * x - 4.0; };
     const auto slope = [](double x) { return (3.0 * x - 4.0) * x + 3.0; };
-    Channel channel{.node = 0, .interpolation = Interpolation::cubic, .times = {0.0F, 0.5F, 2.0F, 2.25F}};
+    AnimationChannel channel{
+        .node = 0, .interpolation = Interpolation::cubic, .times = {0.0F, 0.5F, 2.0F, 2.25F}};
     for (const float x : channel.times)
         for (const double v : {slope(double{x}), f(double{x}), slope(double{x})})
             for (const float factor : {1.0F, -1.0F, 2.0F})
@@ -90,18 +92,18 @@ TEST_CASE("Animation: a cubic spline through keys of a cubic reproduces the cubi
     }
     SUBCASE("a key's in- and out-tangents differ") {
         // Slope 4 after the first key, slope 0 before the second: p = 4 (t³ − 2t² + t).
-        const Channel one{.node = 0,
-                          .path = TargetPath::weights,
-                          .interpolation = Interpolation::cubic,
-                          .times = {0.0F, 1.0F},
-                          .values = {7, 0, 4, 0, 0, 9}};
+        const AnimationChannel one{.node = 0,
+                                   .path = TargetPath::weights,
+                                   .interpolation = Interpolation::cubic,
+                                   .times = {0.0F, 1.0F},
+                                   .values = {7, 0, 4, 0, 0, 9}};
         check_near(sample(one, 0.5F), {0.5F}, 1e-6);
     }
     SUBCASE("rotations are unit quaternions") {
-        Channel q{.node = 0,
-                  .path = TargetPath::rotation,
-                  .interpolation = Interpolation::cubic,
-                  .times = {0.0F, 1.0F}};
+        AnimationChannel q{.node = 0,
+                           .path = TargetPath::rotation,
+                           .interpolation = Interpolation::cubic,
+                           .times = {0.0F, 1.0F}};
         for (const float angle : {0.0F, 1.0F}) {
             const std::vector<float> value = turn(angle);
             q.values.insert(q.values.end(), 4, 0.0F);

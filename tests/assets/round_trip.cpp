@@ -163,8 +163,8 @@ TEST_CASE("Round trip: images, lights, cameras and animations are bit-identical"
     REQUIRE(read.animations.size() == 1);
     REQUIRE(read.animations[0].channels.size() == 4);
     for (std::size_t i = 0; i < 4; ++i) {
-        const Channel& a = read.animations[0].channels[i];
-        const Channel& b = model.animations[0].channels[i];
+        const AnimationChannel& a = read.animations[0].channels[i];
+        const AnimationChannel& b = model.animations[0].channels[i];
         CHECK(a.node == b.node);
         CHECK(a.path == b.path);
         CHECK(a.interpolation == b.interpolation);

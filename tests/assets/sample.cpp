@@ -74,7 +74,7 @@ Material paint() {
     return m;
 }
 
-std::vector<Channel> channels() {
+std::vector<AnimationChannel> channels() {
     const std::vector<float> keys = {0.0F, 0.5F};
     return {{.node = 0, .times = keys, .values = {0, 0, 0, 1, 2, 3}},
             {.node = 1,

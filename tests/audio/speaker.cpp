@@ -73,7 +73,7 @@ TEST_CASE("Speaker: the thread keeps a sink full and publishes its status") {
         explicit Card(std::atomic<bool>& there) : plugged(there) {}
         [[nodiscard]] std::string name() const override { return "card"; }
         Result<std::size_t> free_blocks() override {
-            if (!plugged) return fail(ErrorCode::no_device, "pulled out");
+            if (!plugged) return fail(ErrorCode::no_device, "pulled out", "a card");
             return std::size_t{1};
         }
         Status play(std::span<const float, block_size>) override { return {}; }
@@ -89,7 +89,7 @@ TEST_CASE("Speaker: the thread keeps a sink full and publishes its status") {
     {
         auto speaker = Speaker::start([&](std::span<float>) { ++filled; },
                                       [&]() -> Result<std::unique_ptr<Sink>> {
-                                          if (!plugged) return fail(ErrorCode::no_device, "no card");
+                                          if (!plugged) return fail(ErrorCode::no_device, "no card", "one");
                                           return std::make_unique<Card>(plugged);
                                       });
         REQUIRE(speaker);

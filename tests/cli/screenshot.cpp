@@ -13,7 +13,7 @@ bolt::Status take(const char* file, unsigned x, unsigned y, unsigned width, unsi
     const auto screen = bolt::test::read_screen();
     if (!screen) return bolt::fail(screen.error());
     if (x + width > screen->width || y + height > screen->height)
-        return bolt::fail(bolt::ErrorCode::usage, "that is not all on the screen");
+        return bolt::fail(bolt::ErrorCode::usage, "that is not all on the screen", "a part of the screen");
     std::vector<std::uint8_t> rgb;
     for (unsigned row = y; row < y + height; ++row)
         for (unsigned column = x; column < x + width; ++column)

@@ -22,7 +22,7 @@ Ring ring(int points) { return {opening, points, -8.6e-3, 8.6e-3, 1.2e-3, 37e-3,
 
 Ring socket_on_ratchet() { return {opening, 12, -10.6e-3, 10.6e-3, 1.2e-3, 33e-3, true, to_radians(5.0)}; }
 
-Key key() { return {14e-3, -4.2e-3, 1e-3, 30e-3, 0.0}; }
+HexKey key() { return {14e-3, -4.2e-3, 1e-3, 30e-3, 0.0}; }
 
 // A head and a shape with their solids.
 struct Pair {
@@ -33,7 +33,7 @@ struct Pair {
 
     // Pose of the tool in the frame of the shape, at its grip height, its corners on those of the hexagon.
     [[nodiscard]] Pose tool(const Vec3& off = Vec3(0.0), double yaw = 0.0, double tilt = 0.0) const {
-        const double corner = std::holds_alternative<Key>(head) ? pi / 6.0 : 0.0;
+        const double corner = std::holds_alternative<HexKey>(head) ? pi / 6.0 : 0.0;
         const Quat turn = glm::angleAxis(tilt, Vec3(1, 0, 0)) * glm::angleAxis(yaw - corner, Vec3(0, 0, 1));
         return {off + Vec3(0, 0, grip_height(head, shape)), turn};
     }

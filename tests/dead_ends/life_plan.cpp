@@ -40,7 +40,7 @@ LifePlan make_life_plan(std::uint64_t seed) {
     p.overtightens = random.chance(0.25);
     p.span = p.overtightens ? random.uniform(40.0, 150.0) : random.uniform(2.0, p.rough ? 45.0 : 25.0);
     const bool among = random.chance(p.at_mouse ? among_obstacles : 0.5 * among_obstacles);
-    p.options.obstacles = among ? session::Obstacles::required : session::Obstacles::none;
+    p.options.obstacles = among ? session::ObstacleUse::required : session::ObstacleUse::none;
     if (among && !p.at_mouse) p.span = std::min(p.span, longest_in_walls);
     if (random.chance(0.25)) p.tool = "torque_wrench";
     if (random.chance(0.3)) p.set_torque_scale = random.uniform(0.4, 2.5);
@@ -50,7 +50,7 @@ LifePlan make_life_plan(std::uint64_t seed) {
 std::string describe(const LifePlan& p) {
     return fmt::format("seed {}: {} {}, {}, {}, {} law, {}, {}{}{}, {:.1f} s", p.seed, p.assembly, p.variant,
                        lesson::name(p.options.mode), lesson::name(p.options.task), joint::name(p.options.law),
-                       p.options.obstacles == session::Obstacles::none ? "no obstacles" : "obstacles",
+                       p.options.obstacles == session::ObstacleUse::none ? "no obstacles" : "obstacles",
                        p.at_mouse ? "mouse" : "device",
                        p.overtightens ? ", overtightens"
                        : p.rough      ? ", rough"

@@ -47,7 +47,7 @@ struct Bench {
     WheelConfig rig;
     emulate::EmulatedWheel wheel;
     emulate::EmulatedLink plug;
-    Result<std::unique_ptr<DeviceDriver>> opened = fail(ErrorCode::failed, "not opened");
+    Result<std::unique_ptr<DeviceDriver>> opened = fail(ErrorCode::failed, "not opened", "opened");
     std::unique_ptr<DeviceDriver> device;
     Sample last;
     int samples = 0;

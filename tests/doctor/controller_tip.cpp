@@ -229,7 +229,7 @@ TEST_CASE("Controller tip: a hand that moves, and a controller that is hidden me
 TEST_CASE("Controller tip: a tracker that is lost, and a user who ends it, end the wait") {
     ScriptedController lost;
     lost.at = [](double now) -> Result<ControllerSample> {
-        if (now > 0.5) return fail(ErrorCode::no_device, "the runtime has ended");
+        if (now > 0.5) return fail(ErrorCode::no_device, "the runtime has ended", "a runtime");
         return ControllerSample{};
     };
     const auto none = ControllerTip(lost.io(), {}).touch(0, "Touch.");
@@ -319,7 +319,7 @@ TEST_CASE("Controller tip: turns about the fingertips of a gloved hand give the 
     };
     ControllerTip controller(silent.io(), {});
     const auto lost = measure_fingertips(controller, []() -> Result<hand::Skeleton> {
-        return fail(ErrorCode::no_device, "the glove sends no samples");
+        return fail(ErrorCode::no_device, "the glove sends no samples", "samples");
     });
     REQUIRE_FALSE(lost);
     CHECK(lost.error().code == ErrorCode::no_device);

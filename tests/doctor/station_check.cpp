@@ -92,8 +92,8 @@ TEST_CASE("Station check: missing devices, a missing port and an unknown tool ar
     bench.station.arm->tool = "wrensh";
     bench.station.wheel.emplace().device = "1209:ffb0";
     bench.facts.wheel =
-        Result<device::Description>(fail(ErrorCode::no_device, "there is no device 1209:ffb0"));
-    bench.facts.glove = fail(ErrorCode::no_device, "/dev/ttyUSB0 is not a serial port");
+        Result<device::Description>(fail(ErrorCode::no_device, "there is no device 1209:ffb0", "a wheel"));
+    bench.facts.glove = fail(ErrorCode::no_device, "/dev/ttyUSB0 is not a serial port", "a port");
     const auto findings = compare(bench.station, bench.facts);
     REQUIRE(findings.size() == 4);
     CHECK(findings[0].text == "wheel: there is no device 1209:ffb0");

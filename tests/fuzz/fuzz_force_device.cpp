@@ -24,7 +24,7 @@ class DeviceThread : public HidTransport {
     DeviceThread(std::span<const std::uint8_t>& left, double& time) : left_(left), time_(time) {}
     Result<std::span<const std::uint8_t>> read(double timeout) override {
         time_ += timeout;
-        if (left_.empty()) return fail(ErrorCode::no_device, "the end");
+        if (left_.empty()) return fail(ErrorCode::no_device, "the end", "samples");
         const std::size_t n = std::min<std::size_t>(left_[0] % 64, left_.size() - 1);
         const auto piece = left_.subspan(1, n);
         left_ = left_.subspan(1 + n);

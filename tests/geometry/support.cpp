@@ -275,8 +275,8 @@ void replace(std::string& text, std::string_view from, std::string_view to) {
     text.replace(at, from.size(), to);
 }
 
-geometry::ToolShape plain_wrench(const content::WrenchDesign& design) {
-    geometry::ToolShape wrench;
+geometry::ToolGeometry plain_wrench(const content::WrenchDesign& design) {
+    geometry::ToolGeometry wrench;
     const double s = design.jaw, radius = 0.5 * head_width_ratio * s, depth = jaw_depth_ratio * s;
     wrench.head_angle = design.head_angle;
     wrench.head_size = radius;
@@ -303,7 +303,7 @@ geometry::ToolShape plain_wrench(const content::WrenchDesign& design) {
     return wrench;
 }
 
-assets::Model model_of(const geometry::ToolShape& wrench, double shift_mm, double scale, bool lies) {
+assets::Model model_of(const geometry::ToolGeometry& wrench, double shift_mm, double scale, bool lies) {
     PrismMesh shape;
     for (const geometry::Triangle& t : wrench.triangles) {
         const auto base = static_cast<std::uint32_t>(shape.points.size());

@@ -13,7 +13,7 @@
 #include "engine/base/math.hpp"
 #include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/check.hpp"
-#include "tools/author/geometry/tool_shape.hpp"
+#include "tools/author/geometry/tool_geometry.hpp"
 
 namespace geometry_test {
 
@@ -67,10 +67,10 @@ inline constexpr double jaw_depth_ratio = 0.6;  // middle of the jaw to its thro
 inline constexpr double handle_beyond_grip = 1.12;
 
 // A wrench whose swing between walls has a closed form: a disc with a slot, and a straight handle.
-bolt::geometry::ToolShape plain_wrench(const bolt::content::WrenchDesign& design);
+bolt::geometry::ToolGeometry plain_wrench(const bolt::content::WrenchDesign& design);
 
 // The wrench's triangles as a model; millimetres are multiplied by `scale`.
-bolt::assets::Model model_of(const bolt::geometry::ToolShape& wrench, double shift_mm = 0.0,
+bolt::assets::Model model_of(const bolt::geometry::ToolGeometry& wrench, double shift_mm = 0.0,
                              double scale = 1.0, bool lies = false);
 
 // Output of bolt-author validate.

@@ -9,7 +9,7 @@
 #include "support.hpp"
 #include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/free_swing.hpp"
-#include "tools/author/geometry/tool_shape.hpp"
+#include "tools/author/geometry/tool_geometry.hpp"
 
 namespace geometry_wrench_test {
 
@@ -64,7 +64,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Geometry: the free swing agrees with the closed form within 0.025 degrees") {
-    const geometry::ToolShape wrench = plain_wrench(design);
+    const geometry::ToolGeometry wrench = plain_wrench(design);
     for (const double swing : {5.0, 17.3, 29.0, 31.0, 100.0, 200.0}) {
         const double half = half_opening(swing);
         const geometry::Bvh walls(triangles_of(sector(inner, outer, half, 360.0 - half, 0.0, 10.0)));

@@ -113,7 +113,7 @@ void play_gloved_lesson(const std::optional<TrackerRole>& tracker) {
         const trainer::ActiveLesson* lesson = program.app->lesson();
         if (lesson == nullptr || !lesson->station) return true;
         const station_setup::WornFingers* fingers = lesson->station->link->worn_fingers();
-        return fingers != nullptr && fingers->measured && std::abs(fingers->closing - wanted) < 0.03;
+        return fingers != nullptr && fingers->measured && std::abs(fingers->closed_share - wanted) < 0.03;
     };
     const auto send = [&](const Pose& head, const xr::Hands& hands) {
         mock->set_head({head});

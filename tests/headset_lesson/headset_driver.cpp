@@ -138,7 +138,7 @@ trainer::AppOptions headset_lesson_options(const std::string& assembly, const st
     options.choice.assembly = assembly;
     options.choice.equipment.hand = trainer::HandMode::tracked;
     options.menu = false;
-    options.lesson.obstacles = session::Obstacles::if_any;
+    options.lesson.obstacles = session::ObstacleUse::if_any;
     options.out = out / assembly;
     return options;
 }

@@ -73,7 +73,7 @@ TEST_CASE("Kernel: unplugging while reading is a loss at once; after a replug it
         CHECK(holds_within(lost));
         const double took = steady_seconds() - unplugged;
         CHECK(took < 0.02);
-        device = fail(ErrorCode::failed, "closed");
+        device = fail(ErrorCode::failed, "closed", "open");
         const auto gone = open();
         REQUIRE(!gone);
         CHECK(gone.error().lost);

@@ -192,7 +192,7 @@ TEST_CASE(
             session::LessonOptions options;
             options.task = task;
             options.seed = 3;
-            options.obstacles = session::Obstacles::none;
+            options.obstacles = session::ObstacleUse::none;
             const test::PlayedSession played =
                 test::play_and_replay(cover, options, profile, test::setup_from_memory(cover, options));
             CHECK(played.result.finished);

@@ -190,7 +190,7 @@ TEST_CASE("Counter-hold: a trainee notices a bolt that a ratchet only turns to a
     loaded.assembly.loosening = {only};
     trainees::TrainOptions train;
     train.lesson.task = Task::loosen;
-    train.lesson.obstacles = session::Obstacles::required;
+    train.lesson.obstacles = session::ObstacleUse::required;
     train.trainee = trainees::find_profile("novice").value();
     train.trainee.forgets_second_wrench = 1.0;
     const test::Folder folder;

@@ -70,8 +70,8 @@ TEST_CASE(
             REQUIRE((all_passes.joints[i].design.thread_direction == joint::ThreadDirection::left) ==
                     is_left(i));
         for (const char* profile : {"expert", "novice", "clumsy"})
-            for (const auto obstacles : {session::Obstacles::none, session::Obstacles::required}) {
-                const bool among_obstacles = obstacles == session::Obstacles::required;
+            for (const auto obstacles : {session::ObstacleUse::none, session::ObstacleUse::required}) {
+                const bool among_obstacles = obstacles == session::ObstacleUse::required;
                 if (among_obstacles && profile != std::string_view("expert")) continue;  // takes long
                 if (test::sanitized && among_obstacles) {
                     test::skip_part("a lesson among obstacles takes minutes under a sanitizer");

@@ -36,8 +36,8 @@ Played play(const char* profile, const session::LessonOptions& options, const co
 TEST_CASE("Several tools: every trainee finishes with the right tool on each nut, and the session replays") {
     const content::Assembly cover = test::cover_with_three_tools();
     for (const char* profile : {"expert", "novice", "clumsy"})
-        for (const auto obstacles : {session::Obstacles::none, session::Obstacles::required}) {
-            if (test::sanitized && obstacles == session::Obstacles::required) {
+        for (const auto obstacles : {session::ObstacleUse::none, session::ObstacleUse::required}) {
+            if (test::sanitized && obstacles == session::ObstacleUse::required) {
                 test::skip_part("a lesson among obstacles takes minutes under a sanitizer");
                 continue;
             }

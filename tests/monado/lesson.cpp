@@ -26,7 +26,7 @@ double closing_by_fingers(test::HeadsetDriver& driver, const Pose& head, float b
     xr::HandInput received = driver.received()[xr::Side::left];
     REQUIRE(received.joints);
     received.grasp = 0.0F;
-    return trainer::closure(received);
+    return trainer::closed_share(received);
 }
 
 void play_lesson(const std::string& assembly) {

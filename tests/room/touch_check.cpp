@@ -127,7 +127,7 @@ TEST_CASE("Touch check: it is read from either direction of a registration that 
     REQUIRE((forth && back));
     for (const auto& check : {*forth, *back}) {
         CHECK(glm::length(check.marker - marker) < 1e-12);
-        CHECK(glm::length(check.room_from_arm * (handle_at(marker) * check.tip) - marker) < 1e-12);
+        CHECK(glm::length(check.arm_in_room * (handle_at(marker) * check.tip) - marker) < 1e-12);
     }
     one.check_point.reset();
     CHECK(!touch_check_of(one));

@@ -190,8 +190,8 @@ TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras th
         station_setup::WornFingers fingers;
         fingers.joints = hand::joints(model, bent, {});
         fingers.side = side;
-        fingers.closing = station_setup::closed_share(bent);
-        CHECK(fingers.closing == doctest::Approx(0.4));
+        fingers.closed_share = station_setup::closed_share(bent);
+        CHECK(fingers.closed_share == doctest::Approx(0.4));
         const Pose wrist{{0.2, 1.1, -0.4}, glm::normalize(Quat(0.7, 0.1, -0.6, 0.3))};
         const Pose palm_joint{wrist * fingers.joints.position[hand::palm],
                               wrist.orientation * fingers.joints.rotation[hand::palm]};
@@ -206,7 +206,7 @@ TEST_CASE("Tracked hand: a glove gives the fingers, and controller or cameras th
                 CHECK(degrees_between(joint.pose.orientation,
                                       wrist.orientation * fingers.joints.rotation[i]) < degrees);
             }
-            CHECK(closure(gloved) == doctest::Approx(0.4).epsilon(1e-6));
+            CHECK(closed_share(gloved) == doctest::Approx(0.4).epsilon(1e-6));
         };
         // A controller whose place on the hand is registered. Its buttons do not close the hand.
         const Pose mount{{0.02, -0.06, 0.05}, glm::normalize(Quat(0.5, -0.4, 0.3, 0.7))};

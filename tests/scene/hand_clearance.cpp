@@ -57,7 +57,7 @@ struct TestWorkplace {
 
     explicit TestWorkplace(const char* name) {
         session::LessonOptions options;
-        options.obstacles = session::Obstacles::required;
+        options.obstacles = session::ObstacleUse::required;
         auto prepared = session::prepare_session(trainer_test::assembly(name), options);
         REQUIRE(prepared);
         at = std::move(*prepared);

@@ -36,7 +36,7 @@ Setup setup_of(const collision::ToolHead& head, joint::ThreadDirection direction
     for (joint::JointDesign& design : designs) {
         design.thread_direction = direction;
         design.start_gap = 0.2e-3;
-        if (!std::holds_alternative<collision::Key>(head)) continue;
+        if (!std::holds_alternative<collision::HexKey>(head)) continue;
         design.form = joint::JointForm::tapped_hole;
         design.hole = {joint::tapped_material("C45").value(), 20e-3, 0.0};
         design.head = joint::HeadShape::socket;
@@ -179,7 +179,7 @@ TEST_CASE("Left-hand thread: the design decides, and its guiding hexagon is that
 
 TEST_CASE("Left-hand thread: a pull is the mirror image of one on a right-hand thread, with each tool") {
     const collision::ToolHead jaw = collision::make_jaw(24.2e-3, to_radians(15.0));
-    const collision::Key key{14e-3, -6e-3, 0.5e-3, 12e-3};
+    const collision::HexKey key{14e-3, -6e-3, 0.5e-3, 12e-3};
     const Case cases[] = {
         {"fingers", jaw, Grip::fingers},
         {"open end", jaw},

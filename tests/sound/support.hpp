@@ -86,7 +86,7 @@ inline session::LessonOutcome run_lesson(const char* name, const char* trainee, 
     REQUIRE(loaded.ok());
     REQUIRE(content::choose_tool(loaded.assembly, tool));
     session::LessonOptions options;
-    options.obstacles = session::Obstacles::required;
+    options.obstacles = session::ObstacleUse::required;
     auto started = session::LessonSession::begin(loaded.assembly, options, session);
     REQUIRE(started);
     session::LessonSession& lesson_session = **started;

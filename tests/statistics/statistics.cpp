@@ -251,8 +251,8 @@ TEST_CASE("Bootstrap: the same seed gives the same interval, which covers a mean
     for (int i = 0; i < repeats; ++i) {
         std::vector<double> values(20);
         for (double& value : values) value = random.normal();
-        const Interval interval = bootstrap_interval(values, mean_of, {400, 0.95, 1});
-        const Interval again = bootstrap_interval(values, mean_of, {400, 0.95, 1});
+        const ConfidenceInterval interval = bootstrap_interval(values, mean_of, {400, 0.95, 1});
+        const ConfidenceInterval again = bootstrap_interval(values, mean_of, {400, 0.95, 1});
         CHECK(interval.low == again.low);
         CHECK(interval.high == again.high);
         CHECK(bootstrap_interval(values, mean_of, {400, 0.95, 2}).low != interval.low);

@@ -55,7 +55,7 @@ TEST_CASE("Study results: the answers before and after are compared in pairs, in
         for (int person = 0; person < 6; ++person) {
             Participation participation = required(Participation::enrol(
                 study, folder.path(), fmt::format("T-{}", person), false, folder.clock()));
-            while (participation.due() != nullptr && participation.due()->kind != StepKind::retention) {
+            while (participation.due() != nullptr && participation.due()->kind != StudyStepKind::retention) {
                 folder.now += static_cast<std::int64_t>(participation.remaining_wait());
                 if (participation.due()->id != "before/tlx") {
                     do_step(participation);

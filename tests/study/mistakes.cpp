@@ -19,7 +19,7 @@ TEST_CASE("Study: a clock that was set back is reported, and the retention test 
         do_all(participation);
         folder.now += 120;  // the break
         do_all(participation);
-        REQUIRE(participation.due()->kind == StepKind::retention);
+        REQUIRE(participation.due()->kind == StudyStepKind::retention);
     }
     folder.now = right;
     const auto states = required(list_participants(study, folder.path()));

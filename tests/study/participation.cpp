@@ -25,7 +25,7 @@ TEST_CASE("Study: the steps are those of the plan, in its order") {
         "training",        "training/background",   "part-1/lesson-1", "part-1/lesson-1/paper",
         "part-1/lesson-2", "part-1/lesson-2/paper", "part-1/tlx"};
     CHECK(do_all(participation) == first);
-    CHECK(participation.due()->kind == StepKind::pause);
+    CHECK(participation.due()->kind == StudyStepKind::pause);
     CHECK(participation.remaining_wait() == 120.0);
     CHECK_FALSE(participation.complete());
     folder.now += 119;
@@ -41,7 +41,7 @@ TEST_CASE("Study: the steps are those of the plan, in its order") {
                                           "comment",
                                           "end-of-visit"};
     CHECK(do_all(participation) == second);
-    CHECK(participation.due()->kind == StepKind::retention);
+    CHECK(participation.due()->kind == StudyStepKind::retention);
     // From the beginning of that day on, in local time.
     CHECK(participation.remaining_wait() <= 7 * 86400.0);
     CHECK(participation.remaining_wait() > 6 * 86400.0 - 7200.0);
@@ -52,7 +52,7 @@ TEST_CASE("Study: the steps are those of the plan, in its order") {
     CHECK(participation.progress().training == 600.0);
     const auto conditions = content::conditions_of(study, 0);
     for (const Step& step : participation.steps())
-        if (step.kind == StepKind::lesson) CHECK(step.condition == conditions[step.part]);
+        if (step.kind == StudyStepKind::lesson) CHECK(step.condition == conditions[step.part]);
 }
 
 TEST_CASE("Study: a participant continues where the program ended, answer by answer") {
@@ -216,7 +216,7 @@ TEST_CASE("Study: a clock that is set back is recorded and does not lengthen a b
     const content::Study study = folder.load();
     Participation participation = enrolled(folder, study);
     do_all(participation);
-    REQUIRE(participation.due()->kind == StepKind::pause);
+    REQUIRE(participation.due()->kind == StudyStepKind::pause);
     folder.now += 20;
     CHECK(participation.remaining_wait() == 100.0);
     folder.now -= 3600;
@@ -258,7 +258,7 @@ TEST_CASE("Study: a damaged journal is an error that names the file, and stops n
         CHECK(refused.error().message().starts_with(file.string()));
         // The others go on.
         const Participation other = enrolled(folder, study, "T-" + std::to_string(damaged.size()));
-        CHECK(other.due()->kind == StepKind::language);
+        CHECK(other.due()->kind == StudyStepKind::language);
     }
     REQUIRE(write_file(file, text));
     CHECK(resumed(folder, study, "P01"));
@@ -336,7 +336,7 @@ TEST_CASE("Study: a participant whose language is removed from the plan chooses 
     folder.edit(R"(, "de": "Zweck.")", "");
     const content::Study changed = folder.load();
     Participation participation = required(resumed(folder, changed, "P01", true));
-    CHECK(participation.due()->kind == StepKind::language);
+    CHECK(participation.due()->kind == StudyStepKind::language);
     REQUIRE(participation.choose_language("en"));
     CHECK(participation.due()->id == "before/background");
 }

@@ -194,7 +194,7 @@ TEST_CASE(
     const content::Study study = folder.load();
     Participation participation =
         required(Participation::enrol(study, folder.path(), "T-1", false, folder.clock()));
-    while (participation.due()->kind != StepKind::lesson) do_step(participation);
+    while (participation.due()->kind != StudyStepKind::lesson) do_step(participation);
     CHECK_FALSE(required(count_finished_lesson(participation)));
     const content::StudyLesson& lesson = participation.lesson();
     for (const bool finishes : {false, true}) {

@@ -70,24 +70,24 @@ void StudyFolder::make_short() const {
 }
 
 void do_step(study::Participation& participation, double lesson_time) {
-    using study::StepKind;
+    using study::StudyStepKind;
     const study::Step& step = *participation.due();
     const content::Study& study = participation.study();
     switch (step.kind) {
-        case StepKind::language:
+        case StudyStepKind::language:
             REQUIRE(participation.choose_language("de"));
             break;
-        case StepKind::consent:
+        case StudyStepKind::consent:
             for (std::size_t i = 0; i < study.consent.at("de").size(); ++i) REQUIRE(participation.agree(i));
             break;
-        case StepKind::form:
+        case StudyStepKind::form:
             for (const content::QuestionnaireItem& item : study.questionnaires[step.form].items)
                 REQUIRE(participation.answer(
                     item.id, content::answer_scale_of(study.questionnaires[step.form], item).high));
             break;
-        case StepKind::training:
-        case StepKind::lesson:
-        case StepKind::retention:
+        case StudyStepKind::training:
+        case StudyStepKind::lesson:
+        case StudyStepKind::retention:
             REQUIRE(participation.begin_lesson());
             REQUIRE(participation.end_lesson({{"duration_s", lesson_time}, {"score", 90.0}}));
             return;

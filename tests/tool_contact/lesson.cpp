@@ -108,7 +108,7 @@ TEST_CASE("Tool contact: a lesson among obstacles replays to the same bits") {
     trainees::TrainOptions options;
     options.trainee = trainees::find_profile("novice").value();
     options.lesson.seed = 3;
-    options.lesson.obstacles = session::Obstacles::required;
+    options.lesson.obstacles = session::ObstacleUse::required;
     options.time_limit = 60.0;
     REQUIRE(trainees::train(loaded.assembly, options, file,
                             [](const trainees::TrainingProgress&) { return true; }));
@@ -140,7 +140,7 @@ TEST_CASE("Contact lesson: a trainee sees that a free nut follows the ratchet, a
     trainees::TrainOptions options;
     options.trainee = trainees::find_profile("clumsy").value();
     options.lesson.task = lesson::Task::loosen;
-    options.lesson.obstacles = session::Obstacles::required;
+    options.lesson.obstacles = session::ObstacleUse::required;
     options.lesson.seed = 1001;
     const test::Folder folder;
     const auto outcome = trainees::train(loaded.assembly, options, folder / "loosened.boltwright",

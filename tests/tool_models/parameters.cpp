@@ -80,9 +80,9 @@ TEST_CASE("Tool parameters: impossible values are refused with the nearest valid
 }
 
 TEST_CASE("Tool parameters: an adaptor lengthens a torque wrench between its insert and its holder") {
-    const auto end_of = [](const ToolParts& parts, const char* name, bool far) {
+    const auto end_of = [](const ToolModelParts& parts, const char* name, bool far) {
         double end = far ? -1e9 : 1e9;
-        for (const ToolPart& part : parts)
+        for (const ToolModelPart& part : parts)
             for (const Shell& shell : part.shells)
                 for (const Vec3& point : shell.points)
                     if (part.name == name) end = far ? std::max(end, point.x) : std::min(end, point.x);
@@ -98,13 +98,13 @@ TEST_CASE("Tool parameters: an adaptor lengthens a torque wrench between its ins
                     const ToolParameters longer = *completed(p);
                     CAPTURE(description(longer));
                     CHECK(longer.length - plain.length == doctest::Approx(adaptor * mm));
-                    const ToolParts parts = parts_of(longer, detail), without = parts_of(plain, detail);
+                    const ToolModelParts parts = parts_of(longer, detail), without = parts_of(plain, detail);
                     CHECK(end_of(parts, "insert", true) == doctest::Approx(end_of(without, "insert", true)));
                     CHECK(end_of(parts, "holder", false) - end_of(without, "holder", false) ==
                           doctest::Approx(adaptor));
                     CHECK(end_of(parts, "adaptor", true) > end_of(parts, "holder", false));
                     CHECK(end_of(parts, "adaptor", false) < end_of(parts, "insert", true));
-                    for (const ToolPart& part : parts)
+                    for (const ToolModelPart& part : parts)
                         for (const Shell& shell : part.shells) CHECK(unpaired_edges(shell) == 0);
                 }
 }
@@ -119,7 +119,7 @@ TEST_CASE("Tool parameters: the shortest and a long tool of each kind are closed
             p.length = is_long ? 0.9 : std::stod(refused.substr(at)) * mm;
             const auto made = completed(p);
             REQUIRE(made);
-            for (const ToolPart& part : parts_of(*made, Detail::drawn))
+            for (const ToolModelPart& part : parts_of(*made, Detail::drawn))
                 for (const Shell& shell : part.shells) {
                     CAPTURE(description(*made));
                     CAPTURE(part.name);
@@ -189,7 +189,7 @@ TEST_CASE("Tool parameters: every wrench that an assembly can describe has a clo
                         const ToolParameters p = parameters_of(design);
                         CAPTURE(description(p));
                         for (const Detail detail : {Detail::drawn, Detail::contact})
-                            for (const ToolPart& part : parts_of(p, detail))
+                            for (const ToolModelPart& part : parts_of(p, detail))
                                 for (const Shell& shell : part.shells) {
                                     CAPTURE(part.name);
                                     CHECK(unpaired_edges(shell) == 0);

@@ -18,9 +18,9 @@ using namespace tool_models_test;
 
 namespace {
 
-Shell shell_of(const ToolParts& parts, const std::string& name) {
+Shell shell_of(const ToolModelParts& parts, const std::string& name) {
     const auto part =
-        std::find_if(parts.begin(), parts.end(), [&](const ToolPart& p) { return p.name == name; });
+        std::find_if(parts.begin(), parts.end(), [&](const ToolModelPart& p) { return p.name == name; });
     REQUIRE(part != parts.end());
     return part->shells.front();
 }
@@ -37,7 +37,7 @@ collision::ContactMesh contact_mesh(const assets::Mesh& mesh) {
 TEST_CASE("Tools: each shell of each tool is closed and faces outwards") {
     for (const ToolParameters& p : all_tools())
         for (const Detail detail : {Detail::drawn, Detail::contact})
-            for (const ToolPart& part : parts_of(p, detail))
+            for (const ToolModelPart& part : parts_of(p, detail))
                 for (const Shell& shell : part.shells) {
                     CAPTURE(description(p));
                     CAPTURE(part.name);
@@ -131,7 +131,7 @@ TEST_CASE("Tools: the jaw is exactly as wide as the size and the play, at the he
 }
 
 TEST_CASE("Tools: the closed forms of rings, sockets and keys agree with the generated heads") {
-    const auto points_of = [](const ToolParts& parts, std::string_view name) {
+    const auto points_of = [](const ToolModelParts& parts, std::string_view name) {
         return shell_of(parts, std::string(name)).points;
     };
     for (const double size : {8.0, 13.0, 24.0, 46.0}) {
@@ -147,7 +147,7 @@ TEST_CASE("Tools: the closed forms of rings, sockets and keys agree with the gen
             REQUIRE(solids);
             const double corner = 0.5 * head.opening / std::cos(pi / 6.0);
             std::size_t inside = 0, wall = 0;
-            const ToolParts drawn = parts_of(p, Detail::drawn);
+            const ToolModelParts drawn = parts_of(p, Detail::drawn);
             for (const Vec3& point : points_of(drawn, p.kind == ModelKind::ring_wrench ? "ring" : "socket")) {
                 const Vec3 at = point * mm;
                 const double out = std::hypot(at.x, at.y);
@@ -170,7 +170,7 @@ TEST_CASE("Tools: the closed forms of rings, sockets and keys agree with the gen
         const ToolParameters p = standard(ModelKind::hex_key, size);
         const auto gripping = gripping_head(p);
         REQUIRE(gripping);
-        const auto& key = std::get<collision::Key>(gripping->head);
+        const auto& key = std::get<collision::HexKey>(gripping->head);
         double lowest = 1.0, widest = 0.0;
         for (const Vec3& point : points_of(parts_of(p, Detail::drawn), "key")) {
             lowest = std::min(lowest, point.z * mm);
@@ -246,7 +246,7 @@ TEST_CASE("Tools: a tool reaches as far as its length says") {
     for (const ToolParameters& p : all_tools()) {
         CAPTURE(description(p));
         double x = 0.0, z = 0.0;
-        for (const ToolPart& part : parts_of(p, Detail::contact))
+        for (const ToolModelPart& part : parts_of(p, Detail::contact))
             for (const Shell& shell : part.shells)
                 for (const Vec3& point : shell.points) x = std::max(x, point.x), z = std::max(z, point.z);
         const bool upright = p.kind == ModelKind::extension_bar || p.kind == ModelKind::adaptor ||

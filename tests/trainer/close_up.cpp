@@ -45,7 +45,7 @@ TEST_CASE(
     for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen}) {
         session::LessonOptions options;
         options.task = task;
-        options.obstacles = session::Obstacles::required;
+        options.obstacles = session::ObstacleUse::required;
         auto begun = session::LessonSession::begin(trainer_test::assembly("zq350"), options, file);
         REQUIRE(begun);
         const servo::Setup& setup = (*begun)->setup();

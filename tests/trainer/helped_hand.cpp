@@ -63,7 +63,7 @@ Outcome play_through(const content::Assembly& lesson, session::LessonOptions opt
 }  // namespace
 
 TEST_CASE("Helped hand: it changes the tool at rest when a nut needs another one") {
-    for (const auto obstacles : {session::Obstacles::none, session::Obstacles::required}) {
+    for (const auto obstacles : {session::ObstacleUse::none, session::ObstacleUse::required}) {
         session::LessonOptions options;
         options.obstacles = obstacles;
         const Outcome out = play_through(test::cover_with_three_tools(), options, 400.0);
@@ -78,7 +78,7 @@ TEST_CASE("Helped hand: it tightens left-hand threads beside right-hand ones") {
     for (const char* tool : {"", "ratchet"}) {
         const test::Folder folder;
         session::LessonOptions options;
-        options.obstacles = session::Obstacles::required;
+        options.obstacles = session::ObstacleUse::required;
         const Outcome out = play_through(test::cover_with_left_threads(folder, tool), options, 400.0);
         CHECK(out.result.finished);
         for (const lesson::JointResult& joint : out.result.joints)
@@ -89,18 +89,18 @@ TEST_CASE("Helped hand: it tightens left-hand threads beside right-hand ones") {
 
 TEST_CASE("Helped hand: a lesson is played from beginning to end") {
     session::LessonOptions options;
-    SUBCASE("among obstacles") { options.obstacles = session::Obstacles::required; }
+    SUBCASE("among obstacles") { options.obstacles = session::ObstacleUse::required; }
     SUBCASE("without obstacles") {}
     SUBCASE("in practice mode") { options.mode = lesson::Mode::practice; }
     SUBCASE("loosening") {
         options.task = lesson::Task::loosen;
-        options.obstacles = session::Obstacles::required;
+        options.obstacles = session::ObstacleUse::required;
     }
     const char* name = "cover-m8";
     SUBCASE("the reducer, tightened into yield") {
         if (test::sanitized) return test::skip_rest("sixty steps take minutes under a sanitizer");
         name = "zq350";
-        options.obstacles = session::Obstacles::required;
+        options.obstacles = session::ObstacleUse::required;
     }
     const Outcome out = play_through(assembly(name), options, 1200.0);
     CHECK(out.result.finished);

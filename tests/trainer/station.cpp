@@ -51,7 +51,7 @@ struct StationLesson {
         REQUIRE(loaded.ok());
         assembly = std::move(loaded.assembly);
         options.mode = mode;
-        options.obstacles = session::Obstacles::if_any;
+        options.obstacles = session::ObstacleUse::if_any;
         file = fs::path(BOLT_TRAINER_OUT) / "station.boltwright";
         auto one = session::prepare_session(assembly, options),
              other = session::prepare_session(assembly, options);
@@ -325,7 +325,7 @@ TEST_CASE("Station client: a gripper takes the wrench by closing and releases it
     // The fingers on the screen follow the gripper.
     lesson_run.bench->gripper_ = 0.75;
     lesson_run.frames(0.2);
-    CHECK(hand_of(lesson_run.client).closing == 0.25);
+    CHECK(hand_of(lesson_run.client).closed_share == 0.25);
 }
 
 TEST_CASE("Station client: a difference between the station's and the lesson's servo is an error at once") {

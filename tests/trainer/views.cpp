@@ -29,7 +29,7 @@ TEST_CASE("View: for every nut of the reducer it contains the wrist and still sh
     const test::Folder folder;
     const auto file = folder / "lesson.boltwright";
     session::LessonOptions options;
-    options.obstacles = session::Obstacles::required;
+    options.obstacles = session::ObstacleUse::required;
     auto begun = session::LessonSession::begin(trainer_test::assembly("zq350"), options, file);
     REQUIRE(begun);
     const servo::Setup& setup = (*begun)->setup();

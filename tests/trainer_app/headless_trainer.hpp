@@ -22,7 +22,7 @@ inline trainer::AppOptions options(const char* assembly, bool menu) {
     trainer::AppOptions o;
     o.choice.assembly = assembly;
     o.menu = menu;
-    o.lesson.obstacles = session::Obstacles::if_any;
+    o.lesson.obstacles = session::ObstacleUse::if_any;
     return o;
 }
 

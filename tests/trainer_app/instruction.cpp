@@ -38,7 +38,7 @@ struct InstructedJoint : test::OneJoint {
 AppOptions instructed(const InstructedJoint& joint, const char* folder) {
     AppOptions o = test::options(joint.name().c_str(), false);
     o.choice.language = "en";
-    o.lesson.obstacles = session::Obstacles::none;
+    o.lesson.obstacles = session::ObstacleUse::none;
     o.out = std::filesystem::path(BOLT_TRAINER_OUT) / folder;
     return o;
 }

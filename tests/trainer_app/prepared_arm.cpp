@@ -55,7 +55,7 @@ struct UnpreparedArm {
             [this](const content::Assembly& assembly, const session::LessonOptions& lesson_options,
                    const Equipment&, const std::string&,
                    const device::ArmDialog& dialog) -> Result<std::unique_ptr<station_setup::LessonStation>> {
-            if (!prepare(dialog)) return fail(ErrorCode::no_device, "the arm is not prepared");
+            if (!prepare(dialog)) return fail(ErrorCode::no_device, "the arm is not prepared", "preparation");
             auto prepared = session::prepare_session(assembly, lesson_options);
             if (!prepared) return fail(prepared.error());
             auto made = std::make_unique<test::VirtualTimeStation>(std::move(*prepared), lesson_options);
@@ -168,7 +168,7 @@ TEST_CASE("Trainer with an unprepared arm: a failed start is reported in the men
     arm.need({});
     AppOptions options = arm.options();
     options.start_station = [](const auto&...) -> Result<std::unique_ptr<station_setup::LessonStation>> {
-        return fail(ErrorCode::no_device, "the arm is not plugged in");
+        return fail(ErrorCode::no_device, "the arm is not plugged in", "an arm");
     };
     HeadlessTrainer driver(std::move(options));
     driver.frame();

@@ -22,7 +22,7 @@ test::HandMeasures play(const std::string& assembly, const std::string& out, tra
     options.choice.assembly = assembly;
     options.choice.equipment.hand = hand;
     options.menu = false;
-    options.lesson.obstacles = session::Obstacles::if_any;
+    options.lesson.obstacles = session::ObstacleUse::if_any;
     options.out = std::filesystem::path(BOLT_TRAINER_OUT) / out;
     test::Program program(std::move(options), {320, 200});
     test::WindowDriver driver(*program.app, program.window);

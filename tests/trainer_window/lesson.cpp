@@ -68,7 +68,7 @@ TEST_CASE("Window: a whole lesson from the menu to the result") {
     options.choice.assembly = one ? one->name() : environment("BOLT_FILM");
     options.choice.mode = mode_from_environment();
     options.choice.tool = environment("BOLT_FILM_TOOL");
-    options.lesson.obstacles = session::Obstacles::if_any;
+    options.lesson.obstacles = session::ObstacleUse::if_any;
     options.out = std::filesystem::path(BOLT_TRAINER_OUT) / "lesson";
     const auto size = view::parse_size(environment("BOLT_FILM_SIZE", "320x200"));
     REQUIRE(size);

@@ -21,7 +21,7 @@ const session::SessionReader& recorded() {
         trainees::TrainOptions options;
         options.trainee = need(trainees::find_profile("clumsy"));
         options.lesson.trainee_profile = options.trainee.name;
-        options.lesson.obstacles = session::Obstacles::if_any;
+        options.lesson.obstacles = session::ObstacleUse::if_any;
         options.lesson.seed = 3;
         const auto file = folder / "session.boltwright";
         (void)need(trainees::train(loaded.assembly, options, file,

@@ -68,6 +68,7 @@ std::vector<Error> check_letters(const words::LoadedWords& loaded, const std::st
             error.line = loaded.lines[i];
             error.pointer = fmt::format("/words/{}", words::key_rows[i].name);
             error.what = fmt::format("no font has the letter \"{}\"", text::encode({&point, 1}));
+            error.expected = "letters that the window can show";
             errors.push_back(std::move(error));
             break;
         }
@@ -236,6 +237,7 @@ Result<std::vector<Error>> run_gltf_validator(const fs::path& script, const std:
             error.what = fmt::format("{} ({}, {} of the Khronos glTF validator)",
                                      message.value("message", ""), message.value("code", ""),
                                      message.value("severity", 0) == 0 ? "an error" : "a warning");
+            error.expected = "none";
             errors.push_back(std::move(error));
         }
     return errors;

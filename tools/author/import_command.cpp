@@ -74,6 +74,7 @@ int import_into_channel(const step_import::ImportOptions& options, step_import::
     if (channel.append_result(step_import::summary(imported.report))) return 0;
     Error error;
     error.what = "the summary cannot be stored";
+    error.expected = "free memory";
     return print_error(error);
 }
 

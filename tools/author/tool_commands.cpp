@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ToolOptions {
+struct ToolCommandOptions {
     std::string kind, out, picture_size = "640x400";
     double size_mm = 0.0, length_mm = 0.0, drive_mm = 0.0;
     double adaptor_mm = 0.0;
@@ -134,7 +134,7 @@ std::string notes_on(const tool_models::ToolParameters& p) {
                        info.name);
 }
 
-Status make_tool_files(const ToolOptions& options) {
+Status make_tool_files(const ToolCommandOptions& options) {
     BOLT_TRY_ASSIGN(const auto size, view::parse_size(options.picture_size));
     tool_models::ToolParameters parameters;
     BOLT_TRY_ASSIGN(parameters.kind, tool_models::kind_named(options.kind));
@@ -179,7 +179,7 @@ Status make_tool_files(const ToolOptions& options) {
 }  // namespace
 
 void add_tool(CLI::App& app, int& exit_code) {
-    auto options = std::make_shared<ToolOptions>();
+    auto options = std::make_shared<ToolCommandOptions>();
     CLI::App* command = app.add_subcommand(
         "tool",
         "Make the models and a picture of a tool from its parameters: FILE.glb, FILE.contact.glb, FILE.png");

@@ -32,12 +32,12 @@ view::ImmersiveFrame facing_frame(VkExtent2D size) {
     return made;
 }
 
-struct Lesson {
+struct HeadsetLesson {
     gpu::Instance instance = unwrap(gpu::Instance::create({}));
     view::GpuContext gpu;
     std::unique_ptr<trainer::App> app;
 
-    explicit Lesson(render::ScreenStage stage) {
+    explicit HeadsetLesson(render::ScreenStage stage) {
         render::RendererOptions renderer;
         renderer.screen_stage = stage;
         renderer.level_error_px = 0.7F;
@@ -49,13 +49,13 @@ struct Lesson {
         options.menu = false;
         options.out = std::filesystem::temp_directory_path() / "boltwright-bench";
         std::filesystem::create_directories(options.out);
-        options.lesson.obstacles = session::Obstacles::if_any;
+        options.lesson.obstacles = session::ObstacleUse::if_any;
         app = std::make_unique<trainer::App>(std::move(options));
         unwrap(app->start(gpu));
     }
-    Lesson(const Lesson&) = delete;
-    Lesson& operator=(const Lesson&) = delete;
-    ~Lesson() { app->release(); }
+    HeadsetLesson(const HeadsetLesson&) = delete;
+    HeadsetLesson& operator=(const HeadsetLesson&) = delete;
+    ~HeadsetLesson() { app->release(); }
 };
 
 struct FrameCost {
@@ -65,7 +65,7 @@ struct FrameCost {
     std::uint64_t triangles = 0;
 };
 
-FrameCost run(Lesson& lesson, const view::WindowFrame& window, int frames) {
+FrameCost run(HeadsetLesson& lesson, const view::WindowFrame& window, int frames) {
     FrameCost cost;
     const WallClock::time_point begin = WallClock::now();
     for (int i = 0; i < frames; ++i) {
@@ -92,7 +92,7 @@ FrameCost run(Lesson& lesson, const view::WindowFrame& window, int frames) {
 // 1: compute).
 void headset_zq350(benchmark::State& state) {
     run_or_skip(state, [&] {
-        Lesson lesson(static_cast<render::ScreenStage>(state.range(2)));
+        HeadsetLesson lesson(static_cast<render::ScreenStage>(state.range(2)));
         const VkExtent2D size{static_cast<std::uint32_t>(state.range(0)),
                               static_cast<std::uint32_t>(state.range(1))};
         const view::ImmersiveFrame eyes = facing_frame(size);

@@ -75,7 +75,7 @@ BENCHMARK(headless_lesson_unrecorded)->Unit(benchmark::kMillisecond);
 
 constexpr double frame_time = 1.0 / 60.0, time_limit = 3600.0;  // s
 
-void lesson_frames(benchmark::State& state, const char* name, session::Obstacles obstacles,
+void lesson_frames(benchmark::State& state, const char* name, session::ObstacleUse obstacles,
                    const char* tool = "") {
     run_or_skip(state, [&] {
         content::LoadedAssembly loaded = content::load_assembly(name);
@@ -127,13 +127,13 @@ void lesson_frames(benchmark::State& state, const char* name, session::Obstacles
 #define LESSON_FRAMES(name, ...) \
     BENCHMARK_CAPTURE(lesson_frames, name, __VA_ARGS__)->Iterations(1)->Unit(benchmark::kMillisecond)
 
-LESSON_FRAMES(cover_m8, "cover-m8", session::Obstacles::required);
-LESSON_FRAMES(zq350, "zq350", session::Obstacles::required);
+LESSON_FRAMES(cover_m8, "cover-m8", session::ObstacleUse::required);
+LESSON_FRAMES(zq350, "zq350", session::ObstacleUse::required);
 // The same lesson with a tool that surrounds the nut; baseline: the open end.
-LESSON_FRAMES(dn200_open_end, "dn200-pn16", session::Obstacles::required);
-LESSON_FRAMES(dn200_ring, "dn200-pn16", session::Obstacles::required, "ring");
-LESSON_FRAMES(dn200_ratchet, "dn200-pn16", session::Obstacles::required, "ratchet");
+LESSON_FRAMES(dn200_open_end, "dn200-pn16", session::ObstacleUse::required);
+LESSON_FRAMES(dn200_ring, "dn200-pn16", session::ObstacleUse::required, "ring");
+LESSON_FRAMES(dn200_ratchet, "dn200-pn16", session::ObstacleUse::required, "ratchet");
 // Baseline: without obstacles.
-LESSON_FRAMES(zq350_without_obstacles, "zq350", session::Obstacles::none);
+LESSON_FRAMES(zq350_without_obstacles, "zq350", session::ObstacleUse::none);
 
 }  // namespace

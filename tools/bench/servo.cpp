@@ -201,7 +201,8 @@ Result<ServoFixture> make_servo(const DeviceModel& device) {
     Result<std::optional<servo::ToolContact>> contact =
         session::load_tool_contact(loaded.assembly, servo.setup);
     if (!contact) return fail(contact.error());
-    if (!contact->has_value()) return fail(ErrorCode::bad_content, "zq350: has no contact model");
+    if (!contact->has_value())
+        return fail(ErrorCode::bad_content, "zq350: has no contact model", "one of each of its parts");
     servo.state = servo::initial_state(servo.setup);
     servo.state.tool_contact = std::move(*contact);
     return servo;

@@ -251,7 +251,8 @@ struct SerialGlove::Shared {
 Result<SerialGlove> SerialGlove::start(const EmulatedGloveOptions& options, double period) {
     auto shared = std::make_unique<Shared>(options);
     const auto failed = [](const char* what) {
-        return fail(ErrorCode::failed, fmt::format("pseudo-terminal: {}: {}", what, std::strerror(errno)));
+        return fail(ErrorCode::failed, fmt::format("pseudo-terminal: {}: {}", what, std::strerror(errno)),
+                    "a system with free pseudo-terminals");
     };
     shared->master = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (shared->master < 0) return failed("cannot open");

@@ -38,6 +38,7 @@ tl::unexpected<Error> unplugged_error() {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = "the emulated device was unplugged";
+    error.expected = "a connected one";
     error.lost = true;
     return fail(std::move(error));
 }
@@ -75,7 +76,9 @@ Status EmulatedTransport::send_feature(std::span<const std::uint8_t> report) {
 Result<std::span<const std::uint8_t>> EmulatedTransport::get_feature(std::span<std::uint8_t> report) {
     if (link_.unplugged) return unplugged_error();
     const Bytes answer = link_.device->get_feature(report[0]);
-    if (answer.empty()) return fail(ErrorCode::no_device, "the emulated device refuses the feature report");
+    if (answer.empty())
+        return fail(ErrorCode::no_device, "the emulated device refuses the feature report",
+                    "a report that it knows");
     const std::size_t n = std::min(answer.size(), report.size());
     std::copy_n(answer.begin(), n, report.begin());
     return std::span<const std::uint8_t>(report.data(), n);
@@ -192,7 +195,8 @@ Result<Uhid> Uhid::plug_in(std::unique_ptr<HidDevice> device) {
     c.product = description.product;
     if (!shared->send(create))
         return fail(ErrorCode::failed,
-                    fmt::format("/dev/uhid: cannot create the device: {}", std::strerror(errno)));
+                    fmt::format("/dev/uhid: cannot create the device: {}", std::strerror(errno)),
+                    "the permission to write to it, and a free device");
     shared->thread = std::thread([s = shared.get()] { s->play(); });
     return Uhid(std::move(shared));
 }

@@ -133,6 +133,7 @@ int play_glove(const emulate::EmulatedGloveOptions& options, double period, bool
         if (failed) {
             Error error;
             error.what = fmt::format("{}: cannot create the link: {}", link, failed.message());
+            error.expected = "a new path that this user may write to";
             return print_error(error);
         }
     }

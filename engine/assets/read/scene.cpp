@@ -195,7 +195,7 @@ Status set_interpolation(const Document& document, const std::string& name, cons
 }
 
 // Returns the number of floats per key of the animated property; 0: the node does not have the property.
-std::size_t floats_per_key(const Model& model, const Channel& channel) {
+std::size_t floats_per_key(const Model& model, const AnimationChannel& channel) {
     if (channel.path == TargetPath::rotation) return 4;
     if (channel.path != TargetPath::weights) return 3;
     const int mesh = model.nodes[static_cast<std::size_t>(channel.node)].mesh;
@@ -203,7 +203,7 @@ std::size_t floats_per_key(const Model& model, const Channel& channel) {
 }
 
 Status read_keys(Document& document, const Model& model, const nlohmann::json& sampler,
-                 const std::string& pointer, Channel& channel) {
+                 const std::string& pointer, AnimationChannel& channel) {
     BOLT_TRY(set_interpolation(document, sampler.value("interpolation", "LINEAR"), pointer + "/interpolation",
                                channel.interpolation));
     BOLT_TRY_ASSIGN(auto times, unpack_floats(document, sampler["input"], TINYGLTF_TYPE_SCALAR,
@@ -278,7 +278,7 @@ Status read_animations(Document& document, Model& model) {
                                 fmt::format("an index below {}", samplers.size()));
             // A channel without a node belongs to an extension and is ignored.
             if (!source["target"].contains("node")) continue;
-            Channel channel;
+            AnimationChannel channel;
             channel.node = source["target"]["node"];
             Status read =
                 set_path(document, source["target"]["path"], pointer + "/target/path", channel.path);

@@ -131,7 +131,7 @@ Result<Json> write_animation(GlbWriter& writer, std::size_t index) {
     json["channels"] = Json::array();
     json["samplers"] = Json::array();
     std::vector<std::pair<const std::vector<float>*, int>> inputs;  // key times that channels share
-    for (const Channel& channel : animation.channels) {
+    for (const AnimationChannel& channel : animation.channels) {
         if (channel.times.empty() || channel.values.size() % channel.times.size() != 0)
             return fail(error_at(
                 pointer, "a channel of '" + animation.name +

@@ -222,7 +222,8 @@ Result<LabelBatch> LabelPass::batch(const Scene& scene, const Eye& eye) {
         atlas_ = std::make_unique<text::Atlas>(2 * size);
     }
     atlas_ = std::make_unique<text::Atlas>(atlas_size);  // a smaller one may suffice for the next picture
-    return fail(ErrorCode::failed, "the labels of one picture have too many different glyphs");
+    return fail(ErrorCode::failed, "the labels of one picture have too many different glyphs",
+                "fewer labels, or smaller ones");
 }
 
 Status LabelPass::upload(PassContext& context) {

@@ -54,7 +54,8 @@ Status DeformPass::plan(PassContext& context, std::vector<Job>& jobs) {
             if (job.constants.skinned != 0 && part.deformable.joints.size() > deformation->joints.size())
                 return fail(ErrorCode::failed,
                             fmt::format("a deformation has {} joints, but a part uses joint {}",
-                                        deformation->joints.size(), part.deformable.joints.size() - 1));
+                                        deformation->joints.size(), part.deformable.joints.size() - 1),
+                            "a joint for each index");
             job.constants.positions = words;
             job.constants.attributes = words + position_words * part.deformable.vertices;
             words = job.constants.attributes + attribute_words * part.deformable.vertices;

@@ -81,7 +81,8 @@ Status add_cover_m8(CadDocument& document) {
     const TopoDS_Shape housing_shape = only_solid(housing()), cover_shape = only_solid(cover());
     if (housing_shape.IsNull() || cover_shape.IsNull() || !is_valid_solid(housing_shape) ||
         !is_valid_solid(cover_shape))
-        return fail(ErrorCode::failed, "cover-m8: housing or cover is not one closed, valid solid");
+        return fail(ErrorCode::failed, "cover-m8: housing or cover is not one closed, valid solid",
+                    "a solid of which OpenCASCADE reports no fault");
     document.add_instance(document.root(), "housing",
                           document.add_part("housing_casting", housing_shape, finish::painted_cast_iron));
     document.add_instance(document.root(), "cover",

@@ -142,7 +142,8 @@ Status add_dn200_pn16(CadDocument& document) {
     const TopoDS_Shape stand_shape = only_solid(stand());
     if (flange_shape.IsNull() || stand_shape.IsNull() || !is_valid_solid(flange_shape) ||
         !is_valid_solid(stand_shape))
-        return fail(ErrorCode::failed, "dn200-pn16: flange or stand is not one closed, valid solid");
+        return fail(ErrorCode::failed, "dn200-pn16: flange or stand is not one closed, valid solid",
+                    "a solid of which OpenCASCADE reports no fault");
     const CadPart flange_part = document.add_part("flange_DN200_PN16", flange_shape, finish::machined_steel);
     const CadPart pipe_part = document.add_part("pipe_219x6", pipe(), finish::galvanised_sheet);
     const CadPart weld_part = document.add_part("weld_seam", weld(), finish::gear_steel);

@@ -207,7 +207,8 @@ Status CadDocument::write_step(const std::string& path) {
     writer.SetLayerMode(Standard_False);
     writer.SetPropsMode(Standard_False);
     if (!writer.Transfer(state_->document, STEPControl_AsIs))
-        return fail(ErrorCode::failed, fmt::format("{}: the model cannot be converted to STEP", path));
+        return fail(ErrorCode::failed, fmt::format("{}: the model cannot be converted to STEP", path),
+                    "a document that OpenCASCADE can write");
     const auto protocol = Handle(StepData_Protocol)::DownCast(writer.ChangeWriter().WS()->Protocol());
     restore_names(writer.ChangeWriter().Model(), state_->instances);
     const Handle(StepData_StepModel) model = in_part_order(writer.ChangeWriter().Model(), *protocol);

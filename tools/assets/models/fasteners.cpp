@@ -106,7 +106,8 @@ const char* name_suffix(ThreadDirection direction) { return direction == ThreadD
 Result<TopoDS_Shape> checked(const TopoDS_Shape& shape, std::string_view what) {
     TopoDS_Shape solid = only_solid(shape);
     if (solid.IsNull() || !is_valid_solid(solid))
-        return fail(ErrorCode::failed, fmt::format("{}: is not one closed, valid solid", what));
+        return fail(ErrorCode::failed, fmt::format("{}: is not one closed, valid solid", what),
+                    "a solid of which OpenCASCADE reports no fault");
     return solid;
 }
 

@@ -27,8 +27,10 @@ Status write(const ShippedModel& model, const std::filesystem::path& content) {
     std::error_code error;
     std::filesystem::create_directories(path.parent_path(), error);
     if (error)
-        return bolt::fail(bolt::ErrorCode::failed, fmt::format("{}: cannot create the folder: {}",
-                                                               path.parent_path().string(), error.message()));
+        return bolt::fail(
+            bolt::ErrorCode::failed,
+            fmt::format("{}: cannot create the folder: {}", path.parent_path().string(), error.message()),
+            "a folder that this user may write to");
     CadDocument document(path.stem().string());
     BOLT_TRY(model.build(document));
     BOLT_TRY(document.write_step(path.string()));

@@ -292,7 +292,8 @@ static Status add(CadDocument& document) {
         const TopoDS_Shape solid = only_solid(part.shape);
         if (solid.IsNull() || !is_valid_solid(solid))
             return fail(ErrorCode::failed,
-                        fmt::format("pump-32-160: {} is not one closed, valid solid", part.name));
+                        fmt::format("pump-32-160: {} is not one closed, valid solid", part.name),
+                        "a solid of which OpenCASCADE reports no fault");
         document.add_instance(document.root(), part.name,
                               document.add_part(part.part, solid, part.finish, machined_faces(solid)));
     }

@@ -68,7 +68,8 @@ Result<TopoDS_Shape> insert(const WrenchSpec& s) {
     });
     body = only_solid(cut(with_jaw(body, s), size_stamps(s)));
     if (body.IsNull() || !is_valid_solid(body))
-        return fail(ErrorCode::failed, "torque wrench insert: is not one closed, valid solid");
+        return fail(ErrorCode::failed, "torque wrench insert: is not one closed, valid solid",
+                    "a solid of which OpenCASCADE reports no fault");
     return body;
 }
 
@@ -191,7 +192,8 @@ Status add_torque_wrench(CadDocument& document, double size) {
         const TopoDS_Shape solid = only_solid(part_to_add.shape);
         if (solid.IsNull() || !is_valid_solid(solid))
             return fail(ErrorCode::failed,
-                        fmt::format("torque wrench {}: is not one closed, valid solid", part_to_add.name));
+                        fmt::format("torque wrench {}: is not one closed, valid solid", part_to_add.name),
+                        "a solid of which OpenCASCADE reports no fault");
         const CadPart part =
             document.add_part(fmt::format("torque_wrench_{}", part_to_add.name), solid, part_to_add.finish,
                               part_to_add.name == "tube" ? scale_marks(solid) : std::vector<FaceFinish>{});

@@ -239,7 +239,8 @@ Result<TopoDS_Shape> open_end_wrench(const WrenchSpec& s) {
     out.back() = moved(out.back(), shift(s.end - r_end, 0.0, 0.0));
     body = only_solid(cut(body, out));
     if (body.IsNull() || !is_valid_solid(body))
-        return fail(ErrorCode::failed, fmt::format("wrench {}: is not one closed, valid solid", size));
+        return fail(ErrorCode::failed, fmt::format("wrench {}: is not one closed, valid solid", size),
+                    "a solid of which OpenCASCADE reports no fault");
     return body;
 }
 

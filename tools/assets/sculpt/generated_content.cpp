@@ -16,6 +16,7 @@ Result<std::filesystem::path> folder(const std::filesystem::path& content, const
     if (!error) return path;
     Error out;
     out.what = "cannot create the folder: " + error.message();
+    out.expected = "a folder that this user may write to";
     out.file = path.string();
     return fail(out);
 }

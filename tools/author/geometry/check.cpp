@@ -40,8 +40,8 @@ std::optional<FlattenedModel> read_scene(const std::vector<std::string>& parts, 
 
 // Loads the author's tool, or generates one. Reports the errors of a model and replaces it by a generated
 // tool. `pointer`: of the tool.
-ToolShape load_tool(const content::WrenchDesign& design, const std::string& pointer,
-                    const Messages& messages) {
+ToolGeometry load_tool(const content::WrenchDesign& design, const std::string& pointer,
+                       const Messages& messages) {
     const std::string model = pointer + "/model";
     std::vector<std::string> files;
     if (!design.model.empty()) files.push_back(design.model);
@@ -62,8 +62,8 @@ ToolShape load_tool(const content::WrenchDesign& design, const std::string& poin
 }
 
 // In the order of the assembly: the default tool, then those of "more_tools".
-std::vector<ToolShape> load_tools(const content::Assembly& assembly, const Messages& messages) {
-    std::vector<ToolShape> shapes;
+std::vector<ToolGeometry> load_tools(const content::Assembly& assembly, const Messages& messages) {
+    std::vector<ToolGeometry> shapes;
     for (std::size_t i = 0; i < assembly.tools.size(); ++i) {
         const content::Tool& tool = assembly.tools[i];
         const bool is_first = tool.name == content::default_tool_name;
@@ -93,8 +93,8 @@ DrawnToolRoom describe_joint(std::size_t index, const JointParts& parts) {
 }
 
 // The open ends among the tools of a joint.
-std::vector<Jaw> jaws_of(const content::Assembly& assembly, const std::vector<std::size_t>& tools) {
-    std::vector<Jaw> jaws;
+std::vector<JawOpening> jaws_of(const content::Assembly& assembly, const std::vector<std::size_t>& tools) {
+    std::vector<JawOpening> jaws;
     for (const std::size_t i : tools) {
         const content::Tool& tool = assembly.tools[i];
         if (tool.wrench.head != content::ToolHead::open_end) continue;

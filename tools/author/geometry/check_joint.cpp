@@ -37,7 +37,7 @@ void check_presence(const JointCheck& s, const Fastener& fastener, bool wanted) 
 }
 
 // Reports a jaw that is too small or too wide for the nut. `flats`: measured width across flats, m.
-void check_jaw(const JointCheck& s, const Jaw& jaw, double flats) {
+void check_jaw(const JointCheck& s, const JawOpening& jaw, double flats) {
     const std::string name = content::in_quotes(s.parts.turned.name);
     const auto report = [&](const char* how) {
         s.error(fmt::format("a jaw of {:g} mm{} is too {} for {}, {:.2f} mm across flats", jaw.opening / mm,
@@ -52,7 +52,7 @@ void check_jaw(const JointCheck& s, const Jaw& jaw, double flats) {
 
 // Checks the hexagon of the nut or of the head that is turned, and that the jaws fit it, or the socket of the
 // head. Returns false if no tool can grip it.
-bool check_turned_hexagon(const JointCheck& s, std::span<const Jaw> jaws) {
+bool check_turned_hexagon(const JointCheck& s, std::span<const JawOpening> jaws) {
     const joint::TurnedPartSize size = joint::turned_part_size(s.joint.design);
     if (size.depth > 0.0) {
         check_socket(s, size);
@@ -60,7 +60,7 @@ bool check_turned_hexagon(const JointCheck& s, std::span<const Jaw> jaws) {
     }
     const auto flats = check_hexagon(s, s.parts.turned, size.across_flats, s.turned_name());
     if (!flats) return false;
-    for (const Jaw& jaw : jaws) check_jaw(s, jaw, *flats);
+    for (const JawOpening& jaw : jaws) check_jaw(s, jaw, *flats);
     return true;
 }
 
@@ -207,7 +207,7 @@ void check_drawn_thread(const JointCheck& s, const Fastener& fastener) {
 
 bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_t index,
                                  const JointParts& parts, const FlattenedModel& scene, const Bvh& everything,
-                                 std::span<const Jaw> jaws, const Messages& messages) {
+                                 std::span<const JawOpening> jaws, const Messages& messages) {
     const JointCheck s{joint, index, parts, scene, everything, messages};
     check_presence(s, parts.bolt, true);
     check_presence(s, parts.washer_head, joint.design.washer_under_head);

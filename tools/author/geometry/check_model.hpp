@@ -62,7 +62,7 @@ void check_names(const FlattenedModel& near, const FlattenedModel& far, const Me
 void check_contact(const FlattenedModel& contact, const FlattenedModel& near, const Messages& messages);
 
 // An open end: its name for messages, and its opening, m.
-struct Jaw {
+struct JawOpening {
     std::string owner;  // empty, or " (the tool "torque_wrench")"
     double opening = 0.0;
 };
@@ -74,7 +74,7 @@ struct Jaw {
 // jaw of each must fit the nut.
 bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_t index,
                                  const JointParts& parts, const FlattenedModel& scene, const Bvh& everything,
-                                 std::span<const Jaw> jaws, const Messages& messages);
+                                 std::span<const JawOpening> jaws, const Messages& messages);
 
 // Checks that each tool can be brought onto the turned part and swings far enough on it. `tools`: of
 // tools_of_joint(). `room`: receives what was measured for the first one. `failing`: receives the rooms of

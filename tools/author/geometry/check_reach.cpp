@@ -37,7 +37,7 @@ struct ToolCheck {
     const JointSurroundings& space;
     JointRooms& rooms;
     std::size_t joint, tool;  // indices
-    const ToolShape& shape;
+    const ToolGeometry& shape;
     const Messages& messages;
 
     [[nodiscard]] const char* turned() const {
@@ -130,7 +130,7 @@ std::optional<double> flat_angle(const JointSurroundings& space) {
     return hexagon ? std::optional(hexagon->flat_angle) : std::nullopt;
 }
 
-void fill_in(DrawnToolRoom& out, const JointSurroundings& space, const ToolShape& tool,
+void fill_in(DrawnToolRoom& out, const JointSurroundings& space, const ToolGeometry& tool,
              const ToolRoom& room) {
     out.gripped = true;
     out.height = room.height;
@@ -155,7 +155,7 @@ void check_tool_room(const JointSurroundings& space, std::size_t joint, const st
     const content::AssemblyJoint& checked = space.joint();
     const double gap = checked.design.start_gap;
     for (const std::size_t tool : tools) {
-        const ToolShape& shape = set.shapes()[tool];
+        const ToolGeometry& shape = set.shapes()[tool];
         if (!collision::grips(shape.head, shape_of(checked.design))) continue;  // reported by check_tools()
         const ToolRoom& found = rooms.room_of(shape);
         if (tool == tools.front()) fill_in(room, space, shape, found);

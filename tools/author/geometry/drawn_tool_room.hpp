@@ -8,7 +8,7 @@
 #include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/free_swing.hpp"
 #include "tools/author/geometry/scene.hpp"
-#include "tools/author/geometry/tool_shape.hpp"
+#include "tools/author/geometry/tool_geometry.hpp"
 
 namespace bolt::geometry {
 
@@ -32,7 +32,7 @@ struct DrawnToolRoom {
 struct DrawnToolRooms {
     FlattenedModel scene;
     Bvh everything;                     // all parts, in the assembly's frame
-    std::vector<ToolShape> tools;       // in the order of the assembly
+    std::vector<ToolGeometry> tools;    // in the order of the assembly
     std::vector<DrawnToolRoom> joints;  // those whose node the model has
     // The room for each tool that cannot do its work on a joint: too little swing, or no path onto it.
     std::vector<DrawnToolRoom> failing;

@@ -21,7 +21,7 @@ bool has_drive(const content::WrenchDesign& design) {
 
 }  // namespace
 
-const ToolShape* ToolSet::generate(const content::WrenchDesign& design) {
+const ToolGeometry* ToolSet::generate(const content::WrenchDesign& design) {
     const std::string key = tool_models::description(tool_models::parameters_of(design));
     auto found = generated_.find(key);
     if (found == generated_.end()) {
@@ -31,7 +31,7 @@ const ToolShape* ToolSet::generate(const content::WrenchDesign& design) {
     return found->second ? &*found->second : nullptr;
 }
 
-const ToolRoom& JointRooms::room_of(const ToolShape& tool) {
+const ToolRoom& JointRooms::room_of(const ToolGeometry& tool) {
     const auto found = rooms_.find(&tool);
     if (found != rooms_.end()) return found->second;
     return rooms_.emplace(&tool, surroundings_.room_for(tool)).first->second;
@@ -43,7 +43,7 @@ std::string JointRooms::fitting_extension(const content::WrenchDesign& design) {
     for (const double bar : extension_bars) {
         if (bar <= design.extension) continue;
         longer.extension = bar;
-        const ToolShape* shape = tools_.generate(longer);
+        const ToolGeometry* shape = tools_.generate(longer);
         if (shape != nullptr && room_of(*shape).enough)
             return fmt::format("an extension bar of {0:g} mm (\"extension_mm\": {0:g})", bar / mm);
     }
@@ -77,7 +77,7 @@ std::string JointRooms::fitting_tool_of_file(std::size_t tool) {
 std::string JointRooms::usual_fitting_tool(const content::WrenchDesign& design) {
     for (const content::WrenchDesign& usual : usual_tools(surroundings_.joint().design)) {
         if (usual.kind == design.kind && usual.head == design.head) continue;
-        const ToolShape* shape = tools_.generate(usual);
+        const ToolGeometry* shape = tools_.generate(usual);
         if (shape != nullptr && room_of(*shape).enough)
             return fmt::format("{} with a handle of {:.0f} mm, which fits", title_of(usual),
                                usual.handle_length / mm);

@@ -14,19 +14,19 @@ namespace bolt::geometry {
 // The tools of an assembly, and others that are generated when they are needed.
 class ToolSet {
   public:
-    ToolSet(const content::Assembly& assembly, std::vector<ToolShape> shapes)
+    ToolSet(const content::Assembly& assembly, std::vector<ToolGeometry> shapes)
         : assembly_(assembly), shapes_(std::move(shapes)) {}
 
     [[nodiscard]] const content::Assembly& assembly() const { return assembly_; }
     // In the order of Assembly::tools.
-    [[nodiscard]] std::vector<ToolShape>& shapes() { return shapes_; }
+    [[nodiscard]] std::vector<ToolGeometry>& shapes() { return shapes_; }
     // Returns nullptr if no such tool can be made.
-    const ToolShape* generate(const content::WrenchDesign& design);
+    const ToolGeometry* generate(const content::WrenchDesign& design);
 
   private:
     const content::Assembly& assembly_;
-    std::vector<ToolShape> shapes_;
-    std::map<std::string, std::optional<ToolShape>> generated_;  // by description
+    std::vector<ToolGeometry> shapes_;
+    std::map<std::string, std::optional<ToolGeometry>> generated_;  // by description
 };
 
 // The rooms of tools on one joint; each is measured once.
@@ -35,7 +35,7 @@ class JointRooms {
     JointRooms(const JointSurroundings& surroundings, ToolSet& tools)
         : surroundings_(surroundings), tools_(tools) {}
 
-    const ToolRoom& room_of(const ToolShape& tool);
+    const ToolRoom& room_of(const ToolGeometry& tool);
 
     // Names the tools that fit in place of a tool of the assembly, for a message; empty if none does. Tries,
     // in this order, longer extension bars, the other tools of the file, and other kinds with usual lengths.
@@ -49,7 +49,7 @@ class JointRooms {
 
     const JointSurroundings& surroundings_;
     ToolSet& tools_;
-    std::map<const ToolShape*, ToolRoom> rooms_;
+    std::map<const ToolGeometry*, ToolRoom> rooms_;
 };
 
 }  // namespace bolt::geometry

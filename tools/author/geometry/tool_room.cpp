@@ -29,20 +29,20 @@ void add_head_angles(const FreeSwing& swing, double head_angle,
 
 // m, the lower end of a head that reaches over or into the part, in the tool's frame.
 double lower_end(const collision::ToolHead& head) {
-    if (const auto* key = std::get_if<collision::Key>(&head)) return key->tip;
+    if (const auto* key = std::get_if<collision::HexKey>(&head)) return key->tip;
     if (const auto* ring = std::get_if<collision::Ring>(&head)) return ring->low;
     return 0.0;
 }
 
 }  // namespace
 
-SwingRule swing_rule(const ToolShape& tool) {
+SwingRule swing_rule(const ToolGeometry& tool) {
     const double period = collision::fitting_angle(tool.head);
     if (tool.is_open_end()) return {least_turned_over, period};
     return {collision::tooth_angle(tool.head) > 0.0 ? 2.0 * period : period, period};
 }
 
-bool can_turn_fully(const SwingPair& swings, const ToolShape& tool, bool one_way_up) {
+bool can_turn_fully(const SwingPair& swings, const ToolGeometry& tool, bool one_way_up) {
     const double period = swing_rule(tool).period, head_angle = tool.head_angle;
     std::vector<std::pair<double, double>> plain, over;
     add_head_angles(swings.plain, head_angle, plain);
@@ -52,17 +52,17 @@ bool can_turn_fully(const SwingPair& swings, const ToolShape& tool, bool one_way
     return covers_period(plain, period);
 }
 
-bool is_enough(const SwingPair& swings, const ToolShape& tool) {
+bool is_enough(const SwingPair& swings, const ToolGeometry& tool) {
     return swings.most() >= swing_rule(tool).least && can_turn_fully(swings, tool, false);
 }
 
-double JointSurroundings::height_of(const ToolShape& tool) const {
+double JointSurroundings::height_of(const ToolGeometry& tool) const {
     const double low = parts_.turned.box.low.y, high = parts_.turned.box.high.y;
     if (!tool.is_open_end()) return low + collision::grip_height(tool.head, shape_of(joint_.design));
     return std::max(0.5 * (low + high), low + tool.half_thickness + clearance);
 }
 
-std::uint32_t JointSurroundings::find_path(const ToolShape& tool, const ToolRoom& room, const Bvh& plain,
+std::uint32_t JointSurroundings::find_path(const ToolGeometry& tool, const ToolRoom& room, const Bvh& plain,
                                            const Bvh& over) const {
     const double low = room.height + (tool.is_open_end() ? std::min(plain.box().low.y, over.box().low.y)
                                                          : plain.box().low.y);
@@ -78,7 +78,7 @@ std::uint32_t JointSurroundings::find_path(const ToolShape& tool, const ToolRoom
     return blocked == no_part ? no_part : find_obstruction(around, over, room.seated.turned_over, paths);
 }
 
-ToolRoom JointSurroundings::room_for(const ToolShape& tool) const {
+ToolRoom JointSurroundings::room_for(const ToolGeometry& tool) const {
     const bool reversible = tool.is_open_end();
     const Bvh plain = place_on_joint(tool, false), over = reversible ? place_on_joint(tool, true) : Bvh();
     ToolRoom room;

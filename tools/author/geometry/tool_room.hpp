@@ -7,7 +7,7 @@
 #include "content/format/assembly.hpp"
 #include "tools/author/geometry/free_swing.hpp"
 #include "tools/author/geometry/scene.hpp"
-#include "tools/author/geometry/tool_shape.hpp"
+#include "tools/author/geometry/tool_geometry.hpp"
 
 namespace bolt::geometry {
 
@@ -26,14 +26,14 @@ struct SwingPair {
 struct SwingRule {
     double least = 0.0, period = 0.0;
 };
-SwingRule swing_rule(const ToolShape& tool);
+SwingRule swing_rule(const ToolGeometry& tool);
 
 // Returns true if the tool fits on the part whatever the angle of the part is, so that it can turn the part
 // without limit. `one_way_up`: without turning an open end over.
-bool can_turn_fully(const SwingPair& swings, const ToolShape& tool, bool one_way_up);
+bool can_turn_fully(const SwingPair& swings, const ToolGeometry& tool, bool one_way_up);
 
 // Returns true if the swing is enough to turn the part without limit.
-bool is_enough(const SwingPair& swings, const ToolShape& tool);
+bool is_enough(const SwingPair& swings, const ToolGeometry& tool);
 
 struct ToolRoom {
     double height = 0.0;  // m, of the tool's origin above the joint's, on the tightened joint
@@ -55,7 +55,7 @@ class JointSurroundings {
           obstacles_(trees, parts.to_joint, parts.to_assembly, parts.turned.parts) {}
 
     // The joint must have a part that the tool grips.
-    [[nodiscard]] ToolRoom room_for(const ToolShape& tool) const;
+    [[nodiscard]] ToolRoom room_for(const ToolGeometry& tool) const;
 
     [[nodiscard]] const content::AssemblyJoint& joint() const { return joint_; }
     [[nodiscard]] const JointParts& parts() const { return parts_; }
@@ -65,8 +65,8 @@ class JointSurroundings {
     }
 
   private:
-    [[nodiscard]] double height_of(const ToolShape& tool) const;
-    [[nodiscard]] std::uint32_t find_path(const ToolShape& tool, const ToolRoom& room, const Bvh& plain,
+    [[nodiscard]] double height_of(const ToolGeometry& tool) const;
+    [[nodiscard]] std::uint32_t find_path(const ToolGeometry& tool, const ToolRoom& room, const Bvh& plain,
                                           const Bvh& over) const;
 
     const content::AssemblyJoint& joint_;

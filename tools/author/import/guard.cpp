@@ -206,6 +206,7 @@ tl::unexpected<Error> file_error(const fs::path& file, const std::string& what) 
     error.code = ErrorCode::failed;
     error.file = file.string();
     error.what = what;
+    error.expected = "a path that this user may write to, and free space";
     return fail(std::move(error));
 }
 

@@ -159,7 +159,8 @@ Status draw_joint_pictures(const content::Assembly& assembly, const DrawnToolRoo
     fs::create_directories(folder, failed);
     if (failed)
         return fail(ErrorCode::failed,
-                    fmt::format("{} cannot be created: {}", folder.string(), failed.message()));
+                    fmt::format("{} cannot be created: {}", folder.string(), failed.message()),
+                    "a folder that this user may write to");
     BOLT_TRY_ASSIGN(const auto painter, JointPainter::create(assembly, rooms));
     for (const DrawnToolRoom& room : rooms.joints) {
         const std::vector<Blocker> blockers = blockers_of(rooms, room);

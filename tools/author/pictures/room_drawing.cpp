@@ -42,7 +42,7 @@ constexpr std::size_t most_names = 4;                // labels in a picture
 std::uint32_t foremost_part(const DrawnToolRooms& rooms, const DrawnToolRoom& room,
                             const geometry::BlockedArc& arc) {
     const double angle = 0.5 * (arc.from + arc.to);
-    const geometry::ToolShape& tool = rooms.tools[room.tool];
+    const geometry::ToolGeometry& tool = rooms.tools[room.tool];
     const Vec3 from(room.to_assembly * glm::dvec4(0.0, room.height + tool.handle_height, 0.0, 1.0));
     const Vec3 out = glm::normalize(Vec3(room.to_assembly * glm::dvec4(fan_point(angle, 1.0, 0.0), 0.0)));
     const auto hit_of = [&](const geometry::SkipPart& skip) {
@@ -79,7 +79,7 @@ PictureContents contents_of(const DrawnToolRooms& rooms, const DrawnToolRoom& ro
                 in_assembly(fan_point(angle, (room.gripped ? 1.5 : 6.0) * radius, height)));
     }
     if (!room.gripped) return contents;
-    const geometry::ToolShape& tool = rooms.tools[room.tool];
+    const geometry::ToolGeometry& tool = rooms.tools[room.tool];
     const double top = room.height + tool.top + 0.1 * mm;
     for (int i = 1; i <= 8; ++i)
         contents.visible.push_back(in_assembly(fan_point(room.handle, i / 8.0 * tool.reach, top)));
@@ -103,7 +103,7 @@ PictureContents contents_of(const DrawnToolRooms& rooms, const DrawnToolRoom& ro
 }  // namespace
 
 FanRing ring_of(const DrawnToolRooms& rooms, const DrawnToolRoom& room) {
-    const geometry::ToolShape& tool = rooms.tools[room.tool];
+    const geometry::ToolGeometry& tool = rooms.tools[room.tool];
     return {1.1 * std::hypot(room.turned.half().x, room.turned.half().z), fan_reach * tool.reach,
             room.height + tool.handle_height};
 }

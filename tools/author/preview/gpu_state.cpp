@@ -32,7 +32,7 @@ view::Orbit initial_camera(const PreviewOptions& options, const PreviewSources& 
 
 Status check_messages(const gpu::Instance& instance) {
     if (instance.log().messages.empty()) return {};
-    return fail(ErrorCode::failed, instance.log().messages.front());
+    return fail(ErrorCode::failed, instance.log().messages.front(), "no message of the validation layer");
 }
 
 }  // namespace bolt::author

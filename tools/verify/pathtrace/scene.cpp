@@ -119,7 +119,8 @@ void TracedScene::EmbreeDeleter::operator()(RTCSceneTy* scene) const { rtcReleas
 
 Result<TracedScene> TracedScene::build(const assets::Model& model, const TracedSceneOptions& options) {
     FlatMesh flat = flatten(model, options.nodes);
-    if (flat.triangles.empty()) return fail(ErrorCode::bad_content, "has no visible triangles");
+    if (flat.triangles.empty())
+        return fail(ErrorCode::bad_content, "has no visible triangles", "a model with triangles");
     TracedScene scene;
     scene.low_ = glm::vec3(FLT_MAX);
     scene.high_ = glm::vec3(-FLT_MAX);
@@ -147,7 +148,7 @@ Result<TracedScene> TracedScene::build(const assets::Model& model, const TracedS
 Status TracedScene::build_tree() {
     // Build with one thread so that the tree, and therefore the image, is the same on every machine.
     device_.reset(rtcNewDevice("threads=1"));
-    if (!device_) return fail(ErrorCode::failed, "Embree: cannot create a device");
+    if (!device_) return fail(ErrorCode::failed, "Embree: cannot create a device", "free memory");
     tree_.reset(rtcNewScene(device_.get()));
     rtcSetSceneFlags(tree_.get(), RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -157,7 +158,7 @@ Status TracedScene::build_tree() {
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles_.size()));
     if (positions == nullptr || corners == nullptr) {
         rtcReleaseGeometry(geometry);
-        return fail(ErrorCode::failed, "Embree: cannot allocate memory for the model");
+        return fail(ErrorCode::failed, "Embree: cannot allocate memory for the model", "free memory");
     }
     for (std::size_t i = 0; i < vertices_.size(); ++i)
         std::memcpy(positions + 3 * i, &vertices_[i].position, 3 * sizeof(float));

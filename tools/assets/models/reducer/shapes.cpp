@@ -300,6 +300,7 @@ TopoDS_Shape one_solid(std::string_view name, const TopoDS_Shape& shape) {
 Error build_error(std::string_view part, const std::string& what) {
     Error error;
     error.what = fmt::format("{}: cannot be built: {}", part, what);
+    error.expected = "dimensions that OpenCASCADE can build";
     return error;
 }
 

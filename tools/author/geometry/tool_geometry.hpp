@@ -15,7 +15,7 @@
 
 namespace bolt::geometry {
 
-struct ToolShape {
+struct ToolGeometry {
     std::string name = "the wrench";  // used in messages
     std::vector<Triangle> triangles;  // in the tool frame, metres
     collision::ToolHead head;         // the part that grips
@@ -37,13 +37,13 @@ enum class ModelFrame : std::uint8_t { found, tool };
 
 // The tool that a model shows. Fails if the measured width of the jaw, hole or key does not agree with the
 // design.
-Result<ToolShape> tool_from_model(const FlattenedModel& scene, const content::WrenchDesign& design,
-                                  ModelFrame frame = ModelFrame::found);
+Result<ToolGeometry> tool_from_model(const FlattenedModel& scene, const content::WrenchDesign& design,
+                                     ModelFrame frame = ModelFrame::found);
 
 // The tool that the trainer generates for a design. If the design names a model, this model is ignored.
-Result<ToolShape> generated_tool(const content::WrenchDesign& design);
+Result<ToolGeometry> generated_tool(const content::WrenchDesign& design);
 
 // The tool on a joint with the axis +Y, its handle along +X. `turned_over`: rotated by 180° about the handle.
-Bvh place_on_joint(const ToolShape& tool, bool turned_over);
+Bvh place_on_joint(const ToolGeometry& tool, bool turned_over);
 
 }  // namespace bolt::geometry

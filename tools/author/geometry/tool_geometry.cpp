@@ -1,4 +1,4 @@
-#include "tools/author/geometry/tool_shape.hpp"
+#include "tools/author/geometry/tool_geometry.hpp"
 
 #include <fmt/format.h>
 
@@ -42,7 +42,7 @@ tl::unexpected<Error> tool_error(std::string what, std::string expected) {
 }
 
 // Measures the jaw of an open end, and sets what follows from it.
-Status measure_open_end(ToolShape& tool, const content::WrenchDesign& design) {
+Status measure_open_end(ToolGeometry& tool, const content::WrenchDesign& design) {
     const Bvh bvh(tool.triangles);
     // The head may point to either side, because the wrench can be turned over.
     const MeasuredJaw left = measure_jaw(bvh, design.head_angle, tool.reach);
@@ -76,10 +76,10 @@ Status measure_open_end(ToolShape& tool, const content::WrenchDesign& design) {
 
 // Compares the hole of a ring or a socket, or the width of a key, with its size. Rays from the origin find
 // the nearest point of its walls. The hole of a contact model may be round and reach to the corners.
-Status check_grip(const ToolShape& tool, const content::WrenchDesign& design) {
+Status check_grip(const ToolGeometry& tool, const content::WrenchDesign& design) {
     constexpr int rays = 72;
     const Bvh bvh(tool.triangles);
-    const bool is_key = std::holds_alternative<collision::Key>(tool.head);
+    const bool is_key = std::holds_alternative<collision::HexKey>(tool.head);
     const char* part = is_key ? "key" : "hole";
     double nearest = tool.reach;
     for (int i = 0; i < rays; ++i) {
@@ -98,7 +98,7 @@ Status check_grip(const ToolShape& tool, const content::WrenchDesign& design) {
 }
 
 // Sets the height of the handle, and of the upper side of a tool that is no open end.
-void measure_handle(ToolShape& tool) {
+void measure_handle(ToolGeometry& tool) {
     double low = std::numeric_limits<double>::infinity(), high = -low, top = -low;
     for (const Triangle& t : tool.triangles)
         for (const Vec3& p : {t.a, t.b, t.c}) {
@@ -113,9 +113,9 @@ void measure_handle(ToolShape& tool) {
 
 }  // namespace
 
-Result<ToolShape> tool_from_model(const FlattenedModel& scene, const content::WrenchDesign& design,
-                                  ModelFrame frame) {
-    ToolShape tool;
+Result<ToolGeometry> tool_from_model(const FlattenedModel& scene, const content::WrenchDesign& design,
+                                     ModelFrame frame) {
+    ToolGeometry tool;
     Aabb box;
     for (const ModelPart& part : scene.parts) {
         tool.triangles.insert(tool.triangles.end(), part.triangles.begin(), part.triangles.end());
@@ -146,14 +146,14 @@ Result<ToolShape> tool_from_model(const FlattenedModel& scene, const content::Wr
     return tool;
 }
 
-Result<ToolShape> generated_tool(const content::WrenchDesign& design) {
+Result<ToolGeometry> generated_tool(const content::WrenchDesign& design) {
     content::WrenchDesign bare = design;
     bare.model.clear();
     return tool_from_model(flatten(tool_models::contact_model(tool_models::parameters_of(bare))), bare,
                            ModelFrame::tool);
 }
 
-Bvh place_on_joint(const ToolShape& tool, bool turned_over) {
+Bvh place_on_joint(const ToolGeometry& tool, bool turned_over) {
     std::vector<Triangle> triangles = tool.triangles;
     const double side = turned_over ? -1.0 : 1.0;
     for (Triangle& t : triangles)
