@@ -7,29 +7,13 @@
 #include <utility>
 
 #include "content/format/json_document.hpp"
+#include "engine/base/csv.hpp"
 #include "engine/base/file.hpp"
 
 namespace bolt::content {
 namespace {
 
 constexpr std::size_t max_table_size = 1U << 20U;  // bytes
-
-struct TablePosition {
-    const std::string& file;
-    int line = 0;
-
-    [[nodiscard]] tl::unexpected<Error> error(std::size_t offset, std::string what,
-                                              std::string expected) const {
-        Error e;
-        e.code = ErrorCode::bad_content;
-        e.file = file;
-        e.line = line;
-        e.column = static_cast<int>(offset) + 1;
-        e.what = std::move(what);
-        e.expected = std::move(expected);
-        return fail(std::move(e));
-    }
-};
 
 std::string_view trimmed(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t\r");
@@ -60,22 +44,26 @@ std::string compact(std::string_view line) {
 }
 
 template <std::size_t N>
-Result<std::array<double, N>> parse_row(std::string_view line, const TablePosition& position) {
+Result<std::array<double, N>> parse_row(std::string_view line, const FileLine& position) {
     std::array<double, N> row{};
     const auto read = [&](std::size_t index, std::string_view field, std::size_t offset) -> Status {
-        if (index >= N) return position.error(offset, fmt::format("the row has more than {} numbers", N), {});
+        if (index >= N)
+            return position.error(column_at(line, offset), fmt::format("the row has more than {} numbers", N),
+                                  "the numbers of the title");
         double value = 0.0;
         const auto [end, problem] = std::from_chars(field.data(), field.data() + field.size(), value);
         if (problem != std::errc() || end != field.data() + field.size() ||
             !(std::abs(value) <= max_coordinate))
-            return position.error(offset, fmt::format("{} is not a coordinate", in_quotes(field)),
+            return position.error(column_at(line, offset),
+                                  fmt::format("{} is not a coordinate", in_quotes(field)),
                                   "a number of metres");
         row[index] = value;
         return {};
     };
     BOLT_TRY_ASSIGN(const std::size_t count, each_field(line, read));
     if (count < N)
-        return position.error(line.size(), fmt::format("the row has {} of {} numbers", count, N),
+        return position.error(column_at(line, line.size()),
+                              fmt::format("the row has {} of {} numbers", count, N),
                               "a number for each column");
     return row;
 }
@@ -84,7 +72,7 @@ template <std::size_t N>
 Result<std::vector<std::array<double, N>>> parse_table(std::string_view text, const std::string& file,
                                                        std::string_view title) {
     std::vector<std::array<double, N>> rows;
-    TablePosition position{file};
+    FileLine position{file};
     bool titled = false;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -95,18 +83,18 @@ Result<std::vector<std::array<double, N>>> parse_table(std::string_view text, co
         if (!titled) {
             titled = compact(line) == title;
             if (!titled)
-                return position.error(0, fmt::format("{} is not the title of the columns", in_quotes(line)),
+                return position.error(1, fmt::format("{} is not the title of the columns", in_quotes(line)),
                                       fmt::format("\"{}\"", title));
             continue;
         }
         if (rows.size() == max_table_points)
-            return position.error(0, "the table is too long",
+            return position.error(1, "the table is too long",
                                   fmt::format("at most {} points", max_table_points));
         BOLT_TRY_ASSIGN(const auto row, parse_row<N>(line, position));
         rows.push_back(row);
     }
     position.line = std::max(position.line, 1);
-    if (!titled) return position.error(0, "the table is empty", fmt::format("the title \"{}\"", title));
+    if (!titled) return position.error(1, "the table is empty", fmt::format("the title \"{}\"", title));
     return rows;
 }
 

@@ -7,12 +7,7 @@ namespace bolt {
 namespace {
 
 tl::unexpected<Error> error_at(int column, std::string what, std::string expected) {
-    Error error;
-    error.code = ErrorCode::bad_content;
-    error.column = column;
-    error.what = std::move(what);
-    error.expected = std::move(expected);
-    return fail(std::move(error));
+    return FileLine{}.error(column, std::move(what), std::move(expected));
 }
 
 int characters_in(std::string_view utf8) {
@@ -39,6 +34,17 @@ Result<std::string> quoted(std::string_view line, std::size_t& at) {
 }
 
 }  // namespace
+
+tl::unexpected<Error> FileLine::error(int column, std::string what, std::string expected) const {
+    Error error;
+    error.code = ErrorCode::bad_content;
+    error.file = file;
+    error.line = line;
+    error.column = column;
+    error.what = std::move(what);
+    error.expected = std::move(expected);
+    return fail(std::move(error));
+}
 
 int column_at(std::string_view line, std::size_t offset) { return 1 + characters_in(line.substr(0, offset)); }
 

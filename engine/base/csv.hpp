@@ -10,6 +10,15 @@
 
 namespace bolt {
 
+// A line of a text file, for the errors in it.
+struct FileLine {
+    std::string_view file;
+    int line = 0;  // from 1
+
+    // `column`: as Error::column.
+    [[nodiscard]] tl::unexpected<Error> error(int column, std::string what, std::string expected) const;
+};
+
 struct CsvField {
     std::string text;  // unquoted, without surrounding blanks
     int column = 1;    // of its first character, as Error::column counts

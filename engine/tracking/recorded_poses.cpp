@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 
+#include "engine/base/csv.hpp"
 #include "engine/base/file.hpp"
 
 namespace bolt::tracking {
@@ -18,37 +19,20 @@ constexpr std::size_t max_recording_size = 128U << 20U;  // bytes
 constexpr double max_recorded_value = 1e6;               // s, m
 constexpr double unit_tolerance = 1e-3;                  // of the length of a quaternion
 
-struct RowPosition {
-    const std::string& file;
-    int line = 0;
-
-    [[nodiscard]] tl::unexpected<Error> error(std::size_t offset, std::string what,
-                                              std::string expected) const {
-        Error e;
-        e.code = ErrorCode::bad_content;
-        e.file = file;
-        e.line = line;
-        e.column = static_cast<int>(offset) + 1;
-        e.what = std::move(what);
-        e.expected = std::move(expected);
-        return fail(std::move(e));
-    }
-};
-
-Result<BodySample> parse_row(std::string_view line, const RowPosition& position) {
+Result<BodySample> parse_row(std::string_view line, const FileLine& position) {
     std::array<double, columns> row{};
     std::size_t at = 0;
     for (std::size_t i = 0; i < columns; ++i) {
         at = std::min(line.find_first_not_of(" \t", at), line.size());
         const auto [end, problem] = std::from_chars(line.data() + at, line.data() + line.size(), row[i]);
         if (problem != std::errc() || !(std::abs(row[i]) <= max_recorded_value))
-            return position.error(at, fmt::format("column {} is not a number", i + 1),
+            return position.error(column_at(line, at), fmt::format("column {} is not a number", i + 1),
                                   fmt::format("{} numbers: {}", columns, title));
         at =
             std::min(line.find_first_not_of(" \t", static_cast<std::size_t>(end - line.data())), line.size());
         const bool is_last = i + 1 == columns;
         if (is_last ? at != line.size() : at == line.size() || line[at] != ',')
-            return position.error(at, fmt::format("column {} does not end here", i + 1),
+            return position.error(column_at(line, at), fmt::format("column {} does not end here", i + 1),
                                   is_last ? "the end of the line" : "a comma");
         ++at;
     }
@@ -56,7 +40,7 @@ Result<BodySample> parse_row(std::string_view line, const RowPosition& position)
     const Quat read(qw, qx, qy, qz);
     const double length = glm::length(read);
     if (std::abs(length - 1.0) > unit_tolerance)
-        return position.error(0, fmt::format("the quaternion has the length {:g}", length),
+        return position.error(1, fmt::format("the quaternion has the length {:g}", length),
                               "a unit quaternion");
     return BodySample{time, {{x, y, z}, glm::normalize(read)}};
 }
@@ -65,7 +49,7 @@ Result<BodySample> parse_row(std::string_view line, const RowPosition& position)
 
 Result<std::vector<BodySample>> parse_recorded_poses(std::string_view text, const std::string& file) {
     std::vector<BodySample> poses;
-    RowPosition position{file};
+    FileLine position{file};
     bool titled = false;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -76,21 +60,21 @@ Result<std::vector<BodySample>> parse_recorded_poses(std::string_view text, cons
         if (line.empty() || line.front() == '#') continue;
         if (!titled) {
             titled = line == title;
-            if (!titled) return position.error(0, "the column titles are wrong", std::string(title));
+            if (!titled) return position.error(1, "the column titles are wrong", std::string(title));
             continue;
         }
         if (poses.size() == max_recorded_poses)
-            return position.error(0, "the recording is too long",
+            return position.error(1, "the recording is too long",
                                   fmt::format("at most {} poses", max_recorded_poses));
         BOLT_TRY_ASSIGN(const BodySample pose, parse_row(line, position));
         if (!poses.empty() && pose.time <= poses.back().time)
             return position.error(
-                0, fmt::format("the time {:g} s is not after that of the line before", pose.time),
+                1, fmt::format("the time {:g} s is not after that of the line before", pose.time),
                 "times that increase");
         poses.push_back(pose);
     }
     position.line = std::max(position.line, 1);
-    if (poses.empty()) return position.error(0, "the recording has no poses", std::string(title));
+    if (poses.empty()) return position.error(1, "the recording has no poses", std::string(title));
     return poses;
 }
 

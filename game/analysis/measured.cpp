@@ -34,23 +34,6 @@ struct Columns {
     std::vector<std::string> names;
 };
 
-// The position of errors in the file.
-struct LineErrors {
-    std::string_view file;
-    int line = 0;
-
-    [[nodiscard]] tl::unexpected<Error> error(int column, std::string what, std::string expected) const {
-        Error e;
-        e.code = ErrorCode::bad_content;
-        e.file = file;
-        e.line = line;
-        e.column = column;
-        e.what = std::move(what);
-        e.expected = std::move(expected);
-        return fail(std::move(e));
-    }
-};
-
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
 
 // The text after "# <key>:"; empty for other comments.
@@ -64,7 +47,7 @@ std::string comment_value(std::string_view comment, std::string_view key) {
     return std::string(comment.substr(first, last - first + 1));
 }
 
-Result<Columns> read_header(const std::vector<CsvField>& fields, const LineErrors& position) {
+Result<Columns> read_header(const std::vector<CsvField>& fields, const FileLine& position) {
     Columns columns;
     columns.count = fields.size();
     for (const CsvField& field : fields) columns.names.push_back(field.text);
@@ -94,7 +77,7 @@ Result<Columns> read_header(const std::vector<CsvField>& fields, const LineError
 }
 
 Result<double> read_number(const CsvField& field, std::string_view name, double limit,
-                           const LineErrors& position) {
+                           const FileLine& position) {
     std::string_view text = field.text;
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     double value = 0.0;
@@ -112,7 +95,7 @@ Result<double> read_number(const CsvField& field, std::string_view name, double 
 
 struct CsvParser {
     MeasuredRecord measured;
-    LineErrors position;
+    FileLine position;
     Columns columns;
     bool has_header = false;
     std::map<std::string, std::size_t, std::less<>> by_name;

@@ -134,8 +134,7 @@ Status follow_first_process(view::WindowContent& content, OpenedWalls& opened,
         BOLT_TRY_ASSIGN(const auto instance, make_instance(desktop, options.validate));
         BOLT_TRY(view::follow_on_walls(content, *opened.walls, *opened.follower, instance, options.gpu));
         BOLT_TRY(validation_status(instance));
-        if (interrupted())
-            return fail(ErrorCode::failed, "the process was interrupted", "the end of the test");
+        if (interrupted()) return fail(ErrorCode::failed, "the process was interrupted", {});
         return {};
     };
     const Status done = follow();

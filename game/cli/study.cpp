@@ -198,7 +198,7 @@ Result<session::LessonOutcome> play_simulated(const study::SimulatedLesson& less
     if (lesson.view_help) train.view_help = view::make_view_helper();
     BOLT_TRY_ASSIGN(auto outcome, trainees::train(lesson.assembly, train, lesson.file,
                                                   [](const auto&) { return !interrupted(); }));
-    if (interrupted()) return fail(ErrorCode::failed, "the simulation was interrupted", "its end");
+    if (interrupted()) return fail(ErrorCode::failed, "the simulation was interrupted", {});
     return outcome;
 }
 

@@ -215,10 +215,8 @@ Result<trainer::Equipment> equipment_of(const TrainArguments& options) {
 Result<trainees::TrainOptions> train_options(const TrainArguments& options,
                                              const content::Assembly& assembly) {
     trainees::TrainOptions train;
-    train.lesson.mode = options.mode == "guided"     ? lesson::Mode::guided
-                        : options.mode == "practice" ? lesson::Mode::practice
-                                                     : lesson::Mode::assessment;
-    train.lesson.task = options.task == "loosen" ? lesson::Task::loosen : lesson::Task::tighten;
+    train.lesson.mode = lesson::mode_names.find(options.mode).value_or(lesson::Mode::guided);
+    train.lesson.task = lesson::task_names.find(options.task).value_or(lesson::Task::tighten);
     train.lesson.law = joint::law_named(options.law).value_or(assembly.law);
     train.lesson.seed = options.seed;
     train.lesson.obstacles = options.no_obstacles ? session::ObstacleUse::none

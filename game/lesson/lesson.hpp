@@ -19,10 +19,9 @@ namespace bolt::lesson {
 
 enum class StepKind : std::uint8_t { run_down, tighten, turn, recheck, loosen };
 
-constexpr std::string_view name(StepKind kind) {
-    constexpr std::string_view names[] = {"run down by hand", "tighten", "turn", "re-check", "loosen"};
-    return names[static_cast<int>(kind)];
-}
+inline constexpr EnumNames<StepKind, 5> step_kind_names{
+    {"run down by hand", "tighten", "turn", "re-check", "loosen"}};
+constexpr std::string_view name(StepKind kind) { return step_kind_names.of(kind); }
 
 struct LessonStep {
     StepKind kind = StepKind::tighten;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/enum_names.hpp"
 #include "haptics/joint/stage.hpp"
 
 namespace bolt::lesson {
@@ -16,19 +17,16 @@ namespace bolt::lesson {
 enum class Mode : std::uint8_t { guided, practice, assessment };
 enum class Task : std::uint8_t { tighten, loosen };
 
-constexpr std::string_view name(Mode mode) {
-    constexpr std::string_view names[] = {"guided", "practice", "assessment"};
-    return names[static_cast<int>(mode)];
-}
+inline constexpr EnumNames<Mode, 3> mode_names{{"guided", "practice", "assessment"}};
+constexpr std::string_view name(Mode mode) { return mode_names.of(mode); }
 
-constexpr std::string_view name(Task task) { return task == Task::tighten ? "tighten" : "loosen"; }
+inline constexpr EnumNames<Task, 2> task_names{{"tighten", "loosen"}};
+constexpr std::string_view name(Task task) { return task_names.of(task); }
 
 enum class Verdict : std::uint8_t { none, low, ok, high };
 
-constexpr std::string_view name(Verdict verdict) {
-    constexpr std::string_view names[] = {"-", "LOW", "OK", "HIGH"};
-    return names[static_cast<int>(verdict)];
-}
+inline constexpr EnumNames<Verdict, 4> verdict_names{{"-", "LOW", "OK", "HIGH"}};
+constexpr std::string_view name(Verdict verdict) { return verdict_names.of(verdict); }
 
 struct JointResult {
     std::string id;
@@ -120,20 +118,13 @@ enum class EventKind : std::uint8_t {
     note
 };
 
-// The name in session files. `undo` and `visibility` have older names there.
-constexpr std::string_view name(EventKind kind) {
-    constexpr std::string_view names[] = {"pass_begin", "step_begin", "step_end", "engage",
-                                          "release",    "stage",      "click",    "mistake",
-                                          "back",       "sight",      "note"};
-    return names[static_cast<int>(kind)];
-}
-
-// The inverse of name(); empty for any other text.
-constexpr std::optional<EventKind> event_kind(std::string_view text) {
-    for (int i = 0; i <= static_cast<int>(EventKind::note); ++i)
-        if (text == name(static_cast<EventKind>(i))) return static_cast<EventKind>(i);
-    return std::nullopt;
-}
+// The names in session files. `undo` and `visibility` have older names there.
+inline constexpr EnumNames<EventKind, 11> event_kind_names{{"pass_begin", "step_begin", "step_end", "engage",
+                                                            "release", "stage", "click", "mistake", "back",
+                                                            "sight", "note"}};
+constexpr std::string_view name(EventKind kind) { return event_kind_names.of(kind); }
+// None if no kind has this name.
+constexpr std::optional<EventKind> event_kind(std::string_view text) { return event_kind_names.find(text); }
 
 // An event of a lesson, for reports and replay.
 struct LessonEvent {

@@ -48,14 +48,7 @@ class TableParser {
 
   private:
     [[nodiscard]] tl::unexpected<Error> error(int column, std::string what, std::string expected) const {
-        Error e;
-        e.code = ErrorCode::bad_content;
-        e.file = table_.file;
-        e.line = line_;
-        e.column = column;
-        e.what = std::move(what);
-        e.expected = std::move(expected);
-        return fail(std::move(e));
+        return FileLine{table_.file, line_}.error(column, std::move(what), std::move(expected));
     }
 
     Status split(std::string_view line) {

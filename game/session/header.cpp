@@ -183,9 +183,9 @@ Result<Header> header_of(const HeaderTexts& texts, const std::string& file) {
     parser.required(key::variant, header.variant);
     parser.required(key::law, header.law, "published or mechanistic", joint::law_named);
     parser.required(key::mode, header.mode, "guided, practice or assessment",
-                    [](std::string_view text) { return named<lesson::Mode>(text, 3); });
+                    [](std::string_view text) { return lesson::mode_names.find(text); });
     parser.required(key::task, header.task, "tighten or loosen",
-                    [](std::string_view text) { return named<lesson::Task>(text, 2); });
+                    [](std::string_view text) { return lesson::task_names.find(text); });
     parser.required(key::trainee_profile, header.trainee_profile);
     parser.required(key::seed, header.seed, "a whole number", number<std::uint64_t>);
     parser.required(key::dt, header.dt, "a tick in s, at least one in a second", [](std::string_view text) {

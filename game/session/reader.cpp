@@ -97,10 +97,10 @@ Result<std::uint64_t> count_ticks(Database& database, const std::string& file) {
 }
 
 std::optional<lesson::JointResult> joint_of(const Statement& row) {
-    const auto torque_verdict = named<lesson::Verdict>(row.text(6), 4);
-    const auto angle_verdict = named<lesson::Verdict>(row.text(7), 4);
-    const auto overall = named<lesson::Verdict>(row.text(8), 4);
-    const auto condition = named<joint::JointCondition>(row.text(9), 3);
+    const auto torque_verdict = lesson::verdict_names.find(row.text(6));
+    const auto angle_verdict = lesson::verdict_names.find(row.text(7));
+    const auto overall = lesson::verdict_names.find(row.text(8));
+    const auto condition = joint::joint_condition_names.find(row.text(9));
     if (!torque_verdict || !angle_verdict || !overall || !condition) return std::nullopt;
     lesson::JointResult joint;
     joint.id = row.text(1);

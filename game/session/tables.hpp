@@ -55,14 +55,6 @@ std::optional<Number> number(std::string_view text) {
     return value;
 }
 
-// Returns the value whose name() is `text`, among the first `count` values of an enumeration.
-template <class Enum>
-std::optional<Enum> named(std::string_view text, int count) {
-    for (int i = 0; i < count; ++i)
-        if (name(static_cast<Enum>(i)) == text) return static_cast<Enum>(i);
-    return std::nullopt;
-}
-
 inline constexpr const char* state_recording = "recording";
 inline constexpr const char* state_complete = "complete";
 

@@ -18,7 +18,7 @@ ControllerTip::ControllerTip(ControllerIo io, const Vec3& tip, const TouchOption
 // Waits for one poll.
 Result<ControllerSample> ControllerTip::next_sample() {
     io_.timer.wait(controller_period);
-    if (io_.stop()) return fail(ErrorCode::failed, "the registration was interrupted", "its end");
+    if (io_.stop()) return fail(ErrorCode::failed, "the registration was interrupted", {});
     BOLT_TRY_ASSIGN(const ControllerSample sample, io_.read());
     if (!origin_moves_) origin_moves_ = sample.origin_moves;
     if (sample.origin_moves != *origin_moves_)

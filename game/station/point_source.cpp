@@ -44,7 +44,7 @@ ArmTip::ArmTip(TouchIo io, const Vec3& tip, const TouchOptions& options)
 // Waits for one poll. The snapshot is the latest one, new or not.
 Result<device::DeviceSnapshot> ArmTip::next_snapshot() {
     io_.timer.wait(touch_period);
-    if (io_.stop()) return fail(ErrorCode::failed, "the registration was interrupted", "its end");
+    if (io_.stop()) return fail(ErrorCode::failed, "the registration was interrupted", {});
     device::DeviceSnapshot snapshot = io_.snapshot();
     const double now = io_.timer.now();
     if (snapshot.usable && snapshot.number != sample_) sample_time_ = now;

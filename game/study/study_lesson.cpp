@@ -132,10 +132,8 @@ std::string assembly_of(const content::StudyLesson& lesson, const fs::path& stud
 
 session::LessonOptions lesson_options(const content::StudyLesson& lesson, joint::Law assembly_law) {
     session::LessonOptions options;
-    options.mode = lesson.mode == "guided"     ? lesson::Mode::guided
-                   : lesson.mode == "practice" ? lesson::Mode::practice
-                                               : lesson::Mode::assessment;
-    options.task = lesson.task == "loosen" ? lesson::Task::loosen : lesson::Task::tighten;
+    options.mode = lesson::mode_names.find(lesson.mode).value_or(lesson::Mode::guided);
+    options.task = lesson::task_names.find(lesson.task).value_or(lesson::Task::tighten);
     options.law = joint::law_named(lesson.law).value_or(assembly_law);
     options.obstacles = session::ObstacleUse::if_any;
     options.guide = lesson.guide;

@@ -148,7 +148,7 @@ Status simulate(const content::Study& study, const fs::path& folder, const Simul
     work();
     threads.clear();
     for (Status& result : results) BOLT_TRY(std::move(result));
-    if (simulation.stopped) return fail(ErrorCode::failed, "the simulation was stopped", "its end");
+    if (simulation.stopped) return fail(ErrorCode::failed, "the simulation was stopped", {});
     return {};
 }
 

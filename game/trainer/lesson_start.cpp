@@ -217,7 +217,7 @@ LessonStartThread::LessonStartThread(LessonRequest request, std::unique_ptr<Less
     };
     thread_ = std::jthread([this, request = std::move(request)] {
         before_.reset();
-        result_.emplace(given_up_ ? fail(ErrorCode::failed, "the start was cancelled", "its end")
+        result_.emplace(given_up_ ? fail(ErrorCode::failed, "the start was cancelled", {})
                                   : start_lesson(request));
         done_ = true;
     });

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/enum_names.hpp"
 #include "engine/base/math.hpp"
 #include "haptics/joint/fastener.hpp"
 #include "haptics/joint/tapped_thread.hpp"
@@ -40,50 +41,34 @@ enum class JointForm : std::uint8_t {
     tapped_hole,   // a screw in the thread of the part behind the members
     stud           // a stud in such a thread, with a nut
 };
-inline constexpr std::array all_joint_forms{JointForm::through_bolt, JointForm::tapped_hole, JointForm::stud};
+inline constexpr EnumNames<JointForm, 3> joint_form_names{{"through_bolt", "tapped_hole", "stud"}};
 
 // The name in assembly files.
-constexpr std::string_view name(JointForm form) {
-    constexpr std::array<std::string_view, all_joint_forms.size()> names{"through_bolt", "tapped_hole",
-                                                                         "stud"};
-    return names.at(static_cast<std::size_t>(form));
-}
+constexpr std::string_view name(JointForm form) { return joint_form_names.of(form); }
 // None if no form has this name.
 constexpr std::optional<JointForm> joint_form_named(std::string_view text) {
-    for (const JointForm form : all_joint_forms)
-        if (name(form) == text) return form;
-    return std::nullopt;
+    return joint_form_names.find(text);
 }
 
 enum class HeadShape : std::uint8_t { hexagon, socket };  // ISO 4014/4017; ISO 4762
-inline constexpr std::array all_head_shapes{HeadShape::hexagon, HeadShape::socket};
+inline constexpr EnumNames<HeadShape, 2> head_shape_names{{"hexagon", "socket"}};
 
 // The name in assembly files and in the option --head.
-constexpr std::string_view name(HeadShape shape) {
-    constexpr std::array<std::string_view, all_head_shapes.size()> names{"hexagon", "socket"};
-    return names.at(static_cast<std::size_t>(shape));
-}
+constexpr std::string_view name(HeadShape shape) { return head_shape_names.of(shape); }
 // None if no shape has this name.
 constexpr std::optional<HeadShape> head_shape_named(std::string_view text) {
-    for (const HeadShape shape : all_head_shapes)
-        if (name(shape) == text) return shape;
-    return std::nullopt;
+    return head_shape_names.find(text);
 }
 
 // A right-hand thread is tightened clockwise, seen from the side of the tool.
 enum class ThreadDirection : std::uint8_t { right, left };
-inline constexpr std::array all_thread_directions{ThreadDirection::right, ThreadDirection::left};
+inline constexpr EnumNames<ThreadDirection, 2> thread_direction_names{{"right", "left"}};
 
 // The name in assembly files.
-constexpr std::string_view name(ThreadDirection direction) {
-    constexpr std::array<std::string_view, all_thread_directions.size()> names{"right", "left"};
-    return names.at(static_cast<std::size_t>(direction));
-}
+constexpr std::string_view name(ThreadDirection direction) { return thread_direction_names.of(direction); }
 // None if no direction has this name.
 constexpr std::optional<ThreadDirection> thread_direction_named(std::string_view text) {
-    for (const ThreadDirection direction : all_thread_directions)
-        if (name(direction) == text) return direction;
-    return std::nullopt;
+    return thread_direction_names.find(text);
 }
 
 // Follows the size of a thread in tables: " LH" (ISO 965-1), or empty for a right-hand thread.
@@ -100,18 +85,13 @@ enum class CounterHold : std::uint8_t {
     fixed,         // it cannot turn
     second_wrench  // friction under it, and a second wrench while one is on it
 };
-inline constexpr std::array all_counter_holds{CounterHold::fixed, CounterHold::second_wrench};
+inline constexpr EnumNames<CounterHold, 2> counter_hold_names{{"fixed", "second_wrench"}};
 
 // The name in assembly files.
-constexpr std::string_view name(CounterHold hold) {
-    constexpr std::array<std::string_view, all_counter_holds.size()> names{"fixed", "second_wrench"};
-    return names.at(static_cast<std::size_t>(hold));
-}
-// None if there is no such name.
+constexpr std::string_view name(CounterHold hold) { return counter_hold_names.of(hold); }
+// None if no way has this name.
 constexpr std::optional<CounterHold> counter_hold_named(std::string_view text) {
-    for (const CounterHold hold : all_counter_holds)
-        if (name(hold) == text) return hold;
-    return std::nullopt;
+    return counter_hold_names.find(text);
 }
 
 // The thread that a screw or stud is screwed into.

@@ -2,10 +2,11 @@
 // group of joints (group.hpp) has one of them. CONTRIBUTING.md lists the places that a new law touches.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+
+#include "engine/base/enum_names.hpp"
 
 namespace bolt::joint {
 
@@ -13,19 +14,11 @@ enum class Law : std::uint8_t {
     published,    // published.hpp: the four-stage law of the 2018 paper
     mechanistic,  // mechanistic.hpp: our law, with a continuous state for each joint
 };
-inline constexpr std::array all_laws{Law::published, Law::mechanistic};
+inline constexpr EnumNames<Law, 2> law_names{{"published", "mechanistic"}};
 
 // The name in assembly, settings and session files and in the option --law.
-constexpr std::string_view name(Law law) {
-    constexpr std::array<std::string_view, all_laws.size()> names{"published", "mechanistic"};
-    return names.at(static_cast<std::size_t>(law));
-}
-
+constexpr std::string_view name(Law law) { return law_names.of(law); }
 // None if no law has this name.
-constexpr std::optional<Law> law_named(std::string_view text) {
-    for (const Law law : all_laws)
-        if (name(law) == text) return law;
-    return std::nullopt;
-}
+constexpr std::optional<Law> law_named(std::string_view text) { return law_names.find(text); }
 
 }  // namespace bolt::joint

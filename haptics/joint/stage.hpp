@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "engine/base/enum_names.hpp"
+
 namespace bolt::joint {
 
 // The four stages of the 2018 paper, derived from the state of the joint:
@@ -17,15 +19,11 @@ inline constexpr int stage_count = 4;
 
 enum class JointCondition : std::uint8_t { intact, stripped, broken };
 
-constexpr std::string_view name(Stage stage) {
-    constexpr std::string_view names[] = {"navigation", "transition", "linearity", "yield"};
-    return names[static_cast<int>(stage)];
-}
+inline constexpr EnumNames<Stage, 4> stage_names{{"navigation", "transition", "linearity", "yield"}};
+constexpr std::string_view name(Stage stage) { return stage_names.of(stage); }
 
-// The name in session files. They store `intact` as "sound", for compatibility.
-constexpr std::string_view name(JointCondition condition) {
-    constexpr std::string_view names[] = {"sound", "stripped", "broken"};
-    return names[static_cast<int>(condition)];
-}
+// The names in session files. They store `intact` as "sound", for compatibility.
+inline constexpr EnumNames<JointCondition, 3> joint_condition_names{{"sound", "stripped", "broken"}};
+constexpr std::string_view name(JointCondition condition) { return joint_condition_names.of(condition); }
 
 }  // namespace bolt::joint

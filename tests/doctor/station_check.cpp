@@ -96,7 +96,7 @@ TEST_CASE("Station check: missing devices, a missing port and an unknown tool ar
     bench.facts.glove = fail(ErrorCode::no_device, "/dev/ttyUSB0 is not a serial port", "a port");
     const auto findings = compare(bench.station, bench.facts);
     REQUIRE(findings.size() == 4);
-    CHECK(findings[0].text == "wheel: there is no device 1209:ffb0");
+    CHECK(findings[0].text == "wheel: there is no device 1209:ffb0; expected a wheel");
     CHECK(contains(findings[1].text, "glove: /dev/ttyUSB0"));
     CHECK(findings[2].text == "arm: no assembly has a tool \"wrensh\"; did you mean \"wrench\"?");
     CHECK(!findings[3].prevents_use);

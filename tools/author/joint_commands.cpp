@@ -185,9 +185,7 @@ struct TorqueOptions {
 };
 
 std::vector<std::string> head_names() {
-    std::vector<std::string> names;
-    for (const joint::HeadShape shape : joint::all_head_shapes) names.emplace_back(name(shape));
-    return names;
+    return {joint::head_shape_names.names.begin(), joint::head_shape_names.names.end()};
 }
 
 // A named value of the answer; the name contains the unit.

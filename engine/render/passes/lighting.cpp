@@ -135,14 +135,7 @@ Result<ForwardPass> ForwardPass::create(const PassSetup& setup, std::uint32_t vi
     pass.cache_ = &setup.cache;
     pass.shaders_ = &setup.shaders;
     pass.views_ = views;
-    gpu::GraphicsInfo info;
-    info.vertex = &setup.shaders.at("screen.vert");
-    info.fragment = &setup.shaders.at("over.frag");
-    info.colors = {color_format};
-    set_views(info, views);
-    info.cull = VK_CULL_MODE_NONE;
-    info.depth_test = info.depth_write = false;
-    info.blend = true;
+    const gpu::GraphicsInfo info = over_picture(setup.shaders, "screen.vert", "over.frag", views);
     BOLT_TRY(assign(pass.over_, gpu::make_graphics_pipeline(setup.device, setup.cache, info)));
     gpu::SamplerInfo nearest;
     nearest.filter = VK_FILTER_NEAREST;

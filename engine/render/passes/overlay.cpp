@@ -45,17 +45,11 @@ void transition_textures(VkCommandBuffer commands, const Overlay& overlay, bool 
 
 Result<OverlayPass> OverlayPass::create(const PassSetup& setup) {
     OverlayPass pass;
-    gpu::GraphicsInfo info;
-    info.vertex = &setup.shaders.at("overlay.vert");
-    info.fragment = &setup.shaders.at("overlay.frag");
+    gpu::GraphicsInfo info = over_picture(setup.shaders, "overlay.vert", "overlay.frag", 1);
     info.streams = {{0, VK_FORMAT_R32G32_SFLOAT, 0, offsetof(OverlayVertex, at)},
                     {1, VK_FORMAT_R32G32_SFLOAT, 0, offsetof(OverlayVertex, uv)},
                     {2, VK_FORMAT_R8G8B8A8_UNORM, 0, offsetof(OverlayVertex, rgba)}};
     info.strides = {sizeof(OverlayVertex)};
-    info.colors = {color_format};
-    info.cull = VK_CULL_MODE_NONE;
-    info.depth_test = info.depth_write = false;
-    info.blend = true;
     BOLT_TRY(assign(pass.pipeline_, gpu::make_graphics_pipeline(setup.device, setup.cache, info)));
     gpu::SamplerInfo clamped;
     clamped.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;

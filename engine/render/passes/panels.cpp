@@ -65,14 +65,7 @@ Result<PanelPass> PanelPass::create(const PassSetup& setup) {
 
 Result<const gpu::Pipeline*> PanelPass::pipeline(gpu::Device& device, std::uint32_t views) {
     if (const auto known = pipelines_.find(views); known != pipelines_.end()) return &known->second;
-    gpu::GraphicsInfo info;
-    info.vertex = &shaders_->at("panel.vert");
-    info.fragment = &shaders_->at("panel.frag");
-    info.colors = {color_format};
-    set_views(info, views);
-    info.cull = VK_CULL_MODE_NONE;
-    info.depth_test = info.depth_write = false;
-    info.blend = true;
+    const gpu::GraphicsInfo info = over_picture(*shaders_, "panel.vert", "panel.frag", views);
     BOLT_TRY_ASSIGN(auto pipeline, gpu::make_graphics_pipeline(device, *cache_, info));
     return &pipelines_.emplace(views, std::move(pipeline)).first->second;
 }

@@ -91,6 +91,19 @@ void set_views(gpu::GraphicsInfo& info, std::uint32_t views) {
     if (views > 1) info.constants |= SCENE_VIEWS;
 }
 
+gpu::GraphicsInfo over_picture(const Shaders& shaders, std::string_view vertex, std::string_view fragment,
+                               std::uint32_t views) {
+    gpu::GraphicsInfo info;
+    info.vertex = &shaders.find(vertex)->second;
+    info.fragment = &shaders.find(fragment)->second;
+    info.colors = {color_format};
+    set_views(info, views);
+    info.cull = VK_CULL_MODE_NONE;
+    info.depth_test = info.depth_write = false;
+    info.blend = true;
+    return info;
+}
+
 void set_area(VkCommandBuffer commands, VkExtent2D extent) {
     const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
                               0.0F, 1.0F};
