@@ -63,9 +63,11 @@ std::vector<LessonStep> make_plan(const content::Assembly& assembly, Task task);
 // True if a pass turns the joints by an angle; the angle of each joint then counts from a mark.
 bool turns_by_angle(const content::Assembly& assembly);
 
-// True if the step is done by fingers: it runs down a nut whose drag is small compared with `finger_torque`,
-// the torque in N·m that fingers can apply.
-bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, double finger_torque);
+// True if the step is done by fingers: it runs down a nut whose drag at `nut_angle` (rad) is small compared
+// with the torque that fingers can apply. A locking nut is run down by fingers until the bolt's end reaches
+// its insert, and then by the tool.
+bool uses_fingers(const content::Assembly& assembly, const servo::Setup& setup, const LessonStep& step,
+                  double nut_angle);
 
 // The record of one joint between ticks. A hold lasts from the tick in which the hand engages the nut until
 // it releases it; an analysis::Visit may have several. The members whose comment names "this hold" are reset

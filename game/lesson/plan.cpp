@@ -73,9 +73,13 @@ bool turns_by_angle(const content::Assembly& assembly) {
                        [](const content::Pass& pass) { return pass.kind == content::PassKind::turn; });
 }
 
-bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, double finger_torque) {
-    return step.kind == StepKind::run_down &&
-           assembly.joints[step.joint].design.prevailing_torque < finger_drag * finger_torque;
+bool uses_fingers(const content::Assembly& assembly, const servo::Setup& setup, const LessonStep& step,
+                  double nut_angle) {
+    if (step.kind != StepKind::run_down) return false;
+    const double drag = setup.group.law == joint::Law::mechanistic
+                            ? joint::prevailing_torque(setup.group.joints[step.joint], nut_angle)
+                            : assembly.joints[step.joint].design.prevailing_torque;
+    return drag < finger_drag * setup.finger_torque(setup.nuts[step.joint]);
 }
 
 content::ToleranceWindow angle_window(const content::Assembly& assembly, const LessonStep& step) {

@@ -131,11 +131,10 @@ double distance_to_due(const ObservedLesson& work) {
 Situation situation(const ObservedLesson& work) {
     const LessonStep* due = work.lesson.due();
     if (due == nullptr) return Situation::all_done;
-    const servo::NutGeometry& nut = work.setup.nuts[due->joint];
-    const bool fingers = uses_fingers(*work.lesson.assembly, *due, work.setup.finger_torque(nut));
+    const world::Joint& joint = world::joint_at(work.world, due->joint);
+    const bool fingers = uses_fingers(*work.lesson.assembly, work.setup, *due, joint.angle);
     if (work.lesson.held_joint < 0) return without_nut(work, *due, fingers);
     if (work.lesson.held_joint != static_cast<int>(due->joint)) return Situation::wrong_joint;
-    const world::Joint& joint = world::joint_at(work.world, due->joint);
     if (joint.condition == joint::JointCondition::broken) return Situation::leave_broken;
     if (joint.condition == joint::JointCondition::stripped) return Situation::leave_stripped;
     if (held_item(work) == HeldItem::nut_by_wrench && held_part_is_free(work, *due) &&

@@ -18,7 +18,8 @@ const lesson::LessonStep* next_step(const lesson::Lesson& lesson, const StepPlan
 }
 
 StepPlan make_step_plan(const TraineeProfile& profile, Random& random, const servo::Setup& setup,
-                        const lesson::Lesson& lesson, const lesson::LessonStep& due, const StepPlan& before) {
+                        const lesson::Lesson& lesson, const NextStep& next, const StepPlan& before) {
+    const lesson::LessonStep& due = next.step;
     const bool retry = &due == lesson.due() && before.step == lesson.current;
     const std::size_t joints = setup.nuts.size();
     StepPlan plan;
@@ -27,7 +28,7 @@ StepPlan make_step_plan(const TraineeProfile& profile, Random& random, const ser
     plan.joint = due.joint;
     const double drag = lesson.assembly->joints[due.joint].design.prevailing_torque;
     plan.until_seated = due.kind == StepKind::run_down;
-    plan.fingers = lesson::uses_fingers(*lesson.assembly, due, setup.finger_torque(setup.nuts[due.joint]));
+    plan.fingers = lesson::uses_fingers(*lesson.assembly, setup, due, next.nut_angle);
     plan.loosening = due.kind == StepKind::loosen;
     plan.only_checks = due.kind == StepKind::recheck;
     if (!retry && !plan.fingers && joints > 1 && random.chance(profile.wrong_joint)) {
@@ -193,7 +194,8 @@ void begin_next_action(TraineeState& t) {
     if (t.step_is_past() || t.plan.wrong_joint || t.plan.finished) {
         t.nut_angle_at_start = t.servo_state->joints[due->joint].nut.angle;
         t.free_turn = 0.0;
-        t.plan = make_step_plan(t.profile, t.random, *t.setup, *t.lesson, *due, t.plan);
+        t.plan =
+            make_step_plan(t.profile, t.random, *t.setup, *t.lesson, {*due, t.nut_angle_at_start}, t.plan);
         t.last_common_turn = t.joint().common_turn;
         t.seen_common_turn = 0.0;
     }

@@ -40,9 +40,15 @@ struct StepPlan {
 // joint is too loose, so a trainee that believes the step done continues with the next one.
 const lesson::LessonStep* next_step(const lesson::Lesson& lesson, const StepPlan& plan);
 
-// Draws the plan for the step `due`. `before`: the previous plan.
+// A step that a trainee is about to do.
+struct NextStep {
+    const lesson::LessonStep& step;
+    double nut_angle = 0.0;  // rad, of its joint
+};
+
+// Draws the plan for the step `next`. `before`: the previous plan.
 StepPlan make_step_plan(const TraineeProfile& profile, Random& random, const servo::Setup& setup,
-                        const lesson::Lesson& lesson, const lesson::LessonStep& due, const StepPlan& before);
+                        const lesson::Lesson& lesson, const NextStep& next, const StepPlan& before);
 
 // Action of the hand. At its end each phase selects the next one.
 enum class Phase {

@@ -130,11 +130,11 @@ double turned_mass(const JointDesign& design) {
     return steel_density * (head + 0.25 * pi * square(thread.d2) * design.bolt_length);
 }
 
-// Prevailing torque at this angle. A non-metallic insert acts once the bolt's end has reached it, and wears.
+// Prevailing torque of a nut that may have been used before. A non-metallic insert wears.
 double prevailing_torque_at(const MechanisticParameters& p, const MechanisticState& s) {
-    if (p.insert_angle <= 0.0) return p.prevailing_torque;
-    const double entered = std::clamp((s.angle - p.insert_angle) / p.insert_ramp, 0.0, 1.0);
-    return p.prevailing_torque * entered * std::pow(p.insert_wear, std::max(0.0, s.uses - 1.0));
+    const double first_use = prevailing_torque(p, s.angle);
+    if (p.insert_angle <= 0.0) return first_use;
+    return first_use * std::pow(p.insert_wear, std::max(0.0, s.uses - 1.0));
 }
 
 // An iterate of the search for the balance between the elastic joint and its load capacity.

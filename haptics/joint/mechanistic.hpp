@@ -13,6 +13,7 @@
 //       stress (design.hpp), Y the load capacity (PlasticCurve)
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "engine/base/random.hpp"
@@ -90,6 +91,13 @@ struct MechanisticParameters {
 // `random` determines this bolt's friction and the ripple of its drag; equal seeds give equal bolts.
 // `own_compliance`: compliance of the flange under this joint alone, m/N; 0 for a single joint.
 MechanisticParameters derive(const JointDesign& design, Random& random, double own_compliance = 0.0);
+
+// N·m, of an unused locking nut at this angle (rad). A non-metallic insert acts once the bolt's end has
+// reached it.
+inline double prevailing_torque(const MechanisticParameters& p, double angle) {
+    if (p.insert_angle <= 0.0) return p.prevailing_torque;
+    return p.prevailing_torque * std::clamp((angle - p.insert_angle) / p.insert_ramp, 0.0, 1.0);
+}
 
 struct MechanisticState {
     double angle = 0.0;      // rad, of the nut; 0 where the hand starts it on its thread

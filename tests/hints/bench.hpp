@@ -32,6 +32,7 @@ struct Bench : Script {
         : Script(mode, strategy) {
         assembly.passes.push_back({content::PassKind::recheck, 1.0, {0, 1}});
         lesson = begin(assembly, mode, task);
+        setup.group.joints.resize(assembly.joints.size());
         for (const double x : {0.0, 0.2}) {
             servo::NutGeometry nut;
             nut.seat = Vec3(x, 0.0, 0.0);

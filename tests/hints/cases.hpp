@@ -75,12 +75,12 @@ inline const Case cases[] = {
      [](Bench& b) { b.tick(0, Grip::fingers, 0.1, 1.0); }},
     {Situation::run_down_by_wrench, "hint.run_down_by_wrench", HintMotion::pull_on,
      [](Bench& b) {
-         b.assembly.joints[0].design.prevailing_torque = 6.0;
+         b.setup.group.joints[0].prevailing_torque = 6.0;
          b.tick(0, Grip::wrench, 6.0, 1.0);
      }},
     {Situation::wrench_needed, "hint.wrench_needed", HintMotion::let_go,
      [](Bench& b) {
-         b.assembly.joints[0].design.prevailing_torque = 6.0;
+         b.setup.group.joints[0].prevailing_torque = 6.0;
          b.tick(0, Grip::fingers, 0.7, 0.0);
      }},
     {Situation::twist_back, "hint.twist_back", HintMotion::twist_back,

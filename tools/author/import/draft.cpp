@@ -59,8 +59,9 @@ struct JointTypeKey {
     double length = 0.0;  // mm
     bool washer_head = false, washer_nut = false;
     std::vector<std::pair<double, std::string>> members;  // mm, material
-    std::string tapped;                                   // material of the tapped part; empty: a nut
-    double engagement = 0.0;                              // mm; 0: all of the screw beyond members and washer
+    std::string tapped;  // material of the tapped part; empty: a through-bolt
+    bool is_stud = false;
+    double engagement = 0.0;  // mm; 0: all of the screw beyond members and washer
     friend bool operator==(const JointTypeKey&, const JointTypeKey&) = default;
 };
 
@@ -93,9 +94,12 @@ double tapped_limit(const JointTypeKey& type, const joint::ThreadSize& size, con
                     double bearing) {
     const auto part = joint::tapped_material(type.tapped);
     if (!part) return 0.0;
-    double engagement = type.length - (type.washer_head ? size.size.washer_thickness / mm : 0.0);
-    for (const auto& [thickness, material] : type.members) engagement -= thickness;
-    if (type.engagement > 0.0) engagement = std::min(engagement, type.engagement);
+    double engagement = type.engagement;
+    if (!type.is_stud) {
+        double beyond = type.length - (type.washer_head ? size.size.washer_thickness / mm : 0.0);
+        for (const auto& [thickness, material] : type.members) beyond -= thickness;
+        engagement = engagement > 0.0 ? std::min(beyond, engagement) : beyond;
+    }
     engagement *= mm;
     return 0.5 * joint::stripping_forces(size.thread, bolt, *part, engagement).least() *
            joint::torque_levers(size.thread, friction, friction, bearing).tighten();
@@ -106,7 +110,6 @@ double target_torque(const JointTypeKey& type) {
     if (!thread) return 0.0;
     const auto bolt = joint::property_class(type.property_class, thread->size.d);
     if (!bolt) return 0.0;
-    const bool screw = !type.tapped.empty();
     const joint::SocketHead* const socket = socket_of(type, *thread);
     const double face = socket            ? socket->bearing
                         : type.turns_head ? thread->size.head_bearing
@@ -115,7 +118,7 @@ double target_torque(const JointTypeKey& type) {
     double torque =
         torque_share *
         joint::assembly_preload(thread->thread, *bolt, friction, friction, bearing, utilisation).torque;
-    if (screw) torque = std::min(torque, tapped_limit(type, *thread, *bolt, bearing));
+    if (!type.tapped.empty()) torque = std::min(torque, tapped_limit(type, *thread, *bolt, bearing));
     if (torque <= 0.0) return 0.0;
     const double step = std::pow(10.0, std::floor(std::log10(torque)) - 1.0);  // two significant digits
     return std::floor(torque / step) * step;
@@ -203,7 +206,8 @@ class DraftWriter {
         type.washer_nut = !joint.nut_washers.empty();
         for (const ClampedMember& member : joint.members)
             type.members.emplace_back(rounded(member.thickness / mm, 0.01), member_material(member));
-        if (joint.is_screw()) {
+        type.is_stud = joint.is_stud();
+        if (joint.tapped >= 0) {
             const std::string material = member_material({joint.tapped, 0.0});
             type.tapped = tapped_material_of(material);
             if (material == "bronze" || material == "gasket")
@@ -219,10 +223,13 @@ class DraftWriter {
             }
         std::string name = fmt::format("{}x{}{}{}", type.size, in_mm(type.length * mm),
                                        joint::size_suffix(type.thread_direction),
-                                       type.head == joint::HeadShape::socket ? " socket head" : "");
+                                       type.is_stud                            ? " stud"
+                                       : type.head == joint::HeadShape::socket ? " socket head"
+                                                                               : "");
         const auto same = std::count_if(types_.begin(), types_.end(), [&](const DraftJointType& one) {
             return one.type.size == type.size && one.type.length == type.length &&
-                   one.type.head == type.head && one.type.thread_direction == type.thread_direction;
+                   one.type.head == type.head && one.type.is_stud == type.is_stud &&
+                   one.type.thread_direction == type.thread_direction;
         });
         if (same > 0) name += fmt::format(" ({})", same + 1);
         types_.push_back({name, type, target_torque(type), tool_index(joint), {joint.id}});
@@ -277,9 +284,9 @@ class DraftWriter {
             const std::string engagement =
                 type.engagement > 0.0 ? fmt::format(", \"engagement_mm\": {}", in_mm(type.engagement * mm))
                                       : std::string();
-            form += fmt::format(
-                "\n      \"form\": \"tapped_hole\",\n      \"tapped_hole\": {{ \"material\": {}{} }},",
-                quoted(type.tapped), engagement);
+            form += fmt::format("\n      \"form\": \"{}\",\n      \"tapped_hole\": {{ \"material\": {}{} }},",
+                                name(type.is_stud ? joint::JointForm::stud : joint::JointForm::tapped_hole),
+                                quoted(type.tapped), engagement);
         }
         return fmt::format(R"(    {}: {{{}
       "size": {},
@@ -288,8 +295,7 @@ class DraftWriter {
       "members": [
 {}
       ],
-      "washer_under_head": {},
-      "washer_under_nut": {},
+{}      "washer_under_nut": {},
       "friction_thread": {:g},
       "friction_bearing": {:g},
       "lubrication": "oiled",
@@ -297,7 +303,9 @@ class DraftWriter {
     }})",
                            quoted(named.name), form, quoted(type.size), quoted(type.property_class),
                            in_mm(type.length * mm), thread_text(type), fmt::join(members, ",\n"),
-                           type.washer_head, type.washer_nut, friction, friction, named.torque);
+                           type.is_stud ? std::string()
+                                        : fmt::format("      \"washer_under_head\": {},\n", type.washer_head),
+                           type.washer_nut, friction, friction, named.torque);
     }
 
     std::string joint_text(std::size_t i) const {
@@ -329,16 +337,17 @@ class DraftWriter {
                 "{}: {}, {}, turned with {}; assumed: class {}, friction {:g}, target {:g} N·m{}", named.name,
                 named.joints.size() == 1 ? "joint " + named.joints.front()
                                          : fmt::format("{} joints", named.joints.size()),
-                type.tapped.empty() ? (cap ? "cap screw with a nut" : "bolt with a nut")
-                                    : (cap ? "cap screw in a tapped hole" : "screw in a tapped hole"),
+                type.is_stud          ? "stud with a nut"
+                : type.tapped.empty() ? (cap ? "cap screw with a nut" : "bolt with a nut")
+                                      : (cap ? "cap screw in a tapped hole" : "screw in a tapped hole"),
                 tool.empty() ? "the first tool" : tool, type.property_class, friction, named.torque,
                 type.tapped.empty() ? "" : ", thread in " + type.tapped));
         }
     }
 
-    bool has_screws() const {
+    bool has_tapped_parts() const {
         return std::any_of(joints_.begin(), joints_.end(),
-                           [](const JointCandidate* joint) { return joint->is_screw(); });
+                           [](const JointCandidate* joint) { return joint->tapped >= 0; });
     }
 
     const char* turned_parts() const {
@@ -380,10 +389,10 @@ class DraftWriter {
             in_.source,
             unknown_members_ > 0 ? fmt::format(" (unknown for {}: steel is assumed)", unknown_members_) : "",
             friction, 100.0 * torque_share, 100.0 * utilisation,
-            has_screws()
-                ? "; for screws the grade of the tapped part, and at most half of the torque at which its "
-                  "thread strips"
-                : "");
+            has_tapped_parts() ? "; for screws and studs the grade of the tapped part, and at most half of "
+                                 "the torque at which its "
+                                 "thread strips"
+                               : "");
         if (gasket_) text += " The gasket's Young's modulus is a guess.";
         return text;
     }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
 #include <limits>
 #include <optional>
@@ -27,6 +28,7 @@ constexpr double max_radius_ratio = 1.3;
 // Largest radius of a screw with a socket / width across the flats of the socket; 1.87 with a countersunk
 // head.
 constexpr double max_cap_radius_ratio = 1.9;
+constexpr double least_stud_length = 1.5;  // in diameters
 
 // Accepted widths across flats, m.
 constexpr WidthRange fastener_widths{5.0 * mm, 65.0 * mm};
@@ -220,6 +222,53 @@ FastenerShape classify_washer(const TopoDS_Shape& shape, const std::vector<Plane
     return washer;
 }
 
+// The axis of the first outside cylinder or cone; nullopt without one.
+std::optional<AxisLine> axis_of_rod(const TopoDS_Shape& shape) {
+    const FaceMap faces = faces_of(shape);
+    for (int f = 1; f <= faces.Extent(); ++f) {
+        const BRepAdaptor_Surface surface(TopoDS::Face(faces(f)), false);
+        gp_Ax1 axis;
+        if (surface.GetType() == GeomAbs_Cylinder)
+            axis = surface.Cylinder().Axis();
+        else if (surface.GetType() == GeomAbs_Cone)
+            axis = surface.Cone().Axis();
+        else
+            continue;
+        return AxisLine{point_to_scene(axis.Location().XYZ()), direction_to_scene(axis.Direction().XYZ())};
+    }
+    return {};
+}
+
+// Returns a stud if the part is a solid rod that has the diameter of a metric thread at both ends and is
+// nowhere thicker. Its shank may be thinner.
+FastenerShape classify_stud(const TopoDS_Shape& shape, const std::vector<PlaneFace>& plane_faces,
+                            const PartMesh& mesh) {
+    FastenerShape stud;
+    const std::optional<AxisLine> line = axis_of_rod(shape);
+    if (!line || !find_holes(shape).empty()) return stud;
+    for (const PlaneFace& plane : plane_faces)
+        if (std::abs(glm::dot(plane.normal, line->direction)) < 1.0 - parallel) return stud;
+    Interval heights;
+    for (const Vec3& point : mesh.points) heights.add(line->height(point));
+    const double length = heights.high - heights.low, diameter = 2.0 * largest_radius(mesh, *line);
+    if (length < least_stud_length * diameter || size_of_thread(diameter) == nullptr) return stud;
+    double low_end = 0.0, high_end = 0.0;  // diameters
+    for (const Vec3& point : mesh.points) {
+        double& end = line->height(point) < heights.low + 0.5 * length ? low_end : high_end;
+        if (std::min(line->height(point) - heights.low, heights.high - line->height(point)) < diameter)
+            end = std::max(end, 2.0 * line->radius(point));
+    }
+    if (std::min(low_end, high_end) < 0.98 * diameter) return stud;
+    if (!inside(mesh, line->origin + 0.5 * (heights.low + heights.high) * line->direction)) return stud;
+    stud.kind = FastenerKind::stud;
+    stud.origin = line->origin;
+    stud.axis = line->direction;
+    stud.low = heights.low;
+    stud.high = heights.high;
+    stud.diameter = diameter;
+    return stud;
+}
+
 int count_solids(const TopoDS_Shape& shape) {
     int solids = 0;
     for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next()) ++solids;
@@ -261,8 +310,10 @@ FastenerShape recognise_shape(const TopoDS_Shape& shape, const PartMesh& mesh) {
     const auto hexagon = find_hexagon(plane_faces, mesh, HexagonSide::outside, fastener_widths);
     if (!hexagon) {
         FastenerShape washer = classify_washer(shape, plane_faces, mesh);
-        if (washer.kind == FastenerKind::none) explain_missing_hexagon(plane_faces, mesh, washer);
-        return washer;
+        if (washer.kind != FastenerKind::none) return washer;
+        FastenerShape stud = classify_stud(shape, plane_faces, mesh);
+        if (stud.kind == FastenerKind::none) explain_missing_hexagon(plane_faces, mesh, stud);
+        return stud;
     }
     const Interval whole = whole_along(hexagon->axis);
     const double widest = largest_radius(mesh, hexagon->axis);
@@ -305,7 +356,7 @@ std::vector<geometry::Triangle> about_axis(const PartMesh& mesh, const Vec3& ori
 
 FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh) {
     FastenerShape found = recognise_shape(shape, mesh);
-    if (found.kind != FastenerKind::bolt) return found;
+    if (found.kind != FastenerKind::bolt && found.kind != FastenerKind::stud) return found;
     if (const auto thread =
             geometry::measure_drawn_thread(about_axis(mesh, found.origin, found.axis), found.diameter))
         found.drawn_thread = thread->direction;

@@ -9,83 +9,16 @@
 #include <optional>
 #include <set>
 
-#include "haptics/joint/fastener.hpp"
 #include "tools/author/import/metric_size.hpp"
-#include "tools/author/import/names.hpp"
+#include "tools/author/import/placed_fasteners.hpp"
 
 namespace bolt::step_import {
 
 namespace {
 
-// An instance of a fastener, scene frame. Its sizes include the scale of the instance.
-struct PlacedFastener {
-    int node = -1;
-    Vec3 origin, axis;
-    double across_flats = 0.0, low = 0.0, high = 0.0, diameter = 0.0;  // m, as in FastenerShape
-    std::optional<CapHead> cap;
-    // As in FastenerShape. Measured in the part's own frame, because CAD may mirror an instance, but real
-    // bolts are not mirrored.
-    std::optional<joint::ThreadDirection> drawn_thread;
-};
-
-PlacedFastener place(int node, const FastenerShape& shape, const ScaledPose& pose) {
-    const double scale = std::abs(pose.scale);
-    std::optional<CapHead> cap = shape.cap;
-    if (cap) cap = CapHead{cap->width * scale, cap->height * scale, cap->depth * scale};
-    return {node,
-            pose.point(shape.origin),
-            pose.direction(shape.axis),
-            shape.across_flats * scale,
-            shape.low * scale,
-            shape.high * scale,
-            shape.diameter * scale,
-            cap,
-            shape.drawn_thread};
-}
-
-const joint::FastenerSize* metric_size_of(const PlacedFastener& bolt) {
-    return bolt.cap ? size_of(bolt.diameter, bolt.across_flats, *bolt.cap)
-                    : size_of(bolt.diameter, bolt.across_flats);
-}
-
-std::string explain_metric_size(const PlacedFastener& bolt) {
-    return bolt.cap ? explain_size(bolt.diameter, bolt.across_flats, *bolt.cap) : explain_size(bolt.diameter);
-}
-
-// Returns true if the nut has the width of one for this bolt.
-bool nut_fits(const PlacedFastener& bolt, const PlacedFastener& nut) {
-    return bolt.cap ? size_of(bolt.diameter, nut.across_flats) != nullptr
-                    : std::abs(nut.across_flats - bolt.across_flats) <= width_tolerance;
-}
-
-std::string describe(const PlacedFastener& bolt) {
-    if (!bolt.cap)
-        return fmt::format("looks like a bolt (cylinder {:.2f} mm, hexagon {:.2f} mm across flats)",
-                           bolt.diameter / mm, bolt.across_flats / mm);
-    return fmt::format(
-        "looks like a cap screw (cylinder {:.2f} mm, socket {:.2f} mm across flats and {:.2f} mm deep, head "
-        "{:.2f} mm wide and {:.2f} mm high)",
-        bolt.diameter / mm, bolt.across_flats / mm, bolt.cap->depth / mm, bolt.cap->width / mm,
-        bolt.cap->height / mm);
-}
-
-// Lower and upper face of a nut or washer as heights along the line from `origin`, m.
-std::pair<double, double> along(const PlacedFastener& placed, const Vec3& origin, const Vec3& axis) {
-    const auto height = [&](double h) { return glm::dot(placed.origin + h * placed.axis - origin, axis); };
-    const double a = height(placed.low), b = height(placed.high);
-    return {std::min(a, b), std::max(a, b)};
-}
-
 constexpr double least_grip = 0.5 * mm;  // the least thickness of a member in an assembly file
 
-bool named_like_fastener(const std::string& name) {
-    for (const char* pattern : {"*bolt*", "*screw*", "*nut*", "*hex*", "*stud*", "*fastener*", "*schraube*",
-                                "*mutter*", "*boulon*", "*ecrou*", "*tornillo*", "*tuerca*"})
-        if (matches(pattern, name)) return true;
-    return false;
-}
-
-// The other end of a bolt: the nut on it, or the part that it is screwed into.
+// What holds a bolt: the nut on it, or the part that it is screwed into; a stud has both.
 struct BoltEnd {
     std::optional<PlacedFastener> nut;
     std::optional<TappedPart> tapped;
@@ -107,7 +40,7 @@ class JointFinder {
     JointSearchResult run() {
         for (const PlacedFastener& bolt : of_kind_[FastenerKind::bolt]) {
             BoltEnd end{nut_on(bolt), {}};
-            if (!end.nut) end.tapped = tapped_part_of(bolt);
+            if (!end.nut) end.tapped = tapped_part_of(bolt, bolt.low);
             const joint::FastenerSize* size = end ? metric_size_of(bolt) : nullptr;
             if (size == nullptr) {
                 unused_bolts_.push_back({bolt, std::move(end)});
@@ -116,6 +49,7 @@ class JointFinder {
             if (end.nut) bolt_of_nut_[end.nut->node] = bolt.node;
             if (auto joint = make(bolt, end, *size)) search_.joints.push_back(std::move(*joint));
         }
+        for (const PlacedFastener& stud : placed_of(FastenerKind::stud)) add_stud(stud);
         explain_unused();
         assign_ids();
         return std::move(search_);
@@ -157,6 +91,26 @@ class JointFinder {
         return best;
     }
 
+    // Adds the joint of a stud, whose nut may be at either end.
+    void add_stud(const PlacedFastener& stud) {
+        std::optional<PlacedFastener> nut;
+        for (const PlacedFastener& towards_nut : {stud, reversed(stud)}) {
+            const auto found = nut_on(towards_nut);
+            if (!found) continue;
+            nut = found;
+            PlacedFastener from_nut = reversed(towards_nut);
+            const double face = along(*nut, from_nut.origin, from_nut.axis).second;
+            const BoltEnd ends{nut, tapped_part_of(from_nut, face)};
+            if (!ends.tapped) continue;
+            bolt_of_nut_[nut->node] = stud.node;
+            if (auto joint = make(from_nut, ends, *metric_size_of(stud)))
+                search_.joints.push_back(std::move(*joint));
+            return;
+        }
+        // Pins and shafts look like studs too.
+        if (nut || named_like_fastener(name_of(stud.node))) unused_bolts_.push_back({stud, {nut, {}}});
+    }
+
     const std::vector<PlacedFastener>& placed_of(FastenerKind kind) const {
         static const std::vector<PlacedFastener> no_fasteners;
         const auto found = of_kind_.find(kind);
@@ -171,9 +125,10 @@ class JointFinder {
         std::set<int> explained;  // nuts
         for (const UnusedBolt& unused : unused_bolts_) {
             const PlacedFastener& bolt = unused.bolt;
-            search_.remarks.push_back(
-                fmt::format("{}: {}, but {}", name_of(bolt.node), describe(bolt),
-                            unused.end ? explain_metric_size(bolt) : explain_missing_nut(bolt)));
+            search_.remarks.push_back(fmt::format("{}: {}, but {}", name_of(bolt.node), describe(bolt),
+                                                  bolt.kind == FastenerKind::stud ? explain_stud(unused.end)
+                                                  : unused.end                    ? explain_metric_size(bolt)
+                                                               : explain_missing_nut(bolt)));
             if (unused.end.nut) explained.insert(unused.end.nut->node);
         }
         for (const PlacedFastener& nut : placed_of(FastenerKind::nut))
@@ -191,6 +146,18 @@ class JointFinder {
             search_.remarks.push_back(
                 "correct the parts above in CAD and import again, or write their joints into assembly.json "
                 "by hand");
+    }
+
+    std::string explain_stud(const BoltEnd& end) const {
+        if (!end.nut)
+            return "no nut is on it; expected a nut of its size, coaxial with it, and a tapped hole around "
+                   "its "
+                   "other end";
+        return fmt::format(
+            "its end without the nut {} is in no tapped hole; expected a hole as wide as its thread or its "
+            "core "
+            "around it. A rod with a nut at each end is no joint form: draw a bolt with a head",
+            name_of(end.nut->node));
     }
 
     std::string explain_missing_nut(const PlacedFastener& bolt) const {
@@ -255,10 +222,6 @@ class JointFinder {
             name_of(nearest->node), distance / mm, coaxial_distance / mm);
     }
 
-    static double distance_from_axis(const PlacedFastener& placed, const Vec3& point) {
-        return glm::length(glm::cross(point - placed.origin, placed.axis));
-    }
-
     void explain_rejected(int node) {
         const PartGeometry* part = part_of(node);
         if (part == nullptr || part->fastener.kind != FastenerKind::none) return;
@@ -298,33 +261,33 @@ class JointFinder {
         JointCandidate joint;
         joint.bolt = bolt.node;
         joint.head = bolt.cap ? joint::HeadShape::socket : joint::HeadShape::hexagon;
-        joint.bolt_length = bolt.high - bolt.low;
         joint.thread_direction = bolt.drawn_thread.value_or(joint::ThreadDirection::right);
-        double head = bolt.low;
-        double far = end.nut ? along(*end.nut, bolt.origin, bolt.axis).first : end.tapped->face;
-        joint.head_washers = washers_from(bolt, head, 1.0);
-        if (end.nut) {
-            joint.nut = end.nut->node;
-            joint.size = thread_name(size, end.nut->diameter);
-            joint.nut_washers = washers_from(bolt, far, -1.0);
-        } else {
-            joint.tapped = end.tapped->node;
-            joint.size = thread_name(size, end.tapped->hole);
-            // A screw that does not reach through the part engages with its whole end.
-            if (bolt.high > end.tapped->bottom) joint.engagement = end.tapped->bottom - end.tapped->face;
-        }
+        if (end.nut) joint.nut = end.nut->node;
+        if (end.tapped) joint.tapped = end.tapped->node;
+        joint.size = thread_name(size, end.nut ? end.nut->diameter : end.tapped->hole);
+        const auto nut_faces = end.nut ? along(*end.nut, bolt.origin, bolt.axis) : std::pair(0.0, 0.0);
+        double head = joint.is_stud() ? nut_faces.second : bolt.low;
+        double far = end.tapped ? end.tapped->face : nut_faces.first;
+        (joint.is_stud() ? joint.nut_washers : joint.head_washers) = washers_from(bolt, head, 1.0);
+        if (!end.tapped) joint.nut_washers = washers_from(bolt, far, -1.0);
+        joint.bolt_length = (joint.is_stud() ? far : bolt.high) - bolt.low;
+        // A screw that does not reach through the part engages with its whole end.
+        if (end.tapped && (joint.is_stud() || bolt.high > end.tapped->bottom))
+            joint.engagement = std::min(bolt.high, end.tapped->bottom) - far;
         joint.grip = far - head;
-        joint.axis = joint.turns_head() ? -bolt.axis : bolt.axis;
-        joint.seat = bolt.origin + (joint.turns_head() ? head : far) * bolt.axis;
+        const bool turned_at_head = joint.turns_head() || joint.is_stud();  // of a stud: its nut is there
+        joint.axis = turned_at_head ? -bolt.axis : bolt.axis;
+        joint.seat = bolt.origin + (turned_at_head ? head : far) * bolt.axis;
         if (joint.grip < least_grip) {
-            add_remark(
-                joint,
-                fmt::format("clamps nothing: {:.2f} mm are between its head and {}; expected parts of at "
-                            "least {:g} mm between them",
-                            joint.grip / mm, name_of(end.nut ? joint.nut : joint.tapped), least_grip / mm));
+            add_remark(joint, fmt::format(
+                                  "clamps nothing: {:.2f} mm are between its {} and {}; expected parts of at "
+                                  "least {:g} mm between them",
+                                  joint.grip / mm, joint.is_stud() ? "nut" : "head",
+                                  name_of(end.tapped ? joint.tapped : joint.nut), least_grip / mm));
             return std::nullopt;
         }
         find_members_of(bolt, joint, head, far);
+        if (joint.is_stud()) std::reverse(joint.members.begin(), joint.members.end());
         joint.group = group_of(joint);
         if (end.tapped && end.tapped->nominal)
             add_remark(joint,
@@ -333,19 +296,21 @@ class JointFinder {
         return joint;
     }
 
-    std::optional<TappedPart> tapped_part_of(const PlacedFastener& bolt) const {
+    // `head`: height under the head, or under the nut of a stud.
+    std::optional<TappedPart> tapped_part_of(const PlacedFastener& bolt, double head) const {
         std::vector<const PartGeometry*> parts;
         for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
             parts.push_back(part_of(static_cast<int>(n)));
             if (parts.back() != nullptr && parts.back()->fastener.kind != FastenerKind::none)
                 parts.back() = nullptr;
         }
-        return find_tapped_part(parts, poses_, {bolt.origin, bolt.axis, bolt.diameter, bolt.low, bolt.high});
+        return find_tapped_part(parts, poses_, {bolt.origin, bolt.axis, bolt.diameter, head, bolt.high});
     }
 
     // Finds the members between the heights `head` and `far`, and remarks on a gap.
     void find_members_of(const PlacedFastener& bolt, JointCandidate& joint, double head, double far) {
-        const char* const end = joint.is_screw() ? "tapped part" : "nut";
+        const char* const end = joint.tapped >= 0 ? "tapped part" : "nut";
+        const char* const head_name = joint.is_stud() ? "nut" : "head";
         joint.members = members_of(bolt, joint, head, far);
         double sum = 0.0;
         for (const ClampedMember& member : joint.members) sum += member.thickness;
@@ -353,12 +318,12 @@ class JointFinder {
             joint.members.push_back({-1, joint.grip});
             add_remark(
                 joint,
-                fmt::format("no part with a hole was found between head and {}: one member fills the grip",
-                            end));
+                fmt::format("no part with a hole was found between {} and {}: one member fills the grip",
+                            head_name, end));
         } else if (std::abs(sum - joint.grip) > 0.02 * mm) {
-            add_remark(joint, fmt::format("the parts between head and {} are {:.2f} mm thick; expected "
-                                          "{:.2f} mm, the distance from head to {}",
-                                          end, sum / mm, joint.grip / mm, end));
+            add_remark(joint, fmt::format("the parts between {0} and {1} are {2:.2f} mm thick; expected "
+                                          "{3:.2f} mm, the distance from {0} to {1}",
+                                          head_name, end, sum / mm, joint.grip / mm));
         }
     }
 
@@ -366,9 +331,10 @@ class JointFinder {
                                           double head, double far) const {
         std::vector<const PartGeometry*> parts;
         for (std::size_t n = 0; n < tree_.nodes.size(); ++n) parts.push_back(part_of(static_cast<int>(n)));
-        for (const auto& list : {joint.head_washers, joint.nut_washers,
-                                 std::vector{joint.bolt, joint.is_screw() ? joint.tapped : joint.nut}})
-            for (const int node : list) parts[static_cast<std::size_t>(node)] = nullptr;
+        for (const auto& list :
+             {joint.head_washers, joint.nut_washers, std::vector{joint.bolt, joint.nut, joint.tapped}})
+            for (const int node : list)
+                if (node >= 0) parts[static_cast<std::size_t>(node)] = nullptr;
         return find_members(parts, poses_, {bolt.origin, bolt.axis, bolt.diameter, head, far});
     }
 

@@ -1,5 +1,5 @@
 // Finds joints by their geometry: a hexagon bolt or a cap screw with a nut on its axis, or screwed into a
-// part, and the washers and parts between.
+// part, a stud with a nut that is screwed into a part, and the washers and parts between.
 #pragma once
 
 #include <string>
@@ -21,21 +21,24 @@ struct JointCandidate {
     // The direction of the drawn helix; right if no helix is drawn.
     joint::ThreadDirection thread_direction = joint::ThreadDirection::right;
     joint::HeadShape head = joint::HeadShape::hexagon;
-    double bolt_length = 0.0;  // m, under the head
-    double grip = 0.0;         // m, distance from the head to the nut or the tapped part, without the washers
+    double bolt_length = 0.0;  // m, under the head; of a stud without its end in the tapped part
+    // m, distance from the head to the nut or the tapped part, of a stud from nut to tapped part, without the
+    // washers
+    double grip = 0.0;
     // Centre of the hole, m, on the face of the member under the nut or head that is turned.
     Vec3 seat{0.0};
     Vec3 axis{0.0, 1.0, 0.0};  // from the members to the nut or head that is turned
     int bolt = -1, nut = -1;   // nodes; a screw has no nut
-    int tapped = -1;           // node of the part that a screw is screwed into; −1 with a nut
-    // Length of the thread in that part, m; 0: the screw ends inside the part, so its whole length beyond
+    int tapped = -1;  // node of the part that a screw or a stud is screwed into; −1 for a through-bolt
+    // Length of the thread in that part, m; 0: a screw that ends inside the part, so its whole length beyond
     // members and washers engages.
     double engagement = 0.0;
     std::vector<int> head_washers, nut_washers;
-    std::vector<ClampedMember> members;  // from head to nut or tapped part
+    std::vector<ClampedMember> members;  // from head to nut or tapped part; of a stud from tapped part to nut
     int group = -1;                      // node joint_ID
 
-    [[nodiscard]] bool is_screw() const { return tapped >= 0; }
+    [[nodiscard]] bool is_screw() const { return tapped >= 0 && nut < 0; }
+    [[nodiscard]] bool is_stud() const { return tapped >= 0 && nut >= 0; }
     // Cap screws are turned at the head, with a key, even if they have a nut.
     [[nodiscard]] bool turns_head() const { return is_screw() || head == joint::HeadShape::socket; }
 };

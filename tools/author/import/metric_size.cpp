@@ -65,9 +65,15 @@ std::string inch_text(double diameter) {
 
 }  // namespace
 
-const joint::FastenerSize* size_of(double diameter, double across_flats) {
+const joint::FastenerSize* size_of_thread(double diameter) {
     const joint::FastenerSize& size = nearest_size(diameter);
-    if (std::abs(size.d - diameter) > diameter_slack(size)) return nullptr;
+    return std::abs(size.d - diameter) > diameter_slack(size) ? nullptr : &size;
+}
+
+const joint::FastenerSize* size_of(double diameter, double across_flats) {
+    const joint::FastenerSize* const found = size_of_thread(diameter);
+    if (found == nullptr) return nullptr;
+    const joint::FastenerSize& size = *found;
     const auto fits = [&](double flats) { return std::abs(across_flats - flats) < width_tolerance; };
     return fits(size.across_flats) || fits(din_across_flats(size)) ? &size : nullptr;
 }

@@ -22,8 +22,11 @@ struct CapHead {
 // by DIN 931; null if there is none.
 const joint::FastenerSize* size_of(double diameter, double across_flats);
 
-// The same for a cap screw of ISO 4762. `across_flats`: of its socket. The socket may be deeper than the
-// standard demands.
+// Returns the metric size of a thread with this diameter over the crests; null if there is none.
+const joint::FastenerSize* size_of_thread(double diameter);
+
+// As size_of() above, for a cap screw of ISO 4762. `across_flats`: of its socket. The socket may be deeper
+// than the standard demands.
 const joint::FastenerSize* size_of(double diameter, double across_flats, const CapHead& head);
 
 // Explains why size_of() returns null for a bolt of this diameter: states the expected dimensions and, if
