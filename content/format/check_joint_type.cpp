@@ -223,6 +223,22 @@ void check_clamp(const LayeredObject& layers, const JointType& type) {
                                fmt::format("less than {:.1f} kN", strength * 1e-3));
 }
 
+// Reports a joint that is tightened to yield although the highest torque that is judged OK is below yield:
+// every trainee who follows the instruction exceeds it.
+void report_early_end(const LayeredObject& layers, const JointType& type, double yield_torque) {
+    const joint::JointDesign& design = type.design;
+    layers.reader().report(
+        layers.member_layers("spec").find("strategy").pointer,
+        fmt::format("the highest torque that is judged OK, {:g} N·m, is below yield: {} of class {} with "
+                    "friction {:g} and {:g} yields near {:.1f} N·m",
+                    type.spec.torque.high, design.thread.size.name, design.bolt_class.name,
+                    design.friction.thread, design.friction.bearing, yield_torque),
+        fmt::format(
+            "the strategy \"torque\", or a highest torque above {:.1f} N·m (target_torque_Nm with its "
+            "tolerance, or max_torque_Nm)",
+            yield_torque));
+}
+
 // Requires the size, the class, the friction and the target torque.
 void check_load(const LayeredObject& layers, const JointType& type) {
     const joint::JointDesign& design = type.design;
@@ -250,7 +266,10 @@ void check_load(const LayeredObject& layers, const JointType& type) {
         // An angle may lead beyond yield, too. There a bolt hardens by less than 30 %; a higher target breaks
         // it or has a misplaced decimal point.
         const double max_torque = 1.3 * torque_90 + design.prevailing_torque;
-        if (torque.target > max_torque) report_torque(target, torque.target, "", max_torque, "");
+        if (torque.target > max_torque)
+            report_torque(target, torque.target, "", max_torque, "");
+        else if (type.spec.strategy == Strategy::yield && torque.high < yield_torque)
+            report_early_end(layers, type, yield_torque);
     } else if (torque.high > yield_torque) {
         const bool limited = limit && layers.reader().number(limit) == torque.high;
         const char* limit_suffix = limited ? "" : " with its tolerance";

@@ -96,8 +96,7 @@ Result<joint::ThreadSize> read_thread(std::string_view text) {
         if (first_number(known) == first_number(normal_text)) same_diameter.push_back(std::move(known));
     const std::string best = nearest_name(normal_text, same_diameter);
     return fail(ErrorCode::bad_content, fmt::format("{} is not a known thread size", in_quotes(text)),
-                best.empty() ? "M4 to M39, or a fine thread such as \"M16x1.5\""
-                             : fmt::format("did you mean {}?", in_quotes(best)));
+                best.empty() ? joint::describe_threads() : fmt::format("did you mean {}?", in_quotes(best)));
 }
 
 namespace {
@@ -348,57 +347,6 @@ AssemblyJoint read_joint(JointTypes& types, const JsonNode& node) {
     joint.design.seat = reader.vector(reader.member(node, "position_mm")).value_or(Vec3{0.0}) * mm +
                         joint.design.washer_under_turned() * joint.design.axis;
     return joint;
-}
-
-// Width of the part that is turned, m.
-double outer_width(const joint::JointDesign& design) {
-    const joint::TurnedPartSize part = joint::turned_part_size(design);
-    const joint::SocketHead* const socket =
-        part.depth > 0.0 ? joint::socket_head(design.thread.size.name) : nullptr;
-    return socket ? socket->diameter : part.across_flats;
-}
-
-// Checks that ids and nodes are unique and that the nuts of two joints do not overlap.
-void check_joints(JsonReader& reader, const std::vector<JsonNode>& nodes,
-                  const std::vector<AssemblyJoint>& joints) {
-    const auto unique = [&](const char* key) {
-        std::map<std::string, std::string> first;
-        for (const JsonNode& node : nodes) {
-            const JsonNode value = reader.member(node, key);
-            const auto name = reader.text(value);
-            if (!name) continue;
-            const auto [it, fresh] = first.emplace(*name, value.pointer);
-            if (!fresh)
-                reader.report(
-                    value.pointer,
-                    fmt::format("{} is the \"{}\" of another joint too", in_quotes(*name), key),
-                    fmt::format("a name of its own; it is used first in line {}", reader.line(it->second)));
-        }
-    };
-    unique("id");
-    unique("node");
-    const auto has_position = [&](const JsonNode& node) {
-        const JsonNode position = reader.member(node, "position_mm");
-        return position && reader.is_valid(position.pointer) &&
-               reader.is_valid(reader.member(node, "axis").pointer);
-    };
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-        const JsonNode position = reader.member(nodes[i], "position_mm");
-        if (!has_position(nodes[i])) continue;
-        for (std::size_t k = 0; k < i; ++k) {
-            if (!has_position(nodes[k])) continue;
-            const Vec3 between = joints[i].design.seat - joints[k].design.seat;
-            const double distance = std::sqrt(glm::dot(between, between));
-            const double nut = std::max(outer_width(joints[i].design), outer_width(joints[k].design));
-            if (distance >= nut) continue;
-            reader.report(position.pointer,
-                          fmt::format("this joint is {:.3g} mm from {}: their {}s overlap", distance / mm,
-                                      in_quotes(joints[k].design.id),
-                                      joints[i].design.turned == joint::TurnedPart::head ? "head" : "nut"),
-                          fmt::format("{:g} mm or more", nut / mm));
-            break;
-        }
-    }
 }
 
 }  // namespace

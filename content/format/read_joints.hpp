@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "content/format/assembly.hpp"
 #include "content/format/reader.hpp"
@@ -55,6 +56,11 @@ PublishedJoint read_published(const LayeredObject& layers);
 // Checks the consistency of a joint type: lengths, torques, windows. Checks that need an invalid or missing
 // value are skipped.
 void check_joint_type(const LayeredObject& layers, const JointType& type, double smallest_pass_fraction);
+
+// Checks that ids and nodes are unique and that the turned parts of two joints do not overlap. `nodes`: the
+// values in "joints" that the joints were read from.
+void check_joints(JsonReader& reader, const std::vector<JsonNode>& nodes,
+                  const std::vector<AssemblyJoint>& joints);
 
 // Checks that limits come in pairs and are not combined with a tolerance.
 void check_limits(const LayeredObject& spec);

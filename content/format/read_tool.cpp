@@ -155,9 +155,10 @@ bool suits_any(const WrenchDesign& wrench, const std::vector<AssemblyJoint>& joi
                        [&](const AssemblyJoint& joint) { return suits(wrench, joint.design); });
 }
 
-// Reports a tool whose size fits no part, or not the part that its joint has.
+// Reports a tool whose size fits no part, or not the part that its joint has. `remedy`: another one than
+// another size; may be empty.
 void check_fit(JsonReader& reader, const Located<double>& given, const WrenchDesign& wrench,
-               const std::vector<AssemblyJoint>& joints) {
+               const std::vector<AssemblyJoint>& joints, const std::string& remedy) {
     const bool inside = grips_inside(wrench);
     const double width = *given * mm;
     const double play = most_play(wrench);
@@ -171,8 +172,9 @@ void check_fit(JsonReader& reader, const Located<double>& given, const WrenchDes
         reader.report(given.pointer,
                       fmt::format("{} of {:g} mm does not fit {}, {:g} mm across flats", name, *given,
                                   joint.design.thread.size.name, s / mm),
-                      play > 0.0 ? fmt::format("{:g} to {:g} mm", s / mm, (s + play) / mm)
-                                 : fmt::format("{:g} mm", s / mm));
+                      (play > 0.0 ? fmt::format("{:g} to {:g} mm", s / mm, (s + play) / mm)
+                                  : fmt::format("{:g} mm", s / mm)) +
+                          remedy);
         break;
     }
 }
@@ -204,14 +206,30 @@ void read_open_end(JsonReader& reader, const LayeredObject& tool, WrenchDesign& 
     refuse(reader, tool, {"size_mm"}, "an open end is given by its opening", "\"jaw_mm\"");
 }
 
+bool is_named(std::string_view tool, const std::vector<AssemblyJoint>& joints) {
+    return std::any_of(joints.begin(), joints.end(),
+                       [&](const AssemblyJoint& joint) { return joint.tool == tool; });
+}
+
 // The joints that a tool is to turn: those that name it; if none does, those that name no tool.
 std::vector<AssemblyJoint> joints_of(std::string_view tool, const std::vector<AssemblyJoint>& joints) {
-    std::vector<AssemblyJoint> own, free;
-    for (const AssemblyJoint& joint : joints) {
-        if (joint.tool == tool) own.push_back(joint);
-        if (joint.tool.empty()) free.push_back(joint);
-    }
-    return own.empty() ? free : own;
+    const std::string_view wanted = is_named(tool, joints) ? tool : std::string_view{};
+    std::vector<AssemblyJoint> own;
+    for (const AssemblyJoint& joint : joints)
+        if (joint.tool == wanted) own.push_back(joint);
+    return own;
+}
+
+// Returns true if a joint type names the tool, but no joint has this type because another one is misspelled.
+bool lost_its_joints(JsonReader& reader, std::string_view tool, const std::vector<AssemblyJoint>& joints) {
+    const auto is_unknown = [](const AssemblyJoint& joint) {
+        return joint::turned_part_size(joint.design).across_flats <= 0.0;
+    };
+    const std::vector<JsonNode> types = reader.items(reader.member(reader.root(), "joint_types"));
+    return std::any_of(joints.begin(), joints.end(), is_unknown) &&
+           std::any_of(types.begin(), types.end(), [&](const JsonNode& type) {
+               return reader.text(reader.member(type, "tool")) == tool;
+           });
 }
 
 // A tool as read from the file.
@@ -251,9 +269,15 @@ ParsedTool parse_tool(JsonReader& reader, std::string name, const JsonNode& node
 // Checks that a tool fits the joints that it is to turn.
 void check_sizes(JsonReader& reader, const ParsedTool& parsed, const std::vector<AssemblyJoint>& joints) {
     const WrenchDesign& wrench = parsed.tool.wrench;
+    // Each trainee may select a tool that no joint type names, so such a tool must fit all joints without
+    // one.
+    const bool fits_another = !is_named(parsed.tool.name, joints) && suits_any(wrench, joints);
+    const std::string remedy = fits_another ? fmt::format(", or \"tool\": {} in the joint types of its size",
+                                                          in_quotes(parsed.tool.name))
+                                            : "";
     if (wrench.head == ToolHead::open_end)
         check_jaw_room(reader, LayeredObject(reader, {parsed.node}), joints);
-    if (parsed.size) check_fit(reader, parsed.size, wrench, joints);
+    if (parsed.size) check_fit(reader, parsed.size, wrench, joints, remedy);
 }
 
 // Returns the indices of the tools for the joints that a variant names: `first`, the tools that a joint
@@ -284,14 +308,16 @@ std::vector<std::size_t> tools_of_selection(const std::vector<ParsedTool>& tools
     return kept;
 }
 
-// Reports each place that names a tool which the file lacks.
-void check_names(JsonReader& reader, const std::vector<Tool>& tools) {
+// Reports each place that names a tool which the file lacks. Returns false after an error.
+bool check_names(JsonReader& reader, const std::vector<Tool>& tools) {
     std::vector<std::string> names;
     for (const Tool& tool : tools) names.push_back(tool.name);
-    if (!reader.is_valid(reader.member(reader.root(), "more_tools").pointer)) return;
+    if (!reader.is_valid(reader.member(reader.root(), "more_tools").pointer)) return false;
+    bool known = true;
     const auto check_name = [&](const JsonNode& node) {
         const auto name = reader.text(node);
         if (!name || std::find(names.begin(), names.end(), *name) != names.end()) return;
+        known = false;
         const std::string near = nearest_name(*name, names);
         reader.report(node.pointer, fmt::format("there is no tool {}", in_quotes(*name)),
                       near.empty() ? fmt::format("{}", fmt::join(names, ", "))
@@ -310,6 +336,7 @@ void check_names(JsonReader& reader, const std::vector<Tool>& tools) {
         check(reader.member(variant, "every_joint_type"));
         for (const JsonNode& patch : reader.items(reader.member(variant, "joint_types"))) check(patch);
     }
+    return known;
 }
 
 // Reports each joint of an "instead" that the file lacks.
@@ -362,7 +389,7 @@ std::vector<Tool> read_tools(JsonReader& reader, const std::string& variant, con
     }
     std::vector<Tool> all;
     for (const ParsedTool& tool : parsed) all.push_back(tool.tool);
-    check_names(reader, all);
+    const bool names_are_known = check_names(reader, all);
     check_instead(reader, joints.all);
 
     const JsonNode variants = reader.member(reader.root(), "variants");
@@ -377,7 +404,10 @@ std::vector<Tool> read_tools(JsonReader& reader, const std::string& variant, con
     }
     std::vector<Tool> tools;
     for (const std::size_t i : kept) {
-        check_sizes(reader, parsed[i], joints_of(parsed[i].tool.name, joints.joints));
+        const std::string& name = parsed[i].tool.name;
+        // A misspelled name leaves a tool without its joints. It is not compared with the other joints then.
+        if (is_named(name, joints.joints) || (names_are_known && !lost_its_joints(reader, name, joints.all)))
+            check_sizes(reader, parsed[i], joints_of(name, joints.joints));
         tools.push_back(parsed[i].tool);
     }
     std::stable_partition(tools.begin(), tools.end(), [&](const Tool& tool) { return tool.name == first; });

@@ -139,6 +139,12 @@ std::vector<std::string> thread_names() {
     return names;
 }
 
+std::string describe_threads() {
+    std::vector<std::string_view> names;
+    for (const FastenerSize& size : sizes) names.push_back(size.name);
+    return fmt::format("one of {}, or a fine thread such as \"M16x1.5\"", fmt::join(names, ", "));
+}
+
 Result<ThreadSize> parse_thread(std::string_view text) {
     const std::size_t cross = text.find('x');
     const std::string_view name = text.substr(0, cross);
@@ -158,7 +164,7 @@ Result<ThreadSize> parse_thread(std::string_view text) {
                     fmt::format("{} with a pitch of {} mm", name, pitches_text(size)));
     }
     return unknown(fmt::format("\"{}\" is not a known thread size", text), text, thread_names(),
-                   "M4 to M39, or a fine thread such as \"M16x1.5\"");
+                   describe_threads());
 }
 
 std::vector<std::string> property_class_names() {

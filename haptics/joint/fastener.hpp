@@ -96,6 +96,9 @@ Result<ThreadSize> parse_thread(std::string_view text);
 // One name for each thread that parse_thread accepts, coarse threads first.
 std::vector<std::string> thread_names();
 
+// The threads that parse_thread accepts, for Error::expected: "one of M4, M5, ...".
+std::string describe_threads();
+
 // Strength of the bolt material (ISO 898-1; stainless ISO 3506-1). Pascals.
 struct PropertyClass {
     std::string name;          // "8.8", "A2-70"
