@@ -29,7 +29,7 @@ check "... with 14.354 N m per degree in the linear stage" awk -F, '
     END { exit !(n > 100 && !bad) }' published.csv
 expect 0 'angle_deg,stage' "$bin/bolt-author" curve zq350 --joint F1 --direction loosen --csv -
 expect 2 'did you mean B1' "$bin/bolt-author" curve zq350 --joint b1 --csv -
-expect 2 'nothing to write' "$bin/bolt-author" curve zq350 --joint B1
+expect 2 'nothing to write' "$bin/bolt-author" curve zq350 --joint B1 --direction loosen
 expect 1 'cannot be written' "$bin/bolt-author" curve zq350 --joint B1 --csv none/there.csv
 expect 1 'cannot be written' bash -c "'$bin/bolt-author' curve zq350 --joint B1 --csv - > /dev/full"
 expect 0 '^$' "$bin/bolt-author" curve zq350 --joint F1 --svg torque-angle.svg

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "content/format/assembly.hpp"
+#include "content/format/read_joints.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/nearest.hpp"
 #include "engine/base/result.hpp"
@@ -86,6 +88,83 @@ std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint
     return plot::standalone(plot::draw(plot), plot::style_sheet());
 }
 
+std::string thread_name(const joint::ThreadSize& thread) {
+    const double pitch = thread.thread.pitch;
+    return std::abs(pitch - thread.size.coarse_pitch) < 1e-9
+               ? std::string(thread.size.name)
+               : fmt::format("{}x{:g}", thread.size.name, pitch / mm);
+}
+
+// The sample at which a run that tightens first reaches a torque; null if it does not.
+const joint::CurveSample* first_at_torque(std::span<const joint::CurveSample> run, double torque) {
+    const auto found = std::find_if(
+        run.begin(), run.end(), [&](const joint::CurveSample& sample) { return sample.torque >= torque; });
+    return found == run.end() ? nullptr : &*found;
+}
+
+// The torque from which the angles of a joint count, N·m: the snug torque or, in a lesson with passes of kind
+// turn, that of the last pass before them.
+double start_of_angles(const content::Assembly& assembly, const content::Specification& spec) {
+    double start = 0.0;
+    for (const content::Pass& pass : assembly.passes) {
+        if (pass.kind == content::PassKind::turn) return start > 0.0 ? start : spec.snug_torque;
+        if (pass.kind == content::PassKind::tighten) start = pass.fraction * spec.torque.target;
+    }
+    return spec.snug_torque;
+}
+
+// The figures of a run that tightens, one a line.
+std::string curve_figures(const content::AssemblyJoint& joint, double start_torque,
+                          std::span<const joint::CurveSample> run) {
+    const content::Specification& spec = joint.spec;
+    std::string text;
+    const auto add = [&](std::string_view name, std::string_view unit, double value) {
+        text += fmt::format("{}_{} {:.1f}\n", name, unit, value);
+    };
+    const std::size_t contact = std::min(first_contact(run), run.size() - 1);
+    add("first_contact", "deg", to_degrees(run[contact].angle));
+    add("angles_count_from", "Nm", start_torque);
+    const joint::CurveSample* const start = first_at_torque(run, start_torque);
+    if (start == nullptr) return text + "note: this torque is not reached\n";
+    const auto angle = [&](const joint::CurveSample& sample) {
+        return to_degrees(sample.angle - start->angle);
+    };
+    add("first_contact_relative", "deg", angle(run[contact]));
+    const content::ToleranceWindow& window = spec.torque;
+    for (const auto& [name, torque] :
+         {std::pair{"lowest_torque", window.low}, std::pair{"target_torque", window.target},
+          std::pair{"highest_torque", window.high}}) {
+        add(name, "Nm", torque);
+        if (const joint::CurveSample* const sample = first_at_torque(run, torque)) {
+            add(name, "deg", angle(*sample));
+            add(name, "clamp_kN", sample->clamp / 1e3);
+        } else {
+            text += fmt::format("note: the curve does not reach the {}\n", name);
+        }
+    }
+    const auto yields = std::find_if(run.begin(), run.end(), [](const joint::CurveSample& sample) {
+        return sample.stage == joint::Stage::yield;
+    });
+    if (yields != run.end()) {
+        add("yield_stage", "Nm", yields->torque);
+        add("yield_stage", "deg", angle(*yields));
+    }
+    if (!spec.has_angle) return text;
+    for (const auto& [name, turn] :
+         {std::pair{"smallest_angle", spec.angle.low}, std::pair{"target_angle", spec.angle.target},
+          std::pair{"largest_angle", spec.angle.high}}) {
+        add(name, "deg", to_degrees(turn));
+        const auto found = std::find_if(run.begin(), run.end(), [&](const joint::CurveSample& sample) {
+            return sample.angle >= start->angle + turn;
+        });
+        if (found == run.end())
+            text += fmt::format("note: the curve ends before the {}\n", name);
+        else
+            add(name, "Nm", found->torque);
+    }
+    return text;
+}
+
 struct CurveCommandOptions {
     std::string assembly, variant, joint, law, direction = "tighten", csv, svg;
 };
@@ -103,7 +182,8 @@ Result<std::size_t> find_joint(const content::Assembly& assembly, const std::str
 }
 
 int run_curve(const CurveCommandOptions& options) {
-    if (options.csv.empty() && options.svg.empty()) {
+    const bool prints_figures = options.csv.empty() && options.svg.empty();
+    if (prints_figures && options.direction == "loosen") {
         Error error;
         error.code = ErrorCode::usage;
         error.what = "there is nothing to write";
@@ -130,6 +210,12 @@ int run_curve(const CurveCommandOptions& options) {
     curve.torque = target.spec.torque.target;
 
     const std::vector<joint::CurveSample> run = joint::torque_angle_curve(group, curve);
+    if (prints_figures) {
+        const Status printed =
+            print(fmt::format("{} {}, law {}\n{}", options.joint, thread_name(design.thread), name(law),
+                              curve_figures(target, start_of_angles(assembly, target.spec), run)));
+        return printed ? 0 : print_error(printed.error());
+    }
     if (!options.svg.empty()) {
         const std::string title =
             fmt::format("{} {}, law {}, {}", assembly.name, options.joint, name(law), options.direction);
@@ -154,7 +240,9 @@ int run_curve(const CurveCommandOptions& options) {
 void add_curve(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<CurveCommandOptions>();
     CLI::App* curve =
-        app.add_subcommand("curve", "The torque-angle curve of a joint, turned at 30 degrees a second");
+        app.add_subcommand("curve",
+                           "The torque-angle curve of a joint, turned at 30 degrees a second; without a file "
+                           "to write, its figures");
     curve->add_option("assembly", options->assembly, "Folder, file, or name under content/assemblies")
         ->required();
     curve->add_option("--joint", options->joint, "Id of the joint")->required();
@@ -197,7 +285,7 @@ struct AnswerValue {
 // The joint that the options describe, without members.
 Result<joint::JointDesign> joint_of(const TorqueOptions& options, const std::string& size_name) {
     joint::JointDesign design;
-    BOLT_TRY_ASSIGN(design.thread, joint::parse_thread(size_name));
+    BOLT_TRY_ASSIGN(design.thread, content::read_thread(size_name));
     BOLT_TRY_ASSIGN(design.bolt_class, joint::property_class(options.property_class, design.thread.size.d));
     const std::string_view size = design.thread.size.name;
     design.turned = joint::TurnedPart::head;  // table A1 of VDI 2230 has the bearing of a head
