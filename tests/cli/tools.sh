@@ -50,6 +50,16 @@ expect 0 '^  24 mm +359 +451$' "$author" tools
 expect 0 '^  17 mm +~1' "$author" tools
 expect 0 '^   8 mm +44 \+ 108$' "$author" tools
 
+# The kinds and heads of assembly.json. The weaker of head and square drive states what the tool bears.
+expect 0 '^test torque 175 N.m$' "$author" tool click_torque_wrench --head socket --size 16 -o by_file --no-picture
+expect 0 '^test torque 115 N.m$' "$author" tool click_torque_wrench --size 16 -o by_file --no-picture
+expect 0 '^test torque \?340 N.m, of its square drive of 12.5 mm$' "$author" tool ratchet --size 24 -o by_file --no-picture
+expect 0 '^ring: size 24 mm' "$author" tool ring_wrench --size 24 -o by_file --no-picture
+expect 0 'hexagon bit, extension bar 75 mm' "$author" tool ratchet --head hex_bit --size 8 --extension 75 -o by_file --no-picture
+expect 0 '^begins to bend at 129 N.m' "$author" tool ratchet --head hex_bit --size 8 -o by_file --no-picture
+expect 0 '^begins to bend at 129 N.m' "$author" tool hex_key --size 8 -o by_file --no-picture
+expect 0 '^click_torque_wrench +torque_wrench here$' "$author" tools
+
 # Mistakes.
 expect 2 'no tool of the kind "rign"; did you mean "ring"\?' "$author" tool rign --size 24 -o never
 expect 2 'ring of 65 mm: the size is out of range; expected 5.5 to 60 mm; the nearest is 60' "$author" tool ring --size 65 -o never

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/assets/gltf.hpp"
@@ -28,9 +30,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ToolCommandOptions {
-    std::string kind, out, picture_size = "640x400";
+    std::string kind, head, out, picture_size = "640x400";
     double size_mm = 0.0, length_mm = 0.0, drive_mm = 0.0;
-    double adaptor_mm = 0.0;
+    double adaptor_mm = 0.0, extension_mm = 0.0;
     int teeth = 0;
     bool no_picture = false;
 };
@@ -122,6 +124,38 @@ std::string torque_text(const tool_models::TestTorque& torque) {
     return fmt::format("{}{:.3g}", mark, torque.torque);
 }
 
+// The line on what the tool bears: its test torque, or that of its square drive if the drive bears less, and
+// the torque at which a key or a bit bends. Empty if neither is known.
+std::string strength_line(const tool_models::ToolParameters& tool) {
+    using tool_models::ModelHead;
+    using tool_models::ModelKind;
+    using tool_models::TorqueSource;
+    const bool has_drive = tool_models::has_ratchet(tool);
+    const bool is_bit = tool.kind == ModelKind::hex_bit || (has_drive && tool.head == ModelHead::hex_bit);
+    std::string text;
+    const tool_models::TestTorque grip = tool_models::test_torque(is_bit      ? ModelKind::hex_bit
+                                                                  : has_drive ? ModelKind::ratchet
+                                                                              : tool.kind,
+                                                                  tool.size);
+    const tool_models::TestTorque drive = tool_models::test_torque(ModelKind::extension_bar, tool.drive);
+    const bool drive_is_weaker = has_drive && drive.source != TorqueSource::none &&
+                                 (grip.source == TorqueSource::none || drive.torque < grip.torque);
+    if (drive_is_weaker)
+        text = fmt::format("test torque {} N·m, of its square drive of {:g} mm\n", torque_text(drive),
+                           tool.drive / mm);
+    else if (grip.source != TorqueSource::none)
+        text = fmt::format("test torque {} N·m\n", torque_text(grip));
+    if (is_bit || tool.kind == ModelKind::hex_key) {
+        content::WrenchDesign key;
+        key.kind = content::ToolKind::hex_key;
+        key.head = content::ToolHead::hex_key;
+        key.size = tool.size;
+        text += fmt::format("begins to bend at {:.3g} N·m (torsion of its hexagon)\n",
+                            tool_models::yield_torque(key));
+    }
+    return text;
+}
+
 // Notes on sizes that the tables do not have.
 std::string notes_on(const tool_models::ToolParameters& p) {
     const tool_models::KindInfo& info = tool_models::info_of(p.kind);
@@ -134,10 +168,35 @@ std::string notes_on(const tool_models::ToolParameters& p) {
                        info.name);
 }
 
+// The kinds in assembly.json and those of the models.
+constexpr std::pair<std::string_view, std::string_view> kinds_of_files[] = {
+    {"open_end_wrench", "open_end"},
+    {"ring_wrench", "ring"},
+    {"ratchet", "socket"},
+    {"click_torque_wrench", "torque_wrench"},
+};
+
+// Accepts the names in assembly.json too.
+Result<tool_models::ModelKind> kind_of_model(std::string_view name) {
+    for (const auto& [in_file, of_model] : kinds_of_files)
+        if (name == in_file) return tool_models::kind_named(of_model);
+    return tool_models::kind_named(name);
+}
+
+tool_models::ModelHead head_of_model(std::string_view name) {
+    using tool_models::ModelHead;
+    return name == "open_end"  ? ModelHead::open_end
+           : name == "socket"  ? ModelHead::socket
+           : name == "hex_bit" ? ModelHead::hex_bit
+                               : ModelHead::standard;
+}
+
 Status make_tool_files(const ToolCommandOptions& options) {
     BOLT_TRY_ASSIGN(const auto size, view::parse_size(options.picture_size));
     tool_models::ToolParameters parameters;
-    BOLT_TRY_ASSIGN(parameters.kind, tool_models::kind_named(options.kind));
+    BOLT_TRY_ASSIGN(parameters.kind, kind_of_model(options.kind));
+    parameters.head = head_of_model(options.head);
+    parameters.extension = options.extension_mm * mm;
     parameters.size = options.size_mm * mm;
     parameters.length = options.length_mm * mm;
     parameters.drive = options.drive_mm * mm;
@@ -167,9 +226,7 @@ Status make_tool_files(const ToolCommandOptions& options) {
     BOLT_TRY(write_all(files));
 
     std::string text = tool_models::description(tool) + "\n";
-    const tool_models::TestTorque torque = tool_models::test_torque(tool.kind, tool.size);
-    if (torque.source != tool_models::TorqueSource::none)
-        text += fmt::format("test torque {} N·m\n", torque_text(torque));
+    text += strength_line(tool);
     text += fmt::format("{} triangles, {} for contact\n", triangles_of(drawn), triangles_of(contact));
     for (const auto& [path, bytes] : files)
         text += fmt::format("{}: {} bytes\n", path.string(), bytes.size());
@@ -183,7 +240,10 @@ void add_tool(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "tool",
         "Make the models and a picture of a tool from its parameters: FILE.glb, FILE.contact.glb, FILE.png");
-    command->add_option("kind", options->kind, "Kind of tool; bolt-author tools lists them")->required();
+    command
+        ->add_option("kind", options->kind,
+                     "Kind of tool, as bolt-author tools lists them or as in assembly.json")
+        ->required();
     command
         ->add_option("--size", options->size_mm,
                      "Width across flats that it grips, or of its square drive, mm")
@@ -192,6 +252,13 @@ void add_tool(CLI::App& app, int& exit_code) {
                         "From the bolt's axis, or from the middle of what grips, to the far end, mm");
     command->add_option("--drive", options->drive_mm, "Width of the square drive, mm");
     command->add_option("--teeth", options->teeth, "Teeth of the ratchet: 24, 72 or 90");
+    command
+        ->add_option(
+            "--head", options->head,
+            "What a ratchet (socket unless given) or a torque wrench (open_end unless given) grips with")
+        ->check(CLI::IsMember({"open_end", "socket", "hex_bit"}));
+    command->add_option("--extension", options->extension_mm,
+                        "Length of the bar between a square drive and its socket or bit, mm");
     command->add_option("--adaptor", options->adaptor_mm,
                         "Length of an adaptor between a torque wrench and its open end, mm");
     command->add_option("-o,--out", options->out, "Name of the files without their endings")->required();
@@ -228,6 +295,9 @@ std::string tool_table() {
         const KeyArms arms = key_arms(size * mm);
         text += fmt::format("{:>4g} mm {:>15g} + {:g}\n", size, arms.arm / mm, arms.handle / mm);
     }
+    text += "\nKinds in assembly.json\n";
+    for (const auto& [in_file, of_model] : kinds_of_files)
+        text += fmt::format("{:<25}{} here\n", in_file, of_model);
     return text +
            "\nTorques without a mark: ISO 1711-1 as read in Gedore's tables. ~: interpolated by a power law "
            "between them.\n?: an estimate; beyond the tables, and for square drives from catalogues.\n";
