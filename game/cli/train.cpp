@@ -33,14 +33,28 @@ class TrainingProgressLine {
 
     // Returns false if the program was requested to end.
     bool show(const content::Assembly& assembly, const trainees::TrainingProgress& progress) {
-        if (quiet_) return !interrupted();
+        step_ = progress.step;
+        steps_ = progress.steps;
+        time_ = progress.time;
         if (progress.event != nullptr) add_event(assembly, progress);
-        if (terminal_)
+        if (!quiet_ && terminal_)
             (void)std::fputs(fmt::format("\r\033[K{:6.1f} s  step {:>3} of {}  {}", progress.time,
                                          progress.step, progress.steps, activity_)
                                  .c_str(),
                              stderr);
         return !interrupted();
+    }
+    // The error of a trainee that did not finish in time. A lesson that no trainee finishes is often a
+    // mistake of its author.
+    [[nodiscard]] Error overdue(const trainees::TrainOptions& train) const {
+        const bool whole = time_ > train.time_limit - 1.0;
+        return {
+            ErrorCode::failed,
+            fmt::format("the simulated trainee gave up after {:.0f} s of virtual time {}step {} of {} ({})",
+                        whole ? train.time_limit : train.step_time_limit, whole ? "at " : "for ", step_ + 1,
+                        steps_, activity_),
+            "a step that this tool can finish; --tool selects another one, and --no-obstacles shows whether "
+            "parts are in its way"};
     }
     void end() const {
         if (!quiet_ && terminal_) (void)std::fputs("\r\033[K", stderr);
@@ -61,12 +75,15 @@ class TrainingProgressLine {
         }
     }
     void print_line(const std::string& text) const {
+        if (quiet_) return;
         (void)std::fputs(fmt::format("{}{}\n", terminal_ ? "\r\033[K" : "", text).c_str(), stderr);
     }
 
     bool quiet_;
     bool terminal_;
     std::string pass_, activity_;
+    std::size_t step_ = 0, steps_ = 0;
+    double time_ = 0.0;  // s, virtual time
 };
 
 Status write_report(const std::filesystem::path& session, const std::filesystem::path& page) {
@@ -143,7 +160,8 @@ int run_headless(const TrainArguments& options, const content::Assembly& assembl
                 stderr);
     if (Status written = write_results(assembly, train.lesson, *outcome, out, !options.no_pictures); !written)
         return print_error(written.error());
-    return interrupted() || !outcome->result.finished ? static_cast<int>(ErrorCode::failed) : 0;
+    if (interrupted()) return static_cast<int>(ErrorCode::failed);
+    return outcome->result.finished ? 0 : print_error(line.overdue(train));
 }
 
 // A headset for the lesson; null: none is used. Fails if a headset is required and none is found.
