@@ -145,7 +145,9 @@ class JointFinder {
         else if (search_.remarks.size() > before)
             search_.remarks.push_back(
                 "correct the parts above in CAD and import again, or write their joints into assembly.json "
-                "by hand");
+                "by hand; studs, and hexagon bolts that are turned at their heads, are always written by "
+                "hand, "
+                "and need a sub-assembly joint_ID in CAD (content/AUTHORING.md)");
     }
 
     std::string explain_stud(const BoltEnd& end) const {
