@@ -1,11 +1,9 @@
-// The subcommands for content: new (a small assembly), words (check of the on-screen texts), views
-// (visibility of the nuts) and validate (all checks of an assembly).
+// The subcommands for content: new (a small assembly), words (check of the on-screen texts) and views
+// (visibility of the nuts).
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,7 +12,6 @@
 
 #include "content/format/assembly.hpp"
 #include "content/words/words.hpp"
-#include "engine/base/process.hpp"
 #include "engine/base/result.hpp"
 #include "engine/text/fonts.hpp"
 #include "engine/text/layout.hpp"
@@ -22,8 +19,6 @@
 #include "game/session/contact_models.hpp"
 #include "game/session/lesson_session.hpp"
 #include "tools/author/commands.hpp"
-#include "tools/author/geometry/check.hpp"
-#include "tools/author/pictures/joint_pictures.hpp"
 
 namespace bolt::author {
 
@@ -192,190 +187,6 @@ void add_views(CLI::App& app, int& exit_code) {
     command->add_flag("--json", options->json, "As JSON");
     command->callback(
         [options, &exit_code] { exit_code = run_views(options->assembly, options->variant, options->json); });
-}
-
-namespace {
-
-namespace fs = std::filesystem;
-
-tl::unexpected<Error> validator_error(std::string what) {
-    return fail(ErrorCode::failed, "the Khronos glTF validator: " + std::move(what),
-                "the validator that tools/install-node-tools.sh installs, and node on the path");
-}
-
-// Returns the script that runs the Khronos glTF validator; empty if it is not installed.
-// $BOLTWRIGHT_GLTF_VALIDATOR names its folder; the default is tools/gltf-validator beside content/.
-fs::path find_gltf_validator() {
-    const char* given =
-        std::getenv("BOLTWRIGHT_GLTF_VALIDATOR");  // NOLINT(concurrency-mt-unsafe): nothing sets it
-    const fs::path folder = given != nullptr && *given != '\0'
-                                ? fs::path(given)
-                                : content::content_folder().parent_path() / "tools" / "gltf-validator";
-    std::error_code ignored;
-    const bool installed = fs::is_regular_file(folder / "validate.mjs", ignored) &&
-                           fs::is_directory(folder / "node_modules" / "gltf-validator", ignored);
-    return installed ? folder / "validate.mjs" : fs::path{};
-}
-
-// Returns the errors and warnings of the validator, each with its file and JSON pointer.
-Result<std::vector<Error>> run_gltf_validator(const fs::path& script, const std::vector<std::string>& files) {
-    std::vector<std::string> command{"node", script.string()};
-    for (const std::string& file : files) command.push_back(fs::absolute(file).string());
-    const Result<ProgramResult> run = run_program(command, Capture::output);
-    if (!run) return validator_error(run.error().what);
-    if (run->exit_code != 0) return validator_error("it failed");
-    const auto reports = nlohmann::json::parse(run->output, nullptr, false);
-    if (!reports.is_array() || reports.size() != files.size())
-        return validator_error("its output has an unknown format");
-    std::vector<Error> errors;
-    for (std::size_t i = 0; i < files.size(); ++i)
-        for (const nlohmann::json& message : reports[i].value("messages", nlohmann::json::array())) {
-            Error error;
-            error.code = ErrorCode::bad_content;
-            error.file = files[i];
-            error.pointer = message.value("pointer", "");
-            error.what = fmt::format("{} ({}, {} of the Khronos glTF validator)",
-                                     message.value("message", ""), message.value("code", ""),
-                                     message.value("severity", 0) == 0 ? "an error" : "a warning");
-            error.expected = "none";
-            errors.push_back(std::move(error));
-        }
-    return errors;
-}
-
-// Returns each model file of the assembly and of its tools once.
-std::vector<std::string> models_of(const content::Assembly& assembly) {
-    std::vector<std::string> files;
-    const auto add = [&](const std::string& file) {
-        if (!file.empty() && std::find(files.begin(), files.end(), file) == files.end())
-            files.push_back(file);
-    };
-    using content::ModelFiles;
-    for (const content::ModelFile file : {&ModelFiles::model, &ModelFiles::far_level, &ModelFiles::contact})
-        for (const std::string& part : content::model_paths(assembly, file)) add(part);
-    for (const content::Tool& tool : assembly.tools) add(tool.wrench.model);
-    return files;
-}
-
-struct AssemblyReport {
-    std::vector<Error> errors;
-    std::vector<std::string> remarks;             // notes that are not errors, one line each
-    std::vector<geometry::DrawnToolRooms> rooms;  // of each checked variant that has a model
-};
-
-template <class T, class Key>
-void add_new(std::vector<T>& all, std::vector<T>&& found, const Key& key) {
-    for (T& one : found)
-        if (std::none_of(all.begin(), all.end(), [&](const T& known) { return key(known) == key(one); }))
-            all.push_back(std::move(one));
-}
-
-// Checks the variants of an assembly, which have loaded without errors.
-AssemblyReport validate(const std::vector<content::Assembly>& variants) {
-    AssemblyReport result;
-    std::vector<Error> notes;
-    std::vector<std::string> files;
-    const auto message = [](const Error& error) { return error.message(); };
-    const auto itself = [](const std::string& file) { return file; };
-    for (const content::Assembly& assembly : variants) {
-        std::optional<geometry::DrawnToolRooms> rooms;
-        geometry::Findings findings = geometry::check_geometry(assembly, &rooms);
-        add_new(result.errors, std::move(findings.errors), message);
-        add_new(notes, std::move(findings.notes), message);
-        add_new(files, models_of(assembly), itself);
-        if (rooms) result.rooms.push_back(std::move(*rooms));
-    }
-    for (const Error& note : notes) result.remarks.push_back(fmt::format("note: {}\n", note.message()));
-    const content::Assembly& first = variants.front();
-    if (first.models.model.empty())
-        result.remarks.push_back(fmt::format(
-            "note: {}: no model is named, so nodes and room for the wrench are not checked\n", first.file));
-    if (files.empty()) return result;
-    const std::filesystem::path script = find_gltf_validator();
-    if (script.empty()) {
-        result.remarks.emplace_back(
-            "note: the Khronos glTF validator is not installed, so its checks are left out "
-            "(tools/install-node-tools.sh installs it)\n");
-        return result;
-    }
-    auto found = run_gltf_validator(script, files);
-    if (found)
-        result.errors.insert(result.errors.end(), found->begin(), found->end());
-    else
-        result.errors.push_back(found.error());
-    return result;
-}
-
-bool same_work(const content::Assembly& a, const content::Assembly& b) {
-    const auto same_joint = [](const content::AssemblyJoint& x, const content::AssemblyJoint& y) {
-        return x.design.id == y.design.id;
-    };
-    return std::equal(a.joints.begin(), a.joints.end(), b.joints.begin(), b.joints.end(), same_joint) &&
-           a.added_models.model == b.added_models.model;
-}
-
-// The assembly itself, then its variants that work on other joints or add models. `chosen`: whether the user
-// has chosen a variant, which is then checked alone.
-std::vector<content::Assembly> variants_to_check(content::Assembly assembly, bool chosen) {
-    std::vector<content::Assembly> variants;
-    variants.push_back(std::move(assembly));
-    const std::vector<content::AssemblyVariant> all = variants.front().variants;
-    for (const content::AssemblyVariant& variant : all) {
-        if (chosen) break;
-        content::LoadedAssembly other = content::load_assembly(variants.front().file, variant.name);
-        const auto same = [&](const content::Assembly& known) { return same_work(known, other.assembly); };
-        if (other.ok() && std::none_of(variants.begin(), variants.end(), same))
-            variants.push_back(std::move(other.assembly));
-    }
-    return variants;
-}
-
-struct ValidateOptions {
-    std::vector<std::string> assemblies;
-    std::string variant, pictures;
-};
-
-int run_validate(const ValidateOptions& options) {
-    if (!options.pictures.empty() && options.assemblies.size() > 1)
-        return print_error({ErrorCode::usage, "--pictures draws the joints of one assembly", "one assembly"});
-    int worst = 0;
-    for (const std::string& where : options.assemblies) {
-        content::LoadedAssembly loaded = content::load_assembly(where, options.variant);
-        if (!loaded.ok()) {
-            worst = std::max(worst, print_error(loaded.errors));
-            continue;
-        }
-        const std::vector<content::Assembly> variants =
-            variants_to_check(std::move(loaded.assembly), !options.variant.empty());
-        const AssemblyReport result = validate(variants);
-        std::string text = fmt::format("{}", fmt::join(result.remarks, ""));
-        for (const content::Assembly& assembly : variants)
-            if (result.errors.empty())
-                text += fmt::format("{}: {} joints, {} passes, variant {}: no mistakes\n", assembly.file,
-                                    assembly.joints.size(), assembly.passes.size(),
-                                    assembly.variant.empty() ? "-" : assembly.variant);
-        worst = std::max(worst, print_error(result.errors));
-        if (const Status printed = print(text); !printed) return print_error(printed.error());
-        for (std::size_t i = 0; i < result.rooms.size() && !options.pictures.empty(); ++i)
-            if (const Status drawn = draw_joint_pictures(variants[i], result.rooms[i], options.pictures);
-                !drawn)
-                return print_error(drawn.error());
-    }
-    return worst;
-}
-
-}  // namespace
-
-void add_validate(CLI::App& app, int& exit_code) {
-    auto options = std::make_shared<ValidateOptions>();
-    CLI::App* command = app.add_subcommand("validate", "Report all errors of assemblies");
-    command->add_option("assembly", options->assemblies, "Folders, files, or names under content/assemblies")
-        ->required();
-    command->add_option("--variant", options->variant,
-                        "Variant to check alone; otherwise one for each set of joints and of models");
-    command->add_option("--pictures", options->pictures,
-                        "Draw each joint with the wrench and its free swing into this folder, JOINT.png");
-    command->callback([options, &exit_code] { exit_code = run_validate(*options); });
 }
 
 }  // namespace bolt::author

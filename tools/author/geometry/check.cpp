@@ -136,6 +136,16 @@ DrawnToolRooms check_model(const content::Assembly& assembly, FlattenedModel&& s
 
 }  // namespace
 
+Findings check_tool_choice(const content::Assembly& assembly) {
+    Findings findings;
+    const auto document = content::JsonDocument::parse(assembly.text, assembly.file, findings.errors);
+    if (!document) return findings;
+    check_tools(assembly, {*document, findings});
+    content::sort_by_position(findings.errors);
+    content::sort_by_position(findings.notes);
+    return findings;
+}
+
 Findings check_geometry(const content::Assembly& assembly, std::optional<DrawnToolRooms>* rooms,
                         CheckProgress* progress) {
     CheckProgress unwatched;

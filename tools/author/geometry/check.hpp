@@ -30,4 +30,12 @@ struct CheckProgress {
 Findings check_geometry(const content::Assembly& assembly, std::optional<DrawnToolRooms>* rooms = nullptr,
                         CheckProgress* progress = nullptr);
 
+// Checks only kind, size and strength of the tools: for a variant whose joints and tools are those of another
+// one that check_geometry has checked, and whose torques may differ.
+Findings check_tool_choice(const content::Assembly& assembly);
+
+// Checks the file's references that reading it does not: that the pictures of all instructions can be shown,
+// those of every variant included. Notes joint types that no joint has. Implemented in check_references.cpp.
+Findings check_references(const content::Assembly& assembly);
+
 }  // namespace bolt::geometry

@@ -203,12 +203,28 @@ void check_drawn_thread(const JointCheck& s, const Fastener& fastener) {
                                     content::in_quotes(fastener.name), name(drawn->direction), name(named)));
 }
 
+// Reports an axis that points to the wrong end of a through-bolt, because all further findings follow from
+// it. Returns true after an error.
+bool axis_points_to_other_end(const JointCheck& s) {
+    const joint::JointDesign& design = s.joint.design;
+    if (design.form != joint::JointForm::through_bolt || !s.parts.nut.exists()) return false;
+    const bool head_is_turned = design.turned == joint::TurnedPart::head;
+    const bool nut_is_at_the_axis = s.parts.nut.box.middle().y > -0.5 * s.grip();
+    if (head_is_turned != nut_is_at_the_axis) return false;
+    s.error(fmt::format("the axis points from the members to the {}, but the {} is turned",
+                        head_is_turned ? "nut" : "head", head_is_turned ? "head" : "nut"),
+            fmt::format("position_mm and axis at the {}, also of the node, or \"turned\": \"{}\"",
+                        head_is_turned ? "head" : "nut", head_is_turned ? "nut" : "head"));
+    return true;
+}
+
 }  // namespace
 
 bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_t index,
                                  const JointParts& parts, const FlattenedModel& scene, const Bvh& everything,
                                  std::span<const JawOpening> jaws, const Messages& messages) {
     const JointCheck s{joint, index, parts, scene, everything, messages};
+    if (axis_points_to_other_end(s)) return false;
     check_presence(s, parts.bolt, true);
     check_presence(s, parts.washer_head, joint.design.washer_under_head);
     check_presence(s, parts.washer_nut, joint.design.washer_under_nut);
