@@ -34,6 +34,16 @@ edit torques/assembly.json '"target_torque_Nm": 62' '"target_torque_Nm": 40'
 expect 0 'variant heavy: no mistakes' "$author" validate torques
 expect 0 'variant light: no mistakes' "$author" validate torques
 
+# A handle of 30 mm instead of 300: 20 N m take 667 N at the grip, and 40 N m take 1333 N.
+copy short
+edit short/assembly.json '"handle_length_mm": 140' '"handle_length_mm": 30'
+said short
+check "20 N m on 30 mm have no note" bash -c '! grep "at the grip" said.txt'
+edit short/assembly.json '"class": "8.8"' '"class": "12.9"'
+edit short/assembly.json '"target_torque_Nm": 20' '"target_torque_Nm": 40'
+expect 0 '^note: .*: the wrench with its handle of 30 mm takes 1333 N at the grip for the target torque of "M8x30", 40 N.m; a handle of 50 mm takes at most 800 N' \
+    "$author" validate short
+
 # A variant of the same joints with another tool has another room, so its pictures do not replace the first ones.
 copy other_tool
 edit other_tool/assembly.json '"more_tools": {' '"variants": { "ringed": { "title": { "en": "Ring" }, "tool": "ring" } },

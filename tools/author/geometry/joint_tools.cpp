@@ -15,6 +15,7 @@ namespace {
 
 constexpr double beyond_grip = 50.0 * mm;  // from the middle of the grip to the end of the handle
 constexpr double much_torque = 0.8;        // of the test torque, beyond which there is a note
+constexpr double much_force = 800.0;       // N at the grip, beyond which there is a note (ours)
 
 }  // namespace
 
@@ -134,6 +135,20 @@ StatedTorque stated_torque(const content::WrenchDesign& design) {
             fmt::format("{}, which is tested with {:.0f} N·m ({})", part, bearable, origin_of(strength))};
 }
 
+// Notes a handle that is too short for a person. The hand of a lesson turns it nevertheless.
+void check_force(const content::AssemblyJoint& joint, const content::WrenchDesign& design,
+                 const std::string& name, const Messages& messages) {
+    const double torque = joint.spec.torque.target;
+    const double force = torque / std::max(design.handle_length, 1e-3);
+    if (force <= much_force) return;
+    messages.note(
+        joint_pointer(joint.index_in_file),
+        fmt::format("{} with its handle of {:g} mm takes {:.0f} N at the grip for the target torque of {}, "
+                    "{:g} N·m; a handle of {:.0f} mm takes at most {:.0f} N",
+                    name, design.handle_length / mm, force, content::in_quotes(joint.type), torque,
+                    std::ceil(torque / much_force / (10.0 * mm)) * 10.0, much_force));
+}
+
 // `optional`: a lesson can be done without this tool, so its choice may be a mistake that the author intends.
 void check_torque(const content::AssemblyJoint& joint, const content::WrenchDesign& design, bool optional,
                   const std::string& name, const Messages& messages) {
@@ -165,9 +180,10 @@ void check_tools(const content::Assembly& assembly, const Messages& messages) {
                 continue;
             const content::WrenchDesign& design = assembly.tools[tool].wrench;
             const std::string name = name_of_tool(assembly, tool);
-            if (content::suits(design, joint.design))
+            if (content::suits(design, joint.design)) {
                 check_torque(joint, design, tool != tools.front(), name, messages);
-            else
+                check_force(joint, design, name, messages);
+            } else {
                 messages.error(joint_pointer(joint.index_in_file),
                                fmt::format("{} is {} and does not fit the {} of {}, {} of {:g} mm", name,
                                            title_of(design),
@@ -176,6 +192,7 @@ void check_tools(const content::Assembly& assembly, const Messages& messages) {
                                            part.depth > 0.0 ? "a hexagonal socket" : "a hexagon",
                                            part.across_flats / mm),
                                suitable_tools(assembly, joint.design));
+            }
         }
     }
 }
