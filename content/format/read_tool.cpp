@@ -339,6 +339,38 @@ bool check_names(JsonReader& reader, const std::vector<Tool>& tools) {
     return known;
 }
 
+// Reports each joint type that names a tool of the wrong kind, such as a key for a hexagon. Reports each
+// once.
+void check_kinds(JsonReader& reader, const std::vector<ParsedTool>& tools,
+                 const std::vector<AssemblyJoint>& joints) {
+    for (const AssemblyJoint& joint : joints) {
+        const auto named = std::find_if(tools.begin(), tools.end(), [&](const ParsedTool& parsed) {
+            return parsed.tool.name == joint.tool;
+        });
+        const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
+        if (named == tools.end() || !named->size || part.across_flats <= 0.0) continue;
+        const WrenchDesign& wrench = named->tool.wrench;
+        const bool has_socket = part.depth > 0.0;
+        const bool is_read = LayeredObject(reader, {named->node}).all_valid({"kind", "head"});
+        if (!is_read || grips_inside(wrench) == has_socket) continue;
+        JsonNode at = reader.items(reader.member(reader.root(), "joints"))[joint.index_in_file];
+        const JsonNode types = reader.member(reader.root(), "joint_types");
+        for (const JsonNode& holder : {reader.member(at, "override"), reader.member(types, joint.type)})
+            if (const JsonNode own = reader.member(holder, "tool"); reader.text(own) == joint.tool) at = own;
+        std::vector<std::string> suitable;
+        for (const ParsedTool& other : tools)
+            if (suits(other.tool.wrench, joint.design)) suitable.push_back(in_quotes(other.tool.name));
+        reader.report(
+            at.pointer,
+            fmt::format("{} is {} and cannot turn {} of {:g} mm", in_quotes(joint.tool),
+                        title_of(wrench.head), has_socket ? "the hexagonal socket" : "the hexagon",
+                        part.across_flats / mm),
+            !suitable.empty() ? fmt::format("{}", fmt::join(suitable, " or "))
+            : has_socket ? fmt::format("a hexagon key or a hexagon bit of {:g} mm", part.across_flats / mm)
+                         : fmt::format("a ring, a socket or an open end of {:g} mm", part.across_flats / mm));
+    }
+}
+
 // Reports each joint of an "instead" that the file lacks.
 void check_instead(JsonReader& reader, const std::vector<AssemblyJoint>& joints) {
     std::vector<std::string> ids;
@@ -391,6 +423,7 @@ std::vector<Tool> read_tools(JsonReader& reader, const std::string& variant, con
     for (const ParsedTool& tool : parsed) all.push_back(tool.tool);
     const bool names_are_known = check_names(reader, all);
     check_instead(reader, joints.all);
+    check_kinds(reader, parsed, joints.joints);
 
     const JsonNode variants = reader.member(reader.root(), "variants");
     const std::string first =

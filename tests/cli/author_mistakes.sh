@@ -127,6 +127,18 @@ expect 3 '/joints/0/type: "M10x400" is not a joint type of this file; did you me
 said lost
 check "... nor by a misspelled type" bash -c '! grep "does not fit" said.txt'
 
+# A tool of the wrong kind is reported beside the other mistakes of the file.
+copy kind
+edit kind/assembly.json '"more_tools": {' '"more_tools": { "bit": { "kind": "ratchet", "head": "hex_bit", "size_mm": 8, "handle_length_mm": 170 },'
+edit kind/assembly.json '"size": "M8",' '"size": "M8", "tool": "bit",'
+edit kind/assembly.json '"risk_class": "C"' '"risk_class": "D"'
+expect 3 '/joint_types/M8x30/tool: "bit" is a hexagon bit and cannot turn the hexagon of 13 mm; expected "wrench" or "torque_wrench"' "$author" validate kind
+expect 3 'risk_class: "D" is not known' "$author" validate kind
+
+edit kind/assembly.json '"kind": "ratchet"' '"kind": "ratchett"'
+said kind
+check "... but not a tool whose kind is misspelled" bash -c 'grep -q ratchett said.txt && ! grep "cannot turn" said.txt'
+
 # A joint type that no joint has.
 sed -i 's/"type": "M10x400"/"type": "M8x30"/; s/"ring16": {[^}]*}, //; s/, "tool": "ring16"//' lost/assembly.json
 expect 0 '^note: .*/joint_types/M10x40: no joint has the type "M10x40"' "$author" validate lost
