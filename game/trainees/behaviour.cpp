@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "game/motion/path_planning.hpp"
 
@@ -90,17 +91,34 @@ constexpr double view_transition = 0.35;  // s
 
 Vec3 unit(const Vec3& v) { return v / (1e-3 + glm::length(v)); }
 
-// Plans the movement from t.from to t.to. With obstacles it may insert waypoints before t.to.
-void plan_path(TraineeState& t) {
+// The direction that leads a tool at `position` off the nearest nut. While the trainee goes to another joint,
+// this is not the nut of its plan.
+Vec3 way_off_nut(const TraineeState& t, const Vec3& position) {
+    Vec3 up(0.0, 1.0, 0.0);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < t.setup->nuts.size(); ++i) {
+        const servo::NutGeometry& nut = t.setup->nuts[i];
+        const double distance =
+            glm::distance(position, servo::nut_centre(nut, t.servo_state->joints[i].nut.angle));
+        if (distance >= nearest) continue;
+        nearest = distance;
+        up = nut.axis;
+    }
+    return up;
+}
+
+// Plans the movement from t.from to t.to along an arc towards `up`. With obstacles it may insert waypoints
+// before t.to.
+void plan_path(TraineeState& t, const Vec3& up) {
     const Quat turn = glm::normalize(t.to.orientation * glm::conjugate(t.from.orientation));
     const double turn_share = glm::length(rotation_vector(turn)) / pi;
     const double rise =
         std::max(flip_rise * turn_share,
                  std::min(max_arc_height, 0.3 * glm::distance(t.from.position, t.to.position)));
-    t.bulge = rise * t.nut().axis;
+    t.bulge = rise * up;
     t.waypoints.clear();
     if (t.obstacles() == nullptr) return;
-    motion::ReachPath path = motion::plan_reach(*t.setup, *t.obstacles(), t.from, t.to, t.nut().axis,
+    motion::ReachPath path = motion::plan_reach(*t.setup, *t.obstacles(), t.from, t.to, up,
                                                 rise + 0.05 * std::min(t.consecutive_catches, 5));
     t.bulge = path.bulge;
     if (path.waypoints.empty()) return;
@@ -164,7 +182,7 @@ double reach_duration(const TraineeState& t) {
 // With obstacles the tool is changed at the rest pose, which is clear of them.
 void go_to_rest(TraineeState& t) {
     t.to = t.rest;
-    plan_path(t);
+    plan_path(t, way_off_nut(t, t.from.position));
     t.enter(Phase::change_tool, t.waypoints.empty() ? t.profile.reach_time : reach_duration(t));
 }
 
@@ -241,7 +259,7 @@ void start_reach(TraineeState& t) {
         t.intended_pose_jumped = true;
     }
     t.to = t.tool_at_nut(t.hover_height);
-    plan_path(t);
+    plan_path(t, t.nut().axis);
     t.enter(Phase::reach, reach_duration(t) * t.random.uniform(0.85, 1.2));
 }
 
@@ -303,7 +321,7 @@ void retreat_if_caught(TraineeState& t, const Pose& intended, const Pose& wrench
     t.from = wrench;
     // Alternates between up and back, and sideways away from the obstacle: a corner that is hooked in a
     // thread does not come out along the bolt.
-    const Vec3 up = t.nut().axis, back = t.rest.position - wrench.position;
+    const Vec3 up = way_off_nut(t, wrench.position), back = t.rest.position - wrench.position;
     Vec3 aside = wrench.position - intended.position;
     aside -= up * glm::dot(up, aside);
     const Vec3 direction =

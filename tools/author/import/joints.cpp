@@ -145,20 +145,17 @@ class JointFinder {
         else if (search_.remarks.size() > before)
             search_.remarks.push_back(
                 "correct the parts above in CAD and import again, or write their joints into assembly.json "
-                "by hand; studs, and hexagon bolts that are turned at their heads, are always written by "
-                "hand, "
+                "by hand; hexagon bolts with nuts that are turned at their heads are always written by hand, "
                 "and need a sub-assembly joint_ID in CAD (content/AUTHORING.md)");
     }
 
     std::string explain_stud(const BoltEnd& end) const {
         if (!end.nut)
             return "no nut is on it; expected a nut of its size, coaxial with it, and a tapped hole around "
-                   "its "
-                   "other end";
+                   "its other end";
         return fmt::format(
             "its end without the nut {} is in no tapped hole; expected a hole as wide as its thread or its "
-            "core "
-            "around it. A rod with a nut at each end is no joint form: draw a bolt with a head",
+            "core around it. A rod with a nut at each end is no joint form: draw a bolt with a head",
             name_of(end.nut->node));
     }
 
