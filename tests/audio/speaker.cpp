@@ -89,7 +89,7 @@ TEST_CASE("Speaker: the thread keeps a sink full and publishes its status") {
     {
         auto speaker = Speaker::start([&](std::span<float>) { ++filled; },
                                       [&]() -> Result<std::unique_ptr<Sink>> {
-                                          if (!plugged) return fail(ErrorCode::no_device, "no card", "one");
+                                          if (!plugged) return fail(ErrorCode::no_device, "no card", {});
                                           return std::make_unique<Card>(plugged);
                                       });
         REQUIRE(speaker);

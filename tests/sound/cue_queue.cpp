@@ -134,7 +134,7 @@ TEST_CASE("Live sound: the speaker plays the ticks that a window adds in each fr
         return loudest > 0.02;
     }));
     CHECK(live->status_change() == "sound: card");
-    auto other = LiveSound::start(setup, {}, [] { return fail(ErrorCode::no_device, "no card", "one"); });
+    auto other = LiveSound::start(setup, {}, [] { return fail(ErrorCode::no_device, "no card", {}); });
     REQUIRE(other);
     CHECK(test::eventually([&] { return other->status_change() == "no sound: no card"; }));
     *other = std::move(*live);
