@@ -219,7 +219,7 @@ void check_clamp(const LayeredObject& layers, const JointType& type) {
     if (type.spec.target_clamp > strength)
         layers.reader().report(layers.member_layers("spec").find("target_clamp_kN").pointer,
                                fmt::format("{:g} kN breaks {} of class {}", type.spec.target_clamp * 1e-3,
-                                           design.thread.size.name, design.bolt_class.name),
+                                           joint::name(design.thread), design.bolt_class.name),
                                fmt::format("less than {:.1f} kN", strength * 1e-3));
 }
 
@@ -231,7 +231,7 @@ void report_early_end(const LayeredObject& layers, const JointType& type, double
         layers.member_layers("spec").find("strategy").pointer,
         fmt::format("the highest torque that is judged OK, {:g} N·m, is below yield: {} of class {} with "
                     "friction {:g} and {:g} yields near {:.1f} N·m",
-                    type.spec.torque.high, design.thread.size.name, design.bolt_class.name,
+                    type.spec.torque.high, joint::name(design.thread), design.bolt_class.name,
                     design.friction.thread, design.friction.bearing, yield_torque),
         fmt::format(
             "the strategy \"torque\", or a highest torque above {:.1f} N·m (target_torque_Nm with its "
@@ -242,7 +242,6 @@ void report_early_end(const LayeredObject& layers, const JointType& type, double
 // Requires the size, the class, the friction and the target torque.
 void check_load(const LayeredObject& layers, const JointType& type) {
     const joint::JointDesign& design = type.design;
-    const joint::FastenerSize& size = design.thread.size;
     constexpr double utilisation = 0.9;
     const double torque_90 =
         joint::assembly_preload(design.thread.thread, design.bolt_class, design.friction.thread,
@@ -257,8 +256,8 @@ void check_load(const LayeredObject& layers, const JointType& type) {
             at.pointer,
             fmt::format("{:g} N·m{} is too much for {} of class {} with friction {:g} and {:g}: it yields "
                         "near {:.1f} N·m",
-                        torque, torque_suffix, size.name, design.bolt_class.name, design.friction.thread,
-                        design.friction.bearing, rounded_down(yield_torque)),
+                        torque, torque_suffix, joint::name(design.thread), design.bolt_class.name,
+                        design.friction.thread, design.friction.bearing, rounded_down(yield_torque)),
             fmt::format("at most {:.1f} N·m{}", rounded_down(max_torque), limit_suffix));
     };
     const ToleranceWindow& torque = type.spec.torque;

@@ -72,9 +72,7 @@ std::string common_thread(const content::Assembly& assembly) {
         if (joint.design.thread.thread.d != first.thread.d ||
             joint.design.thread.thread.pitch != first.thread.pitch)
             return {};
-    return first.thread.pitch == first.size.coarse_pitch
-               ? std::string(first.size.name)
-               : fmt::format("{}x{:g}", first.size.name, first.thread.pitch * 1e3);
+    return joint::name(first);
 }
 
 // Writes the sensor data of one run for each joint, and imports it again from the disk, as a laboratory's

@@ -256,10 +256,7 @@ std::string joint_type_json(const JointFit& fit, const std::string& name, double
         members.push_back(
             {{"thickness_mm", rounded_to(d.members[i].thickness * 1e3, 4)}, {"material", material}});
     }
-    const double pitch = d.thread.thread.pitch;
-    type["size"] = pitch == d.thread.size.coarse_pitch
-                       ? std::string(d.thread.size.name)
-                       : fmt::format("{}x{:g}", d.thread.size.name, pitch * 1e3);
+    type["size"] = joint::name(d.thread);
     type["class"] = d.bolt_class.name;
     add_form(d, type);
     type["bolt_length_mm"] = rounded_to(d.bolt_length * 1e3, 4);

@@ -68,7 +68,7 @@ std::string summary_table(const content::Assembly& assembly, const lesson::Lesso
             verdict += fmt::format(" ({})", joint::name(joint.condition));
         if (joint.out_of_turn > 0) verdict += fmt::format(", {}× out of turn", joint.out_of_turn);
         if (joint.done_already > 0) verdict += fmt::format(", {}× again", joint.done_already);
-        const std::string size = fmt::format("{}{}", planned.design.thread.size.name,
+        const std::string size = fmt::format("{}{}", joint::name(planned.design.thread),
                                              joint::size_suffix(planned.design.thread_direction));
         table +=
             fmt::format("{:<8} {:<8} {:>8.1f} {:>9.2f} {:>8.1f} {:>8.1f}  {}\n", joint.id, size, joint.torque,

@@ -15,8 +15,9 @@ std::string sizes_of(const content::Assembly& assembly) {
     std::vector<std::string> sizes;
     for (const content::AssemblyJoint& joint : assembly.joints) {
         const joint::JointDesign& design = joint.design;
-        const std::string size = fmt::format("{}×{:.0f}{}", design.thread.size.name, 1e3 * design.bolt_length,
-                                             joint::size_suffix(design.thread_direction));
+        const std::string size =
+            fmt::format("{}×{:.0f}{}", joint::name(design.thread), 1e3 * design.bolt_length,
+                        joint::size_suffix(design.thread_direction));
         if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
     }
     std::string text;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "engine/base/nearest.hpp"
 
@@ -165,6 +166,12 @@ Result<ThreadSize> parse_thread(std::string_view text) {
     }
     return unknown(fmt::format("\"{}\" is not a known thread size", text), text, thread_names(),
                    describe_threads());
+}
+
+std::string name(const ThreadSize& thread) {
+    const double pitch = thread.thread.pitch;
+    if (std::abs(pitch - thread.size.coarse_pitch) < 1e-9) return std::string(thread.size.name);
+    return fmt::format("{}x{:.4g}", thread.size.name, pitch / mm);
 }
 
 std::vector<std::string> property_class_names() {

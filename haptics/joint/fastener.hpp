@@ -93,6 +93,9 @@ struct ThreadSize {
 // "M16" (coarse) or "M16x1.5" (a pitch of ISO 261 for that size). The error names the nearest valid name.
 Result<ThreadSize> parse_thread(std::string_view text);
 
+// The name that parse_thread() reads.
+std::string name(const ThreadSize& thread);
+
 // One name for each thread that parse_thread accepts, coarse threads first.
 std::vector<std::string> thread_names();
 

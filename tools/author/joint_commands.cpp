@@ -88,13 +88,6 @@ std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint
     return plot::standalone(plot::draw(plot), plot::style_sheet());
 }
 
-std::string thread_name(const joint::ThreadSize& thread) {
-    const double pitch = thread.thread.pitch;
-    return std::abs(pitch - thread.size.coarse_pitch) < 1e-9
-               ? std::string(thread.size.name)
-               : fmt::format("{}x{:g}", thread.size.name, pitch / mm);
-}
-
 // The sample at which a run that tightens first reaches a torque; null if it does not.
 const joint::CurveSample* first_at_torque(std::span<const joint::CurveSample> run, double torque) {
     const auto found = std::find_if(
@@ -212,7 +205,7 @@ int run_curve(const CurveCommandOptions& options) {
     const std::vector<joint::CurveSample> run = joint::torque_angle_curve(group, curve);
     if (prints_figures) {
         const Status printed =
-            print(fmt::format("{} {}, law {}\n{}", options.joint, thread_name(design.thread), name(law),
+            print(fmt::format("{} {}, law {}\n{}", options.joint, joint::name(design.thread), name(law),
                               curve_figures(target, start_of_angles(assembly, target.spec), run)));
         return printed ? 0 : print_error(printed.error());
     }
