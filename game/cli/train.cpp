@@ -50,9 +50,10 @@ class TrainingProgressLine {
         const bool whole = time_ > train.time_limit - 1.0;
         return {
             ErrorCode::failed,
-            fmt::format("the simulated trainee gave up after {:.0f} s of virtual time {}step {} of {} ({})",
-                        whole ? train.time_limit : train.step_time_limit, whole ? "at " : "for ", step_ + 1,
-                        steps_, activity_),
+            fmt::format(
+                "the simulated trainee gave up after {:.0f} s of virtual time {}at step {} of {} ({})",
+                whole ? train.time_limit : train.patience, whole ? "" : "without progress ", step_ + 1,
+                steps_, activity_),
             "a step that this tool can finish; --tool selects another one, and --no-obstacles shows whether "
             "parts are in its way"};
     }

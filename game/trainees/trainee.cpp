@@ -255,6 +255,30 @@ const Pose& SimulatedTrainee::hand() const { return state_->hand; }
 
 std::vector<lesson::LessonEvent> SimulatedTrainee::take_events() { return std::exchange(state_->events, {}); }
 
+namespace {
+
+// The tick at which a trainee last came nearer to the end of its step: the step began, or its nut turned
+// further than before.
+struct StepProgress {
+    std::size_t step = SIZE_MAX;  // index into Lesson::steps
+    double furthest = 0.0;        // rad, of its nut, in the direction of the step
+    std::uint64_t tick = 0;
+
+    void update(const lesson::Lesson& lesson, const servo::State& state) {
+        const lesson::LessonStep* due = lesson.due();
+        if (due == nullptr) return;
+        constexpr double least = to_radians(5.0);
+        const double sign = due->kind == lesson::StepKind::loosen ? -1.0 : 1.0;
+        const double angle = sign * state.joints[due->joint].nut.angle;
+        if (lesson.current == step && angle < furthest + least) return;
+        step = lesson.current;
+        furthest = angle;
+        tick = state.tick;
+    }
+};
+
+}  // namespace
+
 Result<session::LessonOutcome> train(const content::Assembly& assembly, const TrainOptions& options,
                                      const std::filesystem::path& file,
                                      const std::function<bool(const TrainingProgress&)>& watch) {
@@ -271,13 +295,12 @@ Result<session::LessonOutcome> train(const content::Assembly& assembly, const Tr
     SimulatedTrainee trainee(options.trainee, options.lesson.seed, session.setup(), options.view_help);
     const auto second = static_cast<std::uint64_t>(std::lround(1.0 / dt));
     const auto last = static_cast<std::uint64_t>(options.time_limit / dt);
-    const auto step_limit = static_cast<std::uint64_t>(options.step_time_limit / dt);
+    const auto patience = static_cast<std::uint64_t>(options.patience / dt);
     const servo::State& state = session.state();
     const lesson::Lesson& lesson = session.lesson();
-    std::size_t step = lesson.current;
-    std::uint64_t step_start = 0;
+    StepProgress made;
     bool running = true;
-    while (running && state.tick - step_start < step_limit && !session.finished() && state.tick < last) {
+    while (running && state.tick - made.tick < patience && !session.finished() && state.tick < last) {
         const servo::TickInput input = trainee.act(session.setup(), state, lesson);
         const Result<servo::Output> output = session.step(world, input, trainee.take_events());
         if (!output) return fail(output.error());
@@ -287,10 +310,7 @@ Result<session::LessonOutcome> train(const content::Assembly& assembly, const Tr
             running = watch(progress) && running;
             progress.event = nullptr;
         }
-        if (lesson.current != step) {
-            step = lesson.current;
-            step_start = state.tick;
-        }
+        made.update(lesson, state);
         if (state.tick % second == 0) running = watch(progress) && running;
     }
     return session.finish(world);

@@ -59,9 +59,9 @@ class SimulatedTrainee {
 struct TrainOptions {
     session::LessonOptions lesson;  // trainee_profile is taken from the trainee
     TraineeProfile trainee;
-    motion::ViewHelper view_help;    // none: the trainee only moves its head
-    double time_limit = 14400.0;     // s of virtual time after which the lesson is aborted
-    double step_time_limit = 900.0;  // s of virtual time for one step, likewise
+    motion::ViewHelper view_help;  // none: the trainee only moves its head
+    double time_limit = 14400.0;   // s of virtual time after which the lesson is aborted
+    double patience = 900.0;       // s of virtual time without progress of the due step, likewise
 };
 
 struct TrainingProgress {
