@@ -259,7 +259,7 @@ namespace {
 
 // The tick at which a trainee last came nearer to the end of its step: the step began, or its nut turned
 // further than before.
-struct StepProgress {
+struct ProgressClock {
     std::size_t step = SIZE_MAX;  // index into Lesson::steps
     double furthest = 0.0;        // rad, of its nut, in the direction of the step
     std::uint64_t tick = 0;
@@ -298,7 +298,7 @@ Result<session::LessonOutcome> train(const content::Assembly& assembly, const Tr
     const auto patience = static_cast<std::uint64_t>(options.patience / dt);
     const servo::State& state = session.state();
     const lesson::Lesson& lesson = session.lesson();
-    StepProgress made;
+    ProgressClock made;
     bool running = true;
     while (running && state.tick - made.tick < patience && !session.finished() && state.tick < last) {
         const servo::TickInput input = trainee.act(session.setup(), state, lesson);

@@ -29,11 +29,11 @@ class Card final : public Sink {
     }
     [[nodiscard]] std::string name() const override { return "card"; }
     Result<std::size_t> free_blocks() override {
-        if (!card_.plugged) return fail(ErrorCode::no_device, "pulled out", "a card");
+        if (!card_.plugged) return fail(ErrorCode::no_device, "pulled out", {});
         return card_.free;
     }
     Status play(std::span<const float, block_size> samples) override {
-        if (!card_.plugged) return fail(ErrorCode::no_device, "pulled out", "a card");
+        if (!card_.plugged) return fail(ErrorCode::no_device, "pulled out", {});
         REQUIRE(card_.free > 0);
         --card_.free;
         card_.played_samples.insert(card_.played_samples.end(), samples.begin(), samples.end());

@@ -73,7 +73,7 @@ TEST_CASE("Speaker: the thread keeps a sink full and publishes its status") {
         explicit Card(std::atomic<bool>& there) : plugged(there) {}
         [[nodiscard]] std::string name() const override { return "card"; }
         Result<std::size_t> free_blocks() override {
-            if (!plugged) return fail(ErrorCode::no_device, "pulled out", "a card");
+            if (!plugged) return fail(ErrorCode::no_device, "pulled out", {});
             return std::size_t{1};
         }
         Status play(std::span<const float, block_size>) override { return {}; }
