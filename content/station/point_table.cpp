@@ -49,7 +49,7 @@ Result<std::array<double, N>> parse_row(std::string_view line, const FileLine& p
     const auto read = [&](std::size_t index, std::string_view field, std::size_t offset) -> Status {
         if (index >= N)
             return position.error(column_at(line, offset), fmt::format("the row has more than {} numbers", N),
-                                  "the numbers of the title");
+                                  "a number for each column");
         double value = 0.0;
         const auto [end, problem] = std::from_chars(field.data(), field.data() + field.size(), value);
         if (problem != std::errc() || end != field.data() + field.size() ||

@@ -43,7 +43,8 @@ TEST_CASE("Point table: errors name file, line and column") {
     CHECK(error_of("x,y,z\n\n1,2, 3m\n").find("p.csv:3:6: \"3m\" is not a coordinate") == 0);
     CHECK(error_of("x,y,z\n1,2\n") ==
           "p.csv:2:4: the row has 2 of 3 numbers; expected a number for each column");
-    CHECK(error_of("x,y,z\n1,2,3,4\n") == "p.csv:2:7: the row has more than 3 numbers");
+    CHECK(error_of("x,y,z\n1,2,3,4\n") ==
+          "p.csv:2:7: the row has more than 3 numbers; expected a number for each column");
     CHECK(error_of("x,y,z\n1,,3\n").find("p.csv:2:3: \"\" is not a coordinate") == 0);
     for (const char* value : {"nan", "inf", "-inf", "1e7", "1e999"})
         CHECK(error_of("x,y,z\n1,2," + std::string(value)).find("p.csv:2:5: ") == 0);
