@@ -53,7 +53,8 @@ StepPlan make_step_plan(const TraineeProfile& profile, Random& random, const ser
     }
     stop += 0.04 * plan.attempt;  // a retry means that the last torque was too low
     plan.goal_torque = (plan.wrong_joint ? 0.3 : 1.0) * due.torque * stop;
-    if (plan.until_seated) plan.goal_torque = 1.3 * drag + 2.0;
+    // At rest the nut may resist more than its drag; after a pull in vain the trainee pulls harder.
+    if (plan.until_seated) plan.goal_torque = (1.3 * drag + 2.0) * (1.0 + 0.1 * plan.attempt);
     // When tightening into yield, a trainee that feels yielding pulls until it occurs. It knows the lower and
     // upper torque limits.
     const content::Specification& spec = lesson.assembly->joints[plan.joint].spec;
