@@ -211,6 +211,7 @@ void begin_next_action(TraineeState& t) {
     }
     // After a stroke that only ran out of room the plan stays the same.
     if (t.step_is_past() || t.plan.wrong_joint || t.plan.finished) {
+        if (t.step_is_past()) t.nut_follows_back = false;
         t.nut_angle_at_start = t.servo_state->joints[due->joint].nut.angle;
         t.free_turn = 0.0;
         t.plan =
@@ -417,16 +418,17 @@ void unload(TraineeState& t) {
 
 bool pulls_again(const TraineeState& t) {
     return t.setup->wrench.ratchet.tooth_angle > 0.0 && !t.plan.finished && !t.step_is_past() &&
-           t.holds_intended_nut() && t.fruitless_strokes <= max_fruitless;
+           !t.nut_follows_back && t.holds_intended_nut() && t.fruitless_strokes <= max_fruitless;
 }
 
 // A free nut has less friction than the pawl of a ratchet, so the handle takes it along when it swings back.
-// The trainee sees that, and stops loosening: the ratchet gets such a nut no further.
+// The trainee sees that, and from then on takes the ratchet off after each pull, so that the nut stays free.
 void see_free_nut(TraineeState& t) {
     constexpr double taken_back = 0.5;  // share of the stroke
     if (!t.plan.loosening || std::abs(t.stroke_turn) < min_turn) return;
     const double net = t.joint().nut.angle - t.nut_angle_at_stroke;
-    if (std::abs(net) < (1.0 - taken_back) * std::abs(t.stroke_turn)) t.plan.finished = true;
+    if (std::abs(net) < (1.0 - taken_back) * std::abs(t.stroke_turn))
+        t.plan.finished = t.nut_follows_back = true;
 }
 
 void see_common_turn(TraineeState& t) {

@@ -89,6 +89,7 @@ struct TraineeState {
 
     double nut_angle_at_start = 0.0;  // rad, nut angle at the start of the step
     double free_turn = 0.0;           // rad turned without resistance while loosening
+    bool nut_follows_back = false;    // in this step a ratchet that swung back took the nut along
     Vec3 placement_error{0.0};        // m, offset of the placed tool from the nut's centre
     Vec3 bulge{0.0};                  // m, deviation of the reach from the straight line at its middle
     std::vector<Pose> waypoints;      // after `to`, in reverse order
