@@ -93,8 +93,7 @@ void add_device_options(CLI::App& train, TrainArguments& options) {
     train
         .add_option("--mirror", options.mirror,
                     "Picture in the window of a headset: left or right eye, both (side by side), or panel "
-                    "(the left eye and the "
-                    "panel); key F9 changes it")
+                    "(the left eye and the panel); key F9 changes it")
         ->check(CLI::IsMember(std::vector<std::string>(view::mirror_names.begin(), view::mirror_names.end())))
         ->capture_default_str();
     train.add_option(

@@ -232,11 +232,9 @@ Result<Validation> validate_retightening(const joint::JointDesign& design, doubl
                         measured.size() > 1 ? sum / static_cast<double>(measured.size() - 1) : nan, largest);
     }
     v.verdict = fmt::format(
-        "the law's wear was chosen after this very series (signs and sizes), so this shows how well its two "
-        "terms "
-        "describe the series, up to {:.0f} % off, and is no independent test. Another lubricant, size or "
-        "torque is "
-        "not covered.",
+        "the law's wear was chosen after this very series (signs and sizes), so this shows how well its "
+        "two terms describe the series, up to {:.0f} % off, and is no independent test. Another lubricant, "
+        "size or torque is not covered.",
         100.0 * worst);
     v.text = out + "\nVerdict: " + v.verdict + "\n\n";
     return v;
@@ -288,9 +286,8 @@ Result<Validation> validate_preload_table(std::string_view table, const std::str
         worst = std::max({worst, s[3], s[4]});
     }
     v.verdict = fmt::format(
-        "nothing is fitted; the largest error of {:.1f} % contains the rounding of the printed figures. The "
-        "table is "
-        "computed itself, not measured: it tests our formulas, not bolts.",
+        "nothing is fitted; the largest error of {:.1f} % contains the rounding of the printed figures. "
+        "The table is computed itself, not measured: it tests our formulas, not bolts.",
         100.0 * worst);
     v.text = out + "\nVerdict: " + v.verdict + "\n\n";
     return v;

@@ -208,15 +208,14 @@ constexpr StudyFactor view{
     "view help",
     "by hand",
     &Attempt::view_help,
-    " A trainee that sees less of jaw and nut or screw than it wants presses V: after a glance of 0.3 s and "
-    "a "
-    "transition of 0.35 s the eye is in the view that the program found. If that shows too little as well, "
-    "the trainee moves its head as without the help. Without the help the eye begins in the assembly's first "
-    "view and moves about it at 60° a second. After a glance of 0.3 s it moves up, down or to a side at "
-    "random, and continues while more becomes visible. After 30° without gain it moves back and tries "
-    "another direction, until enough is visible or every direction is worse. The hand waits meanwhile. The "
-    "less is visible, the less accurately the wrench is placed. Nothing else differs: that people forget the "
-    "key, tire, or lose their way in a view is not modelled."};
+    " A trainee that sees less of jaw and nut or screw than it wants presses V: after a glance of 0.3 s "
+    "and a transition of 0.35 s the eye is in the view that the program found. If that shows too little as "
+    "well, the trainee moves its head as without the help. Without the help the eye begins in the "
+    "assembly's first view and moves about it at 60° a second. After a glance of 0.3 s it moves up, down "
+    "or to a side at random, and continues while more becomes visible. After 30° without gain it moves "
+    "back and tries another direction, until enough is visible or every direction is worse. The hand waits "
+    "meanwhile. The less is visible, the less accurately the wrench is placed. Nothing else differs: that "
+    "people forget the key, tire, or lose their way in a view is not modelled."};
 
 using AttemptList = std::vector<const Attempt*>;
 

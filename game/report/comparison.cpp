@@ -338,14 +338,13 @@ std::string method_text(const analysis::Comparison& c) {
                           number(100.0 * c.options.mre_floor_share, 1))
             : "";
     return fmt::format(
-        "Only samples at which the nut turns beyond all earlier angles are used; measured curves are shifted "
-        "to match the virtual one {}. Error: |virtual − measured| / |measured|; MRE is its maximum, MAPE its "
-        "mean; stages are those of the virtual curve. RMSE is the root mean square of virtual − measured, in "
-        "N·m. Samples below {} % of their run’s highest measured torque count for the RMSE only{}; angles "
-        "that "
-        "the virtual curve does not have are left out. Brackets: 95 % interval over the repetitions, "
-        "bootstrap of whole runs with the seed {}, from {} runs on. Virtual torque: at the wrench, true and "
-        "unscaled, law “{}”.",
+        "Only samples at which the nut turns beyond all earlier angles are used; measured curves are "
+        "shifted to match the virtual one {}. Error: |virtual − measured| / |measured|; MRE is its "
+        "maximum, MAPE its mean; stages are those of the virtual curve. RMSE is the root mean square of "
+        "virtual − measured, in N·m. Samples below {} % of their run’s highest measured torque count for "
+        "the RMSE only{}; angles that the virtual curve does not have are left out. Brackets: 95 % "
+        "interval over the repetitions, bootstrap of whole runs with the seed {}, from {} runs on. Virtual "
+        "torque: at the wrench, true and unscaled, law “{}”.",
         aligned, number(100.0 * c.options.floor_share, 1), near_zero, analysis::band_seed,
         analysis::min_repetitions, c.law);
 }

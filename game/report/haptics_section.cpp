@@ -120,8 +120,8 @@ void put_obstacle_contacts(std::string& out, const analysis::SessionData& s) {
         fastener, times_text(all.count), plot::number(all.seconds, 1), plot::number(all.peak_force, 1));
     out +=
         "<div class=\"scroll\"><table><thead><tr><th>with</th><th class=\"n\">contacts</th><th "
-        "class=\"n\">in "
-        "all, s</th><th class=\"n\">longest, s</th><th class=\"n\">hardest, N</th></tr></thead><tbody>\n";
+        "class=\"n\">in all, s</th><th class=\"n\">longest, s</th><th class=\"n\">hardest, "
+        "N</th></tr></thead><tbody>\n";
     for (const auto& [obstacle, w] : rows)
         put(out,
             "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
@@ -131,10 +131,8 @@ void put_obstacle_contacts(std::string& out, const analysis::SessionData& s) {
     out += "</tbody></table></div>\n";
     put(out,
         "<p class=\"note\">Touches less than 0.1\u00a0s apart count as one contact. Touching the {0} that "
-        "the "
-        "wrench is moving to or has just left does not count, nor does a contact that began with a {0} in "
-        "the "
-        "jaw.</p>\n",
+        "the wrench is moving to or has just left does not count, nor does a contact that began with a {0} "
+        "in the jaw.</p>\n",
         fastener);
 }
 
@@ -199,8 +197,7 @@ void put_servo(std::string& out, const analysis::SessionData& s) {
     if (!f.timing) return;
     out +=
         "<div class=\"scroll\"><table><thead><tr><th>µs</th><th class=\"n\">median</th><th class=\"n\">99 "
-        "%</th>"
-        "<th class=\"n\">99.9 %</th><th class=\"n\">greatest</th></tr></thead><tbody>\n";
+        "%</th><th class=\"n\">99.9 %</th><th class=\"n\">greatest</th></tr></thead><tbody>\n";
     const auto row = [&](const char* name, const servo::Histogram& h) {
         put(out,
             "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "

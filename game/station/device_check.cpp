@@ -101,8 +101,7 @@ std::string stiffness_report(const DeviceCheck& check) {
     if (const auto response = median_response(trial))
         text += fmt::format(
             "  the handle moves by 0.03 mm within {:.0f} ms of a command (median of {} steps of {:.2g} N; "
-            "the "
-            "inertia of arm and hand included)\n",
+            "the inertia of arm and hand included)\n",
             1e3 * *response, trial.responses.size(), trial.limits.force);
     return text;
 }

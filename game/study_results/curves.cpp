@@ -142,12 +142,9 @@ std::string learning_curves(const StudyData& data) {
     if (figures.empty()) return {};
     return "<h2>Over the lessons</h2>\n<div class=\"grid\">\n" + figures +
            "</div>\n<p class=\"note\">A line is a participant. Lesson 1 is the first one in a condition; 0 "
-           "and "
-           "negative numbers are lessons of the training, and the last lesson of a study with a retention "
-           "test is "
-           "that test. Within subjects the condition changes along the line, so practice and condition are "
-           "seen "
-           "together; the balanced order separates them only on average.</p>\n";
+           "and negative numbers are lessons of the training, and the last lesson of a study with a "
+           "retention test is that test. Within subjects the condition changes along the line, so practice "
+           "and condition are seen together; the balanced order separates them only on average.</p>\n";
 }
 
 }  // namespace bolt::study

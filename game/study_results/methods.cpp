@@ -126,9 +126,8 @@ std::string planning_text(const content::Study& study, const StudyData& data) {
     const std::string these = n == 1 ? "The comparison was" : fmt::format("The {} comparisons were", n);
     if (changed.empty()) return these + " planned before the first participant.";
     return fmt::format(
-        "The plan was changed after participants had begun ({}), so it is not certain that {} planned before "
-        "the "
-        "data were seen.",
+        "The plan was changed after participants had begun ({}), so it is not certain that {} planned "
+        "before the data were seen.",
         changed, n == 1 ? "the comparison was" : fmt::format("the {} comparisons were", n));
 }
 

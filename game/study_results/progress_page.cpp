@@ -42,9 +42,8 @@ std::string waiting_text(const content::Study& study, const ParticipantState& st
     const double ahead = static_cast<double>(state.progress.latest - now);
     if (ahead > tolerated_set_back && !state.progress.simulated)
         return fmt::format(
-            "last entry {}, {:.1f} days ahead of this computer's clock; expected the right date and time, or "
-            "`study "
-            "run --participant {} --accept-clock`{}",
+            "last entry {}, {:.1f} days ahead of this computer's clock; expected the right date and time, "
+            "or `study run --participant {} --accept-clock`{}",
             time_text(state.progress.latest), ahead / 86400.0, state.participant, declined);
     const auto due = retention_due(study, state.progress);
     if (due && state.due < state.steps.size() && state.steps[state.due].kind == StudyStepKind::retention)

@@ -266,10 +266,8 @@ std::string WallLeader::summary() const {
     };
     return fmt::format(
         "walls: {} frames in {} processes; a frame has {:.0f} bytes (median; largest {:.0f}), and up to {} "
-        "bytes "
-        "of new lessons and of the panel; a message of 4 KiB takes {:.3f} ms (median; longest {:.3f} ms); "
-        "the "
-        "processes presented {:.2f} ms apart (median; largest {:.2f} ms)",
+        "bytes of new lessons and of the panel; a message of 4 KiB takes {:.3f} ms (median; longest {:.3f} "
+        "ms); the processes presented {:.2f} ms apart (median; largest {:.2f} ms)",
         sizes_.size(), cluster_->size(), median(sizes), largest(sizes), largest_bulk_,
         1e3 * median(transports_), 1e3 * largest(transports_), 1e3 * median(skews_), 1e3 * largest(skews_));
 }

@@ -129,8 +129,7 @@ void request_priority(int priority, ThreadPrivileges& privileges) {
     }
     privileges.refused.push_back(
         fmt::format("no real-time priority ({}), so other programs can delay a tick; expected \"rtprio {}\" "
-                    "for this user "
-                    "in /etc/security/limits.d",
+                    "for this user in /etc/security/limits.d",
                     std::strerror(error), priority));
     // By default Linux delays the wake-up of ordinary threads by up to 50 µs to save power; request 1 ns.
     prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);

@@ -76,8 +76,7 @@ TEST_CASE("Measured file: errors give line, column and expectation") {
           "m.csv:1:12: there is no column 'torque_Nm'; expected 'torque_Nm' instead of 'torque_nm'");
     CHECK(error_of("a,b\n" + rows) ==
           "m.csv:1:1: there is no column 'angle_deg'; expected a first line that names the columns "
-          "'angle_deg' and "
-          "'torque_Nm'");
+          "'angle_deg' and 'torque_Nm'");
     CHECK(error_of("angle_deg;torque_Nm\n0;1\n") ==
           "m.csv:1:1: there is no column 'angle_deg'; expected columns separated by commas, with a decimal "
           "point");
@@ -115,11 +114,8 @@ TEST_CASE("Measured file: errors give line, column and expectation") {
           "m.csv:2:1: this file has only zero torques; expected a run with a load");
     CHECK(error_of("cycle," + head +
                    "a,0,1\na,1,1\na,2,1\na,3,1\na,4,1\nb,0,-1\nb,1,-1\nb,2,-1\nb,3,-1\nb,4,-1\n") ==
-          "m.csv:7:1: cycle 'b' turns in the other direction than the cycles before; expected all cycles of "
-          "a file "
-          "tightening "
-          "(torque positive) "
-          "or all loosening (negative)");
+          "m.csv:7:1: cycle 'b' turns in the other direction than the cycles before; expected all cycles "
+          "of a file tightening (torque positive) or all loosening (negative)");
 }
 
 TEST_CASE("Measured file: the error for a missing file names it") {

@@ -113,8 +113,7 @@ TEST_CASE("Comparison page: a joint with another slope has a label and no errors
     REQUIRE(joint);
     CHECK(joint->other_joint ==
           "the torque rises in linearity by a factor of 1.51 more steeply than measured; expected at most "
-          "1.4 for "
-          "one joint");
+          "1.4 for one joint");
     CHECK(joint->errors.all.count == 0);
     CHECK(std::isnan(joint->cycles[0].slope_error));
     analysis::ComparisonOptions asserted;

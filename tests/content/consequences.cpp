@@ -86,9 +86,8 @@ TEST_CASE("Errors: a thread in another notation gives the correct spelling, neve
          {"M9", "M7x1", "M1 6", "M13 x 1.75", "M88", "M1O", "M", "", "x", "M12.5", "16M"}) {
         CAPTURE(unknown);
         CHECK(expected(unknown) ==
-              "one of M4, M5, M6, M8, M10, M12, M14, M16, M18, M20, M22, M24, M27, M30, M33, M36, M39, or a "
-              "fine "
-              "thread such as \"M16x1.5\"");
+              "one of M4, M5, M6, M8, M10, M12, M14, M16, M18, M20, M22, M24, M27, M30, M33, M36, M39, or "
+              "a fine thread such as \"M16x1.5\"");
     }
 }
 

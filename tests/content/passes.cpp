@@ -57,20 +57,17 @@ TEST_CASE(
 TEST_CASE("Passes: mistakes of a pass that turns are reported with their remedy") {
     const std::string begin = std::string(run_down) + snug;
     CHECK(only_message(with_passes(begin + R"({ "kind": "turn" })")) ==
-          "/passes/2: a pass of kind \"turn\" without \"percent\"; expected a share of the target angle, 100 "
-          "in "
-          "the last pass");
+          "/passes/2: a pass of kind \"turn\" without \"percent\"; expected a share of the target angle, "
+          "100 in the last pass");
     CHECK(only_message(with_passes(begin + R"({ "kind": "turn", "percent": 90 })")) ==
           "/passes/2/percent: the last pass turns to 90 percent only; expected 100");
     CHECK(only_message(with_passes(
               begin + R"({ "kind": "turn", "percent": 100 }, { "kind": "turn", "percent": 50 })")) ==
-          "/passes/3/percent: 50 percent after 100 percent; expected shares that do not fall, and 100 in the "
-          "last "
-          "pass");
+          "/passes/3/percent: 50 percent after 100 percent; expected shares that do not fall, and 100 in "
+          "the last pass");
     CHECK(only_message(with_passes(std::string(run_down) + R"({ "kind": "turn", "percent": 100 })")) ==
-          "/passes/1/kind: this pass turns nuts that are not snug: no pass tightens them before; expected a "
-          "pass of "
-          "kind \"tighten\" to a small share of the target torque before it");
+          "/passes/1/kind: this pass turns nuts that are not snug: no pass tightens them before; expected "
+          "a pass of kind \"tighten\" to a small share of the target torque before it");
     CHECK(only_message(
               with_passes(begin +
                           R"({ "kind": "turn", "percent": 100 }, { "kind": "tighten", "percent": 100 })"))

@@ -85,13 +85,11 @@ TEST_CASE("Tools: mistakes of a tool are reported at their position") {
           "\"click_torque_wrench\", or no such value");
     CHECK(one(with(edited(clicker, "300", R"(300, "adaptor_mm": 220)"))) ==
           "/more_tools/clicker/adaptor_mm: an adaptor of 220 mm leaves a lever of 80 mm; expected at most "
-          "200 mm, the "
-          "handle length less 100 mm");
+          "200 mm, the handle length less 100 mm");
     CHECK(one(with(R"("s": { "kind": "click_torque_wrench", "head": "socket", "size_mm": 13,
                              "handle_length_mm": 300, "adaptor_mm": 60 })")) ==
           "/more_tools/s/adaptor_mm: the adaptor lengthens only a torque wrench with an open end; expected "
-          "the head "
-          "\"open_end\", or no \"adaptor_mm\"");
+          "the head \"open_end\", or no \"adaptor_mm\"");
     CHECK(one(with(edited(clicker, "clicker", "wrench"))) ==
           "/more_tools/wrench: \"wrench\" is the name of \"tool\"; expected another name");
 }

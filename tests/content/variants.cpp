@@ -163,8 +163,7 @@ TEST_CASE("Variants: added models must name a file for each model of the assembl
     REQUIRE(all.size() == 1);
     CHECK(all[0].substr(all[0].find("/variants")) ==
           "/variants/half/added_models: the added models lack \"contact_model\", which the file names; "
-          "expected "
-          "\"contact_model\" of the added parts");
+          "expected \"contact_model\" of the added parts");
 }
 
 TEST_CASE("Variants: a flange couples all joints of a variant or none") {

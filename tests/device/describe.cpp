@@ -24,9 +24,9 @@ TEST_CASE("Describe: the summary gives what a device renders with figures, and o
     arm.remarks = {"its cable is worn"};
     CHECK(all(arm) ==
           "senses the pose of the hand in six degrees of freedom, within 40 x 40 x 40 cm, 1000 times a "
-          "second; 2 "
-          "buttons\n"
-          "renders force along 3 axes, 20 N at most, as stiff as 2 N/mm; torque about 3 axes, 2 N·m at most\n"
+          "second; 2 buttons\n"
+          "renders force along 3 axes, 20 N at most, as stiff as 2 N/mm; torque about 3 axes, 2 N·m at "
+          "most\n"
           "its cable is worn\n");
     arm.model = "omega.6";
     arm.serial = "1234";

@@ -181,8 +181,7 @@ TEST_CASE("OpenHaptics: an arm that needs its inkwell says so, and is calibrated
     REQUIRE_FALSE(refused);
     CHECK(refused.error().code == ErrorCode::no_device);
     CHECK(refused.error().message() ==
-          "OpenHaptics arm (Touch) is not calibrated; expected its stylus in the inkwell: push it "
-          "in, and "
+          "OpenHaptics arm (Touch) is not calibrated; expected its stylus in the inkwell: push it in, and "
           "it is calibrated at the next attempt");
     CHECK(preparation_of(refused.error()).need == DeviceNeed::inkwell);
     CHECK(bench.arm.open() == 0);

@@ -169,8 +169,7 @@ TEST_CASE("OpenHaptics: faults of the arm end the force, and the arm is lost") {
     REQUIRE_FALSE(sample);
     CHECK(sample.error().message() ==
           "OpenHaptics arm (Touch): its forces have ended: communication error; expected an arm that is "
-          "switched "
-          "on, connected, and set up with the vendor's program Touch_Setup");
+          "switched on, connected, and set up with the vendor's program Touch_Setup");
 }
 
 TEST_CASE("OpenHaptics: a late tick delays samples; after a very late one the force grows from zero") {

@@ -195,9 +195,8 @@ TEST_CASE("Plug-in: an arm without a new sample sends none") {
 TEST_CASE("Plug-in: an arm that has to move by itself moves only if it may, and may take its time") {
     const Bench bench;
     CHECK(message(bench.open_with("must move")) ==
-          "the plug-in faulty_arm: the arm has to move by itself to find its position, and may not; expected "
-          "free room "
-          "around it, then `boltwright devices --device plugin:faulty_arm:0 --yes`");
+          "the plug-in faulty_arm: the arm has to move by itself to find its position, and may not; "
+          "expected free room around it, then `boltwright devices --device plugin:faulty_arm:0 --yes`");
     CHECK(bench.open(true));
     CHECK(bench.open_with("busy"));
 }
@@ -262,8 +261,7 @@ TEST_CASE("Plug-in: one that damages its process or the connection is a lost dev
     for (const auto& [fault, text] : std::initializer_list<std::pair<const char*, const char*>>{
              {"nonsense",
               "the plug-in faulty_arm: its process has sent an invalid reply (the plug-in may have "
-              "overwritten "
-              "memory)"},
+              "overwritten memory)"},
              {"closed connection", "the plug-in faulty_arm has closed its connection in exchange"}}) {
         CAPTURE(fault);
         bench.show("");

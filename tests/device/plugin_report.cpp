@@ -117,8 +117,7 @@ TEST_CASE("Plug-in: a library without the entry, another version, a short and an
     for (const auto& [fault, text] : std::initializer_list<std::pair<const char*, const char*>>{
              {"old",
               "the plug-in faulty_arm: bw_arm_entry(1) returns no functions; expected a plug-in made with "
-              "this "
-              "version of boltwright_arm.h"},
+              "this version of boltwright_arm.h"},
              {"short", "the plug-in faulty_arm: its bw_arm_v1 has a size of 40 bytes; expected 72 or more"},
              {"empty",
               "the plug-in faulty_arm: its bw_arm_v1 lacks a function; expected all eight of "

@@ -84,8 +84,7 @@ TEST_CASE("Selection: a station file names the devices, and the command line has
     CHECK(error({"1234:5678"}).code == ErrorCode::usage);
     CHECK(error({"046d:c626", "1234:5678"}).message() ==
           "--device 1234:5678: the settings of the station's \"wheel\" are for 1209:ffb0; expected that "
-          "device, "
-          "or no --station");
+          "device, or no --station");
     station.arm->device = "1234:5678";
     CHECK(error({}).code == ErrorCode::bad_content);
     CHECK(error({}).message().find("1234:5678 is the \"arm\" of the station") == 0);

@@ -41,8 +41,7 @@ std::string text_for(const std::vector<Vec3>& positions) {
     for (std::size_t i = 0; i < positions.size(); ++i)
         text += fmt::format(
             "    {{ \"id\": \"B{0}\", \"type\": \"M8x30\", \"node\": \"joint_B{0}\", \"position_mm\": "
-            "[{1:g}, {2:g}, "
-            "{3:g}] }}{4}\n",
+            "[{1:g}, {2:g}, {3:g}] }}{4}\n",
             i + 1, positions[i].x, positions[i].y, positions[i].z, i + 1 < positions.size() ? "," : "");
     return text + "  ]\n}\n";
 }

@@ -214,8 +214,7 @@ int main(int argc, char** argv) {
     for (std::thread& thread : threads) thread.join();
     fmt::print(
         "{} damaged files: {} imported, {} refused, {} crashes, {} without end and {} without memory "
-        "contained, {} "
-        "failures\n",
+        "contained, {} failures\n",
         seeds, tally.imported.load(), tally.refused.load(), tally.crashed.load(), tally.out_of_time.load(),
         tally.out_of_memory.load(), tally.failed.load());
     // Both results must occur; otherwise the damage is too weak or too strong.

@@ -81,8 +81,7 @@ TEST_CASE("Hand deflection: the force of a reaching hand is limited") {
 
 TEST_CASE(
     "Hand deflection: a hand that holds a nut does not deflect, an earlier deflection decays, and gripping "
-    "causes no "
-    "jump") {
+    "causes no jump") {
     const Impedance i;
     HandDeflection deflection;
     const Pose pushed = held_for(i, deflection, {Vec3(2.0, 0, 0), Vec3(0, 0.1, 0)}, 1.0);

@@ -389,16 +389,14 @@ TEST_CASE("Station: an hour of faulty devices leaves no force behind, and all de
     for (MonitoredDevice* w : {&soak.arm(), &soak.wheel()})
         MESSAGE(fmt::format(
             "faults {} {} {} {} {} {}; longest force {:.0f} ms after a loss, {:.0f} ms after a release, "
-            "{:.0f} ms "
-            "after a hang of the servo; usable again after {:.3f} s",
+            "{:.0f} ms after a hang of the servo; usable again after {:.3f} s",
             w->counts[0], w->counts[1], w->counts[2], w->counts[3], w->counts[4], w->counts[5],
             1e3 * w->longest_lost, 1e3 * w->longest_released, 1e3 * w->longest_hung, w->longest_recovery));
     MESSAGE(fmt::format("{} releases, {} hangs; glove usable again after at most {:.3f} s",
                         statistics.releases, statistics.hangs, statistics.longest_glove));
     MESSAGE(
         fmt::format("the hand grasped {} times and released {} times; glove lost during a grasp {} times "
-                    "(opened meanwhile {} "
-                    "times), reported after at most {:.2f} s",
+                    "(opened meanwhile {} times), reported after at most {:.2f} s",
                     statistics.grasped, statistics.released, statistics.lost_in_grasp,
                     statistics.opened_meanwhile, statistics.longest_unreported));
     CHECK_MESSAGE(statistics.failures == 0, statistics.failures << " failures, first " << statistics.first);

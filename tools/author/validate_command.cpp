@@ -233,8 +233,7 @@ Status draw_pictures(const std::vector<CheckedVariant>& variants, const std::str
 std::string unchecked_remark(const std::string& file) {
     return fmt::format(
         "note: {}: models, pictures, and strength and room of the tools are checked once the file has none "
-        "of "
-        "these mistakes\n",
+        "of these mistakes\n",
         file);
 }
 

@@ -377,21 +377,16 @@ class DraftWriter {
     std::string sources() const {
         std::string text = fmt::format(
             "Drafted from {} by bolt-author import-step. Read from the geometry: sizes, bolt lengths, "
-            "members and "
-            "their thickness, washers, positions and axes; the material of members by their colour or "
-            "name{}. "
-            "Defaults, to be replaced by what your drawing says: property class 8.8 (A2-70 where the bolt is "
-            "stainless), right-hand threads, coarse unless the nut's hole shows a fine one, friction {:g} "
-            "(oiled, VDI 2230 class "
-            "B), strategy torque with {:g} % of the torque at {:g} % of yield, tolerance 10 %, risk class C, "
-            "the "
-            "tools, the order and the passes{}.",
+            "members and their thickness, washers, positions and axes; the material of members by their "
+            "colour or name{}. Defaults, to be replaced by what your drawing says: property class 8.8 "
+            "(A2-70 where the bolt is stainless), right-hand threads, coarse unless the nut's hole shows a "
+            "fine one, friction {:g} (oiled, VDI 2230 class B), strategy torque with {:g} % of the torque "
+            "at {:g} % of yield, tolerance 10 %, risk class C, the tools, the order and the passes{}.",
             in_.source,
             unknown_members_ > 0 ? fmt::format(" (unknown for {}: steel is assumed)", unknown_members_) : "",
             friction, 100.0 * torque_share, 100.0 * utilisation,
             has_tapped_parts() ? "; for screws and studs the grade of the tapped part, and at most half of "
-                                 "the torque at which its "
-                                 "thread strips"
+                                 "the torque at which its thread strips"
                                : "");
         if (gasket_) text += " The gasket's Young's modulus is a guess.";
         return text;

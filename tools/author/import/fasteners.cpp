@@ -79,8 +79,7 @@ FastenerShape classify_nut(const std::vector<PlaneFace>& plane_faces, const Part
         nut.kind = FastenerKind::none;
         nut.rejection = fmt::format(
             "looks like a nut (hexagon {:.2f} mm across flats), but it is {:.2f} mm high and its hole is "
-            "{:.2f} mm "
-            "wide; expected at most {:.2f} mm high and a hole of at least {:.2f} mm",
+            "{:.2f} mm wide; expected at most {:.2f} mm high and a hole of at least {:.2f} mm",
             nut.across_flats / mm, height / mm, nut.diameter / mm, 1.2 * nut.across_flats / mm,
             0.4 * nut.across_flats / mm);
     }
@@ -137,9 +136,9 @@ FastenerShape classify_bolt(const std::vector<PlaneFace>& plane_faces, const Par
         bolt.kind = FastenerKind::bolt;
     else
         bolt.rejection = fmt::format(
-            "looks like a bolt (hexagon {:.2f} mm across flats), but its shank is {:.2f} mm wide and {:.2f} "
-            "mm long "
-            "under the head; expected a shank {:.2f} to {:.2f} mm wide and longer than half its width",
+            "looks like a bolt (hexagon {:.2f} mm across flats), but its shank is {:.2f} mm wide and "
+            "{:.2f} mm long under the head; expected a shank {:.2f} to {:.2f} mm wide and longer than half "
+            "its width",
             bolt.across_flats / mm, bolt.diameter / mm, std::max(length, 0.0) / mm,
             0.4 * bolt.across_flats / mm, 0.85 * bolt.across_flats / mm);
     return bolt;
@@ -285,8 +284,7 @@ void explain_missing_hexagon(const std::vector<PlaneFace>& plane_faces, const Pa
     else
         rejected.without_hexagon = fmt::format(
             "none of its {} plane faces form a hexagon; expected three pairs of opposite faces at 60 "
-            "degrees, {:g} to "
-            "{:g} mm apart and equal within {:g} mm",
+            "degrees, {:g} to {:g} mm apart and equal within {:g} mm",
             plane_faces.size(), fastener_widths.low / mm, fastener_widths.high / mm,
             plane_position_tolerance / mm);
 }
@@ -323,8 +321,8 @@ FastenerShape recognise_shape(const TopoDS_Shape& shape, const PartMesh& mesh) {
         if (solids > 1 || widest < 3.0 * hexagon->across_flats)
             other.rejection = fmt::format(
                 "has a hexagon {:.2f} mm across flats, but consists of {} and reaches {:.2f} mm from the "
-                "hexagon's "
-                "axis; expected every bolt and nut to be a part of its own, at most {:.2f} mm from its axis",
+                "hexagon's axis; expected every bolt and nut to be a part of its own, at most {:.2f} mm "
+                "from its axis",
                 hexagon->across_flats / mm, solids == 1 ? "1 solid" : fmt::format("{} solids", solids),
                 widest / mm, max_radius_ratio * hexagon->across_flats / mm);
         return other;

@@ -140,8 +140,7 @@ class JointFinder {
         if (search_.joints.empty() && search_.remarks.size() == before)
             search_.remarks.push_back(
                 "no part resembles a bolt or a nut; expected parts with a hexagon 5 to 65 mm across flats, "
-                "or "
-                "a head with a hexagonal socket, each bolt and nut a part of its own");
+                "or a head with a hexagonal socket, each bolt and nut a part of its own");
         else if (search_.remarks.size() > before)
             search_.remarks.push_back(
                 "correct the parts above in CAD and import again, or write their joints into assembly.json "
@@ -178,8 +177,7 @@ class JointFinder {
         if (!coaxial(bolt.origin, bolt.axis, nearest->origin, nearest->axis))
             return fmt::format(
                 "no nut is coaxial with it: the nearest one, {}, is {:.2f} mm off its axis and {:.2f} "
-                "degrees turned "
-                "from it; expected at most {:g} mm and 0.5 degrees",
+                "degrees turned from it; expected at most {:g} mm and 0.5 degrees",
                 name, distance / mm, to_degrees(std::acos(cosine)), coaxial_distance / mm);
         if (const auto used = bolt_of_nut_.find(nearest->node); used != bolt_of_nut_.end())
             return fmt::format(
@@ -197,8 +195,7 @@ class JointFinder {
         const double seat = along(*nearest, bolt.origin, bolt.axis).first;
         return fmt::format(
             "the nut on its axis, {}, begins {:.2f} mm from the bearing face of the head, and the shank is "
-            "{:.2f} mm "
-            "long; expected the nut on the shank",
+            "{:.2f} mm long; expected the nut on the shank",
             name, (seat - bolt.low) / mm, (bolt.high - bolt.low) / mm);
     }
 

@@ -85,9 +85,8 @@ std::string explain_size(double diameter) {
                                    ? fmt::format("{:g} mm", size.across_flats / mm)
                                    : fmt::format("{:g} or {:g} mm", size.across_flats / mm, din / mm);
     return fmt::format(
-               "no metric size has both; expected {} with a cylinder {:.2f} to {:.2f} mm wide and a hexagon "
-               "{} "
-               "across flats",
+               "no metric size has both; expected {} with a cylinder {:.2f} to {:.2f} mm wide and a "
+               "hexagon {} across flats",
                size.name, (size.d - diameter_slack(size)) / mm, (size.d + diameter_slack(size)) / mm,
                widths) +
            inch_text(diameter);

@@ -36,13 +36,11 @@ constexpr std::string_view spring_head =
     "| arm | announced | used | largest stable | margin | without the controller | no hand |\n"
     "|---|---|---|---|---|---|---|\n";
 constexpr std::string_view feel_head =
-    "| arm | net energy, mJ | most at any time, mJ | swing at rest, µm | at the rim, µm | step in 1 ms | no "
-    "hand: net, mJ | "
-    "swing, µm |\n|---|---|---|---|---|---|---|---|\n";
+    "| arm | net energy, mJ | most at any time, mJ | swing at rest, µm | at the rim, µm | step in 1 ms | "
+    "no hand: net, mJ | swing, µm |\n|---|---|---|---|---|---|---|---|\n";
 constexpr std::string_view approach_head =
-    "| arm | guiding | way | time, s | bumps | misses | force of contact, N: median, p95, max | change in 1 "
-    "ms, N: "
-    "p95, max |\n|---|---|---|---|---|---|---|---|\n";
+    "| arm | guiding | way | time, s | bumps | misses | force of contact, N: median, p95, max | change in "
+    "1 ms, N: p95, max |\n|---|---|---|---|---|---|---|---|\n";
 
 std::string approach_row(const ArmFacts& arm, const char* guiding, const ApproachSummary& s) {
     return fmt::format(
