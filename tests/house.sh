@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks the rules of the sources: includes point to lower layers only, headers have #pragma once, no TODO remains, all texts are
-# used, skipped tests are reported, and clang-format changes no file.
+# used, documents name only what exists, skipped tests are reported, and clang-format changes no file.
 set -euo pipefail
 cd "$1"
 . tests/support/skip.sh house
@@ -39,6 +39,14 @@ echo '    {"hint.of_nothing", ""},' > "$planted/key_rows.hpp"
 [ -n "$(unused_texts "$planted/key_rows.hpp")" ] || bad "the check of the texts finds nothing"
 unused_keys=$(unused_texts content/words/key_rows.hpp)
 [ -z "$unused_keys" ] || bad "text keys that no code uses: $unused_keys"
+
+# Documents name only files and functions that exist.
+mkdir "$planted/docs"
+for mistake in '`game/lost_folder`' '`lost_file.cpp`' '`lost_function`'; do
+    echo "$mistake" > "$planted/docs/changes.md"
+    ! python3 tests/documents.py "$planted" >/dev/null || bad "the check of the documents does not find: $mistake"
+done
+python3 tests/documents.py . || bad "a document names what does not exist"
 
 # A test reports what it skips (tests/support/skip.hpp).
 silent_skips() { grep -rnE 'sanitized\)? *\)? (return|continue);|sanitized && .*\) (return|continue);|doctest::skip\(' --include='*.cpp' --include='*.hpp' "$1" || true; }

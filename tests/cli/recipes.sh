@@ -16,8 +16,16 @@ grep -q '"id": "B5"' five/summary.json
 [[ -s mistakes.txt ]] || { echo "the mistake in a language file was not reported"; exit 1; }
 cmp -s before.csv after.csv && { echo "the changed torque did not change the curve"; exit 1; }
 
-# All commands in README.md exist.
-while read -r program command _; do
-    "$program" "$command" --help >/dev/null || { echo "README.md: $program $command is unknown"; exit 1; }
-done < <(grep -hoE '^(boltwright|bolt-author) [a-z]+' "$2/README.md" | sort -u)
+# All commands and options in README.md and docs/training.md exist.
+commands=$(cd "$2" && grep -hE '^(boltwright|bolt-author) [a-z]' README.md docs/training.md | sed 's/ #.*//' | sort -u)
+[[ $(wc -l <<< "$commands") -ge 40 ]] || { echo "only these commands found:"; echo "$commands"; exit 1; }
+while read -r program command rest; do
+    help=$("$program" "$command" --help) || { echo "$program $command is unknown"; exit 1; }
+    # The options of a command such as `study run` are in its own help.
+    read -r second _ <<< "$rest"
+    if [[ $second =~ ^[a-z]+$ ]] && grep -qE "^  $second " <<< "$help"; then help=$("$program" "$command" "$second" --help); fi
+    for option in $(grep -oE -- '--[a-z][a-z-]*' <<< "$rest"); do
+        grep -qE -- "$option([ ,]|$)" <<< "$help" || { echo "$program $command has no option $option"; exit 1; }
+    done
+done <<< "$commands"
 echo "all blocks of CONTRIBUTING.md succeed"
