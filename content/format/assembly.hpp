@@ -154,6 +154,9 @@ struct Tool {
     std::map<std::string, std::string> instead = {};
 };
 
+// Bytes of a picture of an instruction, at most.
+inline constexpr std::size_t largest_picture_file = std::size_t{32} << 20U;
+
 // Paths of an assembly's .glb files; empty if the file gives none.
 struct ModelFiles {
     std::string model;

@@ -17,8 +17,6 @@ namespace bolt::scene {
 
 namespace {
 
-constexpr std::size_t largest_picture_file = std::size_t{32} << 20U;  // bytes
-
 // Reads a model; on failure returns an empty one and adds the error message to `missing`.
 assets::Model read_optional(const std::filesystem::path& file, std::vector<std::string>& missing) {
     Result<assets::Model> model = assets::read_gltf(file);
@@ -33,7 +31,8 @@ void load_pictures(const content::Assembly& assembly, LessonModels& models) {
         for (const content::Pass& pass : *passes) {
             const std::string& file = pass.instruction.picture;
             if (file.empty() || models.pictures.contains(file)) continue;
-            const Result<std::string> bytes = read_file(file, largest_picture_file, ErrorCode::bad_content);
+            const Result<std::string> bytes =
+                read_file(file, content::largest_picture_file, ErrorCode::bad_content);
             assets::Bitmap picture;
             if (bytes) picture.encoded.assign(bytes->begin(), bytes->end());
             const Status decoded = bytes ? assets::decode(picture) : Status(fail(bytes.error()));

@@ -311,25 +311,14 @@ GrippingHead gripping_head(const content::WrenchDesign& design) {
             design.head_angle, 0.0};
 }
 
-ToolStrength strength_of(const content::WrenchDesign& design) {
-    const ToolParameters p = parameters_of(design);
-    const auto kind_of_head = [&] {
-        switch (design.head) {
-            case content::ToolHead::ring:
-                return ModelKind::ring_wrench;
-            case content::ToolHead::socket:
-                return ModelKind::ratchet;
-            case content::ToolHead::hex_key:
-                return ModelKind::hex_key;
-            case content::ToolHead::hex_bit:
-                return ModelKind::hex_bit;
-            default:
-                return ModelKind::open_end_wrench;
-        }
-    };
-    ToolStrength strength{test_torque(kind_of_head(), p.size), false, 0.0};
-    if (!has_ratchet(p)) return strength;
-    const ToolParameters whole = completed(p).value_or(p);
+ToolStrength strength_of(const ToolParameters& tool) {
+    const ModelKind gripping = has_ratchet(tool)
+                                   ? tool.head == ModelHead::hex_bit ? ModelKind::hex_bit : ModelKind::ratchet
+                               : is_torque_wrench(tool.kind) ? ModelKind::open_end_wrench
+                                                             : tool.kind;
+    ToolStrength strength{test_torque(gripping, tool.size), false, 0.0};
+    if (!has_ratchet(tool)) return strength;
+    const ToolParameters whole = completed(tool).value_or(tool);
     const TestTorque drive = test_torque(ModelKind::extension_bar, whole.drive);
     const bool is_weaker =
         strength.limit.source == TorqueSource::none || drive.torque < strength.limit.torque;
@@ -337,14 +326,20 @@ ToolStrength strength_of(const content::WrenchDesign& design) {
     return strength;
 }
 
+ToolStrength strength_of(const content::WrenchDesign& design) { return strength_of(parameters_of(design)); }
+
+double key_yield_torque(double across_flats, KeyStrength keys) {
+    const double s = across_flats;
+    return keys == KeyStrength::measured ? 0.857 * 0.2 * 1.47e9 * s * square(s)
+                                         : 0.188 * s * square(s) * 750e6;
+}
+
 double yield_torque(const content::WrenchDesign& design, KeyStrength keys) {
     constexpr double surplus = 1.2;
     const ToolStrength strength = strength_of(design);
     double torque = strength.limit.source == TorqueSource::none ? 0.0 : surplus * strength.limit.torque;
     if (design.head == content::ToolHead::hex_key || design.head == content::ToolHead::hex_bit) {
-        const double size = parameters_of(design).size;
-        const double key = keys == KeyStrength::measured ? 0.857 * 0.2 * 1.47e9 * size * square(size)
-                                                         : 0.188 * size * square(size) * 750e6;
+        const double key = key_yield_torque(parameters_of(design).size, keys);
         torque = torque > 0.0 ? std::min(torque, key) : key;
     }
     return torque;

@@ -43,12 +43,16 @@ struct ToolStrength {
     bool of_drive = false;  // `limit` is that of the drive
     double drive = 0.0;     // m, width of that drive
 };
+ToolStrength strength_of(const ToolParameters& tool);
 ToolStrength strength_of(const content::WrenchDesign& design);
 
 // `measured`: a key breaks at 0.2 R_m s³ (Bondhus; R_m = 1.47 GPa at 45 HRC) and yields at 0.857 of that
 // (Unbrako after ANSI B18.3.2M: 1.02 and 1.19 N·m at 1.5 mm). `first_yield`: at the middle of its flats, W_t
 // τ with W_t = 0.188 s³ (Dubbel) and τ = 750 MPa; so in sessions of format 8.
 enum class KeyStrength : std::uint8_t { measured, first_yield };
+
+// N·m at which a hexagon key or bit of this width across flats (m) begins to bend for good.
+double key_yield_torque(double across_flats, KeyStrength keys = KeyStrength::measured);
 
 // N·m at which a tool begins to bend for good; 0: unknown. A tool bears its test torque without that (ISO
 // 1711-1); the surplus of a fifth is ours.

@@ -129,30 +129,17 @@ std::string torque_text(const tool_models::TestTorque& torque) {
 std::string strength_line(const tool_models::ToolParameters& tool) {
     using tool_models::ModelHead;
     using tool_models::ModelKind;
-    using tool_models::TorqueSource;
-    const bool has_drive = tool_models::has_ratchet(tool);
-    const bool is_bit = tool.kind == ModelKind::hex_bit || (has_drive && tool.head == ModelHead::hex_bit);
+    const tool_models::ToolStrength strength = tool_models::strength_of(tool);
     std::string text;
-    const tool_models::TestTorque grip = tool_models::test_torque(is_bit      ? ModelKind::hex_bit
-                                                                  : has_drive ? ModelKind::ratchet
-                                                                              : tool.kind,
-                                                                  tool.size);
-    const tool_models::TestTorque drive = tool_models::test_torque(ModelKind::extension_bar, tool.drive);
-    const bool drive_is_weaker = has_drive && drive.source != TorqueSource::none &&
-                                 (grip.source == TorqueSource::none || drive.torque < grip.torque);
-    if (drive_is_weaker)
-        text = fmt::format("test torque {} N·m, of its square drive of {:g} mm\n", torque_text(drive),
-                           tool.drive / mm);
-    else if (grip.source != TorqueSource::none)
-        text = fmt::format("test torque {} N·m\n", torque_text(grip));
-    if (is_bit || tool.kind == ModelKind::hex_key) {
-        content::WrenchDesign key;
-        key.kind = content::ToolKind::hex_key;
-        key.head = content::ToolHead::hex_key;
-        key.size = tool.size;
+    if (strength.of_drive)
+        text = fmt::format("test torque {} N·m, of its square drive of {:g} mm\n",
+                           torque_text(strength.limit), strength.drive / mm);
+    else if (strength.limit.source != tool_models::TorqueSource::none)
+        text = fmt::format("test torque {} N·m\n", torque_text(strength.limit));
+    const bool has_bit = tool_models::has_ratchet(tool) && tool.head == ModelHead::hex_bit;
+    if (has_bit || tool.kind == ModelKind::hex_bit || tool.kind == ModelKind::hex_key)
         text += fmt::format("begins to bend at {:.3g} N·m (torsion of its hexagon)\n",
-                            tool_models::yield_torque(key));
-    }
+                            tool_models::key_yield_torque(tool.size));
     return text;
 }
 

@@ -173,9 +173,14 @@ auto drawn_values(const joint::JointDesign& design) {
                       design.members.size());
 }
 
+std::tuple<std::string, std::string, std::string> added_files(const content::Assembly& assembly) {
+    const content::ModelFiles& added = assembly.added_models;
+    return {added.model, added.far_level, added.contact};
+}
+
 // Returns true if the checks of the models have the same result for both variants.
 bool same_geometry(const content::Assembly& a, const content::Assembly& b) {
-    if (a.joints.size() != b.joints.size() || a.added_models.model != b.added_models.model) return false;
+    if (a.joints.size() != b.joints.size() || added_files(a) != added_files(b)) return false;
     const auto names_of_tools = [](const content::Assembly& assembly, std::size_t joint) {
         std::vector<std::string> names;
         for (const std::size_t tool : content::tools_of_joint(assembly, joint))

@@ -19,8 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::size_t picture_size_limit = std::size_t{32} << 20U;  // bytes, as lessons have it
-
 // The member of an object; an empty value if there is none.
 const json& member(const json& object, const char* key) {
     static const json none;
@@ -36,8 +34,8 @@ void check_pictures(const json& holder, const std::string& at, const fs::path& f
         for (std::size_t i = 0; passes.is_array() && i < passes.size(); ++i) {
             const json& picture = member(member(passes[i], "instruction"), "picture");
             if (!picture.is_string()) continue;
-            const auto bytes =
-                read_file(folder / picture.get<std::string>(), picture_size_limit, ErrorCode::bad_content);
+            const auto bytes = read_file(folder / picture.get<std::string>(), content::largest_picture_file,
+                                         ErrorCode::bad_content);
             assets::Bitmap bitmap;
             if (bytes) bitmap.encoded.assign(bytes->begin(), bytes->end());
             const Status decoded = bytes ? assets::decode(bitmap) : Status(fail(bytes.error()));
@@ -45,7 +43,7 @@ void check_pictures(const json& holder, const std::string& at, const fs::path& f
             messages.error(fmt::format("{}/{}/{}/instruction/picture", at, list, i),
                            fmt::format("the picture {} cannot be shown: {}",
                                        content::in_quotes(picture.get<std::string>()), decoded.error().what),
-                           "a PNG or JPEG file of at most 32 MB");
+                           "a PNG or JPEG file of at most 32 MiB");
         }
     }
 }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double least_grip = 0.5 * mm;  // the least thickness of a member in an assembly file
 
-// What holds a bolt: the nut on it, or the part that it is screwed into; a stud has both.
+// The nut on a bolt, or the part that the bolt is screwed into; a stud has both.
 struct BoltEnd {
     std::optional<PlacedFastener> nut;
     std::optional<TappedPart> tapped;
@@ -93,6 +93,8 @@ class JointFinder {
 
     // Adds the joint of a stud, whose nut may be at either end.
     void add_stud(const PlacedFastener& stud) {
+        const joint::FastenerSize* size = metric_size_of(stud);
+        if (size == nullptr) return;  // an instance that CAD has scaled
         std::optional<PlacedFastener> nut;
         for (const PlacedFastener& towards_nut : {stud, reversed(stud)}) {
             const auto found = nut_on(towards_nut);
@@ -103,8 +105,7 @@ class JointFinder {
             const BoltEnd ends{nut, tapped_part_of(from_nut, face)};
             if (!ends.tapped) continue;
             bolt_of_nut_[nut->node] = stud.node;
-            if (auto joint = make(from_nut, ends, *metric_size_of(stud)))
-                search_.joints.push_back(std::move(*joint));
+            if (auto joint = make(from_nut, ends, *size)) search_.joints.push_back(std::move(*joint));
             return;
         }
         // Pins and shafts look like studs too.
