@@ -6,14 +6,11 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
-#include <algorithm>
 #include <filesystem>
 #include <gp_Ax2.hxx>
 #include <nlohmann/json.hpp>
 
-#include "content/format/assembly.hpp"
 #include "support.hpp"
-#include "tools/author/geometry/check.hpp"
 
 using namespace import_test;
 using nlohmann::json;
@@ -71,45 +68,17 @@ void write_cap(const CapCover& c, const TopoDS_Shape& screw, const std::filesyst
     maker.write(file);
 }
 
-struct ImportedCap {
-    json draft;
-    std::vector<std::string> remarks;
-    step_import::ImportReport report;
-    geometry::Findings findings;
-};
-
-ImportedCap import_screw(const CapCover& cover, const TopoDS_Shape& screw) {
-    const Folder folder;
-    write_cap(cover, screw, folder / "cover.step");
-    const auto imported = import(folder / "cover.step", folder / "out");
-    REQUIRE(imported.ok());
-    ImportedCap result{{}, imported.report.remarks, imported.report, {}};
-    if (!std::filesystem::exists(folder / "out" / "assembly.json")) return result;
-    const auto loaded = content::load_assembly(folder / "out");
-    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
-    result.findings = geometry::check_geometry(loaded.assembly);
-    result.draft = json::parse(bytes(folder / "out" / "assembly.json"));
-    return result;
+ImportedLesson import_screw(const CapCover& cover, const TopoDS_Shape& screw) {
+    return import_lesson([&](const std::filesystem::path& step) { write_cap(cover, screw, step); });
 }
 
-ImportedCap import_cap(const CapCover& cover) { return import_screw(cover, shape_of(cover.screw)); }
-
-void check_no_findings(const ImportedCap& found) {
-    for (const std::string& remark : found.remarks) FAIL_CHECK(remark);
-    for (const Error& error : found.findings.errors) FAIL_CHECK(error.message());
-    REQUIRE(found.draft["joints"].size() == 1);
-}
-
-bool remarks_on(const ImportedCap& found, const std::string& text) {
-    return std::any_of(found.remarks.begin(), found.remarks.end(),
-                       [&](const std::string& remark) { return remark.find(text) != std::string::npos; });
-}
+ImportedLesson import_cap(const CapCover& cover) { return import_screw(cover, shape_of(cover.screw)); }
 
 }  // namespace
 
 TEST_CASE("Cap screws: one in a tapped hole is found, drafted with a key, and accepted") {
-    const ImportedCap found = import_cap({m8, 6.647});
-    check_no_findings(found);
+    const ImportedLesson found = import_cap({m8, 6.647});
+    require_one_good_joint(found);
     CHECK(found.draft["joints"][0]["position_mm"] == json({0, 52, 0}));
     const json& type = found.draft["joint_types"]["M8x30 socket head"];
     CHECK(type["form"] == "tapped_hole");
@@ -127,15 +96,15 @@ TEST_CASE("Cap screws: one in a tapped hole is found, drafted with a key, and ac
 }
 
 TEST_CASE("Cap screws: above M8 the draft has a ratchet with a bit") {
-    const ImportedCap found = import_cap({m12, 10.106});
-    check_no_findings(found);
+    const ImportedLesson found = import_cap({m12, 10.106});
+    require_one_good_joint(found);
     CHECK(found.draft["tool"] ==
           json({{"kind", "ratchet"}, {"head", "hex_bit"}, {"size_mm", 10}, {"handle_length_mm", 180}}));
 }
 
 TEST_CASE("Cap screws: one with a nut is turned at its head") {
-    const ImportedCap found = import_cap({m8_long, 6.647, 13.0});
-    check_no_findings(found);
+    const ImportedLesson found = import_cap({m8_long, 6.647, 13.0});
+    require_one_good_joint(found);
     CHECK(found.draft["joints"][0]["position_mm"] == json({0, 22, 0}));
     const json& type = found.draft["joint_types"].front();
     CHECK_FALSE(type.contains("form"));
@@ -160,7 +129,7 @@ TEST_CASE("Cap screws: every size of the table from M5 to M24 is found") {
                            {24, 36, 24, 19, 12, 40}};
     for (const Screw& size : sizes) {
         CAPTURE(size.d);
-        const ImportedCap found = import_cap({size, 0.85 * size.d});
+        const ImportedLesson found = import_cap({size, 0.85 * size.d});
         REQUIRE(found.draft["joints"].size() == 1);
         CHECK(found.draft["joint_types"].front()["size"] == "M" + std::to_string(static_cast<int>(size.d)));
         CHECK(found.draft["tool"]["size_mm"] == size.socket);
@@ -178,7 +147,7 @@ TEST_CASE("Cap screws: a chamfered socket with a drilled end, and a chamfered he
                                               BRepPrimAPI_MakeCone(top, 5.7, 6.5, 0.8).Shape())
                                   .Shape();
     screw = BRepAlgoAPI_Cut(screw, ring).Shape();
-    check_no_findings(import_screw({m8, 6.647}, screw));
+    require_one_good_joint(import_screw({m8, 6.647}, screw));
 }
 
 TEST_CASE("Cap screws: a low head, a wrong socket or a missing head is explained") {
@@ -186,25 +155,24 @@ TEST_CASE("Cap screws: a low head, a wrong socket or a missing head is explained
     low.height = 5.0;
     low.socket = 5.0;
     low.depth = 3.8;
-    const ImportedCap din = import_cap({low, 6.647});
+    const ImportedLesson din = import_cap({low, 6.647});
     CHECK(din.draft.is_null());
-    CHECK(
-        remarks_on(din,
-                   "screw: looks like a cap screw (cylinder 8.00 mm, socket 5.00 mm across flats and 3.80 mm "
-                   "deep, head 13.00 mm wide and 5.00 mm high), but no cap screw of ISO 4762 has all of "
-                   "them; expected M8 with a cylinder 7.65 to 8.35 mm wide, a socket of 6 mm, at least 4 mm "
-                   "deep, and a head 13 mm wide and 8 mm high (it has the low head of DIN 7984"));
+    CHECK(din.has_remark(
+        "screw: looks like a cap screw (cylinder 8.00 mm, socket 5.00 mm across flats and 3.80 mm "
+        "deep, head 13.00 mm wide and 5.00 mm high), but no cap screw of ISO 4762 has all of "
+        "them; expected M8 with a cylinder 7.65 to 8.35 mm wide, a socket of 6 mm, at least 4 mm "
+        "deep, and a head 13 mm wide and 8 mm high (it has the low head of DIN 7984"));
     Screw shallow = m8;
     shallow.depth = 2.0;
-    CHECK(remarks_on(import_cap({shallow, 6.647}), "2.00 mm deep"));
+    CHECK(import_cap({shallow, 6.647}).has_remark("2.00 mm deep"));
     Screw m14{14.0, 21.0, 14.0, 12.0, 7.0, 40.0};
-    CHECK(remarks_on(import_cap({m14, 11.835}), "the table of cap screws has no M14"));
+    CHECK(import_cap({m14, 11.835}).has_remark("the table of cap screws has no M14"));
     Screw pin = m8;
     pin.head = 8.0;
     pin.height = 4.4;
     pin.depth = 2.5;
-    const ImportedCap set = import_screw({pin, 6.647}, shape_of(pin));
-    CHECK(remarks_on(set, "has a hexagonal socket of 6.00 mm, but no flat bearing face under a head"));
+    const ImportedLesson set = import_screw({pin, 6.647}, shape_of(pin));
+    CHECK(set.has_remark("has a hexagonal socket of 6.00 mm, but no flat bearing face under a head"));
 }
 
 TEST_CASE("Cap screws: a part with a hexagonal pocket is no fastener, and gives no remark") {

@@ -10,9 +10,7 @@
 #include <gp_Ax2.hxx>
 #include <nlohmann/json.hpp>
 
-#include "content/format/assembly.hpp"
 #include "support.hpp"
-#include "tools/author/geometry/check.hpp"
 
 using namespace import_test;
 using nlohmann::json;
@@ -52,34 +50,15 @@ void write_cover(const Cover& c, const std::filesystem::path& file) {
     maker.write(file);
 }
 
-struct Imported {
-    json draft;
-    std::vector<std::string> remarks;
-    geometry::Findings findings;
-};
-
-Imported import_cover(const Cover& cover) {
-    const Folder folder;
-    write_cover(cover, folder / "pump.step");
-    const auto imported = import(folder / "pump.step", folder / "out");
-    REQUIRE(imported.ok());
-    Imported result;
-    result.remarks = imported.report.remarks;
-    if (!std::filesystem::exists(folder / "out" / "assembly.json")) return result;
-    const auto loaded = content::load_assembly(folder / "out");
-    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
-    result.findings = geometry::check_geometry(loaded.assembly);
-    result.draft = json::parse(bytes(folder / "out" / "assembly.json"));
-    return result;
+ImportedLesson import_cover(const Cover& cover) {
+    return import_lesson([&](const std::filesystem::path& step) { write_cover(cover, step); });
 }
 
 }  // namespace
 
 TEST_CASE("Screws: a hexagon screw in a tapped hole is found, drafted and accepted") {
-    const Imported found = import_cover({});
-    for (const std::string& remark : found.remarks) FAIL_CHECK(remark);
-    for (const Error& error : found.findings.errors) FAIL_CHECK(error.message());
-    REQUIRE(found.draft["joints"].size() == 1);
+    const ImportedLesson found = import_cover({});
+    require_one_good_joint(found);
     CHECK(found.draft["joints"][0]["position_mm"] == json({0, 56, 0}));
     CHECK_FALSE(found.draft["joints"][0].contains("axis"));
     const json& type = found.draft["joint_types"].front();
@@ -99,17 +78,17 @@ TEST_CASE("Screws: the hole shows a fine pitch, and may be as wide as the thread
 
 TEST_CASE("Screws: odd thicknesses give a valid draft, and a hole through the part limits the engagement") {
     CHECK(import_cover({.cover = 16.04}).draft["joints"].size() == 1);
-    const Imported through = import_cover({.hole_depth = 40.0, .screw = 70.0});
+    const ImportedLesson through = import_cover({.hole_depth = 40.0, .screw = 70.0});
     REQUIRE(through.draft["joints"].size() == 1);
     CHECK(through.draft["joint_types"].front()["tapped_hole"]["engagement_mm"] == 40.0);
-    const Imported full = import_cover({.hole_depth = 40.0, .screw = 58.0});
+    const ImportedLesson full = import_cover({.hole_depth = 40.0, .screw = 58.0});
     CHECK(full.draft["joint_types"].front()["bolt_thread_length_mm"] == 58.0);
-    for (const Imported* found : {&through, &full})
+    for (const ImportedLesson* found : {&through, &full})
         for (const Error& error : found->findings.errors) FAIL_CHECK(error.message());
 }
 
 TEST_CASE("Screws: validate reports a screw that is longer than its blind hole") {
-    const Imported deep = import_cover({.screw = 60.0});
+    const ImportedLesson deep = import_cover({.screw = 60.0});
     REQUIRE(deep.findings.errors.size() == 1);
     CHECK(
         deep.findings.errors[0].message().find(
@@ -118,15 +97,15 @@ TEST_CASE("Screws: validate reports a screw that is longer than its blind hole")
 }
 
 TEST_CASE("Screws: a screw that clamps nothing, or engages too little, is no joint") {
-    const Imported shallow = import_cover({.screw = 23.0, .cover = 16.0});
-    REQUIRE_FALSE(shallow.remarks.empty());
+    const ImportedLesson shallow = import_cover({.screw = 23.0, .cover = 16.0});
+    REQUIRE_FALSE(shallow.report.remarks.empty());
     CHECK(shallow.draft.is_null());
-    const Imported bare = import_cover({.screw = 25.0, .cover = 0.0});
-    REQUIRE_FALSE(bare.remarks.empty());
-    CHECK(bare.remarks[0].find("screw: clamps nothing: 0.00 mm are between its head and housing") !=
+    const ImportedLesson bare = import_cover({.screw = 25.0, .cover = 0.0});
+    REQUIRE_FALSE(bare.report.remarks.empty());
+    CHECK(bare.report.remarks[0].find("screw: clamps nothing: 0.00 mm are between its head and housing") !=
           std::string::npos);
     CHECK(bare.draft.is_null());
-    const Imported lost_nut = import_cover({.hole = 12.0, .hole_depth = 40.0, .screw = 80.0});
+    const ImportedLesson lost_nut = import_cover({.hole = 12.0, .hole_depth = 40.0, .screw = 80.0});
     CHECK(lost_nut.draft.is_null());
 }
 
@@ -138,12 +117,12 @@ TEST_CASE("Screws: a thread that would strip gets a lower target") {
 }
 
 TEST_CASE("Screws: a screw that no metric size describes, or that ends in a clearance hole, is explained") {
-    const Imported inch = import_cover({.across_flats = 22.0});
-    REQUIRE_FALSE(inch.remarks.empty());
-    CHECK(inch.remarks[0].find("no metric size has both") != std::string::npos);
-    const Imported loose = import_cover({.hole = 13.5});
-    REQUIRE_FALSE(loose.remarks.empty());
-    CHECK(loose.remarks[0].find("no part has a tapped hole around its end") != std::string::npos);
+    const ImportedLesson inch = import_cover({.across_flats = 22.0});
+    REQUIRE_FALSE(inch.report.remarks.empty());
+    CHECK(inch.report.remarks[0].find("no metric size has both") != std::string::npos);
+    const ImportedLesson loose = import_cover({.hole = 13.5});
+    REQUIRE_FALSE(loose.report.remarks.empty());
+    CHECK(loose.report.remarks[0].find("no part has a tapped hole around its end") != std::string::npos);
 }
 
 TEST_CASE("Screws: the programs make a lesson of the file, in which a simulated trainee tightens the screw") {

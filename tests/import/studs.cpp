@@ -6,14 +6,11 @@
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
-#include <algorithm>
 #include <filesystem>
 #include <gp_Ax2.hxx>
 #include <nlohmann/json.hpp>
 
-#include "content/format/assembly.hpp"
 #include "support.hpp"
-#include "tools/author/geometry/check.hpp"
 
 namespace import_test::studs {
 
@@ -79,35 +76,12 @@ void write_studs(const StudScene& s, const std::filesystem::path& file) {
     maker.write(file);
 }
 
-struct Imported {
-    json draft;
-    std::vector<std::string> remarks;
-    geometry::Findings findings;
-    bool has_remark(const std::string& part) const {
-        return std::any_of(remarks.begin(), remarks.end(),
-                           [&](const std::string& remark) { return remark.find(part) != std::string::npos; });
-    }
-};
-
-Imported import_studs(const StudScene& scene) {
-    const Folder folder;
-    write_studs(scene, folder / "pump.step");
-    const auto imported = import(folder / "pump.step", folder / "out");
-    REQUIRE(imported.ok());
-    Imported result;
-    result.remarks = imported.report.remarks;
-    if (!std::filesystem::exists(folder / "out" / "assembly.json")) return result;
-    const auto loaded = content::load_assembly(folder / "out");
-    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
-    result.findings = geometry::check_geometry(loaded.assembly);
-    result.draft = json::parse(bytes(folder / "out" / "assembly.json"));
-    return result;
+ImportedLesson import_studs(const StudScene& scene) {
+    return import_lesson([&](const std::filesystem::path& step) { write_studs(scene, step); });
 }
 
-void check_stud(const Imported& found) {
-    for (const std::string& remark : found.remarks) FAIL_CHECK(remark);
-    for (const Error& error : found.findings.errors) FAIL_CHECK(error.message());
-    REQUIRE(found.draft["joints"].size() == 1);
+void check_stud(const ImportedLesson& found) {
+    require_one_good_joint(found);
     const json& type = found.draft["joint_types"].front();
     CHECK(type["form"] == "stud");
     CHECK(type["tapped_hole"] == json({{"material", "GJL-250"}, {"engagement_mm", 15}}));
@@ -121,7 +95,7 @@ void check_stud(const Imported& found) {
 }  // namespace
 
 TEST_CASE("Studs: one in a tapped hole with a nut is found, drafted and accepted") {
-    const Imported found = import_studs({});
+    const ImportedLesson found = import_studs({});
     check_stud(found);
     CHECK(found.draft["joint_types"].contains("M12x35 stud"));
     CHECK(found.draft["joints"][0]["position_mm"] == json({0, 56, 0}));
@@ -133,7 +107,7 @@ TEST_CASE("Studs: the direction of the part, a thinner shank and the pose of the
     check_stud(import_studs({.shank = 10.2}));
     for (const double turned : {0.5 * pi, pi}) {
         CAPTURE(turned);
-        const Imported found = import_studs({.turned = turned});
+        const ImportedLesson found = import_studs({.turned = turned});
         check_stud(found);
         REQUIRE(found.draft["joints"].size() == 1);
         // Scene frame: Y up, −Z is the Y axis of CAD.
@@ -142,10 +116,10 @@ TEST_CASE("Studs: the direction of the part, a thinner shank and the pose of the
 }
 
 TEST_CASE("Studs: a hole through the part limits the engagement, and a short one lowers the target") {
-    const Imported through = import_studs({.hole_depth = 40.0, .engagement = 45.0, .length = 80.0});
+    const ImportedLesson through = import_studs({.hole_depth = 40.0, .engagement = 45.0, .length = 80.0});
     REQUIRE(through.draft["joints"].size() == 1);
     CHECK(through.draft["joint_types"].front()["tapped_hole"]["engagement_mm"] == 40.0);
-    const auto target = [](const Imported& found) {
+    const auto target = [](const ImportedLesson& found) {
         return found.draft["joint_types"].front()["spec"]["target_torque_Nm"].get<double>();
     };
     CHECK(target(import_studs({.engagement = 7.0, .length = 42.0})) < 0.6 * target(through));
@@ -153,24 +127,24 @@ TEST_CASE("Studs: a hole through the part limits the engagement, and a short one
 
 TEST_CASE(
     "Studs: a rod that is no stud is explained if it has a nut or the name of a fastener, else ignored") {
-    const Imported two_nuts = import_studs(
+    const ImportedLesson two_nuts = import_studs(
         {.hole = 13.5, .hole_depth = 40.0, .engagement = 55.0, .length = 90.0, .nut_below = true});
     CHECK(two_nuts.draft.is_null());
     CHECK(two_nuts.has_remark(
         "stud: looks like a stud (rod 12.00 mm thick and 90.00 mm long), but its end "
         "without the nut nut is in no tapped hole; expected a hole as wide as its thread"));
     CHECK(two_nuts.has_remark("A rod with a nut at each end is no joint form"));
-    const Imported bare = import_studs({.nut_flats = 0.0});
+    const ImportedLesson bare = import_studs({.nut_flats = 0.0});
     CHECK(bare.draft.is_null());
     CHECK(bare.has_remark(
         "stud: looks like a stud (rod 12.00 mm thick and 50.00 mm long), but no nut is on it"));
-    const Imported pin = import_studs({.nut_flats = 0.0, .name = "Passstift"});
+    const ImportedLesson pin = import_studs({.nut_flats = 0.0, .name = "Passstift"});
     CHECK(pin.draft.is_null());
     CHECK_FALSE(pin.has_remark("Passstift"));
-    const Imported odd = import_studs({.nut_flats = 24.0});  // a nut of M16
+    const ImportedLesson odd = import_studs({.nut_flats = 24.0});  // a nut of M16
     CHECK(odd.draft.is_null());
     CHECK(odd.has_remark("no nut is on it"));
-    const Imported collar = import_studs({.shank = 16.0});
+    const ImportedLesson collar = import_studs({.shank = 16.0});
     CHECK(collar.draft.is_null());
     CHECK_FALSE(import_studs({.diameter = 10.9}).has_remark("looks like a stud"));  // between M10 and M12
 }

@@ -25,6 +25,7 @@
 #include <TopoDS_Face.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_MaterialTool.hxx>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -33,6 +34,7 @@
 #include <gp_Pln.hxx>
 #include <sstream>
 
+#include "content/format/assembly.hpp"
 #include "engine/assets/gltf.hpp"
 
 namespace import_test {
@@ -177,6 +179,31 @@ step_import::ImportResult import(const fs::path& step, const fs::path& folder,
     auto imported = step_import::import_step(options, [](double, const std::string&) {});
     for (const Error& error : imported.errors) MESSAGE(error.message());
     return imported;
+}
+
+bool ImportedLesson::has_remark(const std::string& part) const {
+    return std::any_of(report.remarks.begin(), report.remarks.end(),
+                       [&](const std::string& remark) { return remark.find(part) != std::string::npos; });
+}
+
+ImportedLesson import_lesson(const std::function<void(const std::filesystem::path& step)>& write) {
+    const Folder folder;
+    write(folder / "machine.step");
+    const auto imported = import(folder / "machine.step", folder / "out");
+    REQUIRE(imported.ok());
+    ImportedLesson result{{}, imported.report, {}};
+    if (!std::filesystem::exists(folder / "out" / "assembly.json")) return result;
+    const auto loaded = content::load_assembly(folder / "out");
+    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+    result.findings = geometry::check_geometry(loaded.assembly);
+    result.draft = nlohmann::json::parse(bytes(folder / "out" / "assembly.json"));
+    return result;
+}
+
+void require_one_good_joint(const ImportedLesson& imported) {
+    for (const std::string& remark : imported.report.remarks) FAIL_CHECK(remark);
+    for (const Error& error : imported.findings.errors) FAIL_CHECK(error.message());
+    REQUIRE(imported.draft["joints"].size() == 1);
 }
 
 assets::Model load(const fs::path& glb) {

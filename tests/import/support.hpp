@@ -7,12 +7,16 @@
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <filesystem>
+#include <functional>
 #include <gp_Trsf.hxx>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "engine/assets/model.hpp"
 #include "engine/base/math.hpp"
 #include "tests/support/folder.hpp"
+#include "tools/author/geometry/check.hpp"
 #include "tools/author/import/import_step.hpp"
 
 namespace import_test {
@@ -55,6 +59,20 @@ TopoDS_Shape ring(double outer, double inner, double height);
 
 step_import::ImportResult import(const std::filesystem::path& step, const std::filesystem::path& folder,
                                  step_import::ImportOptions options = {});
+
+// An imported file with the draft of its lesson.
+struct ImportedLesson {
+    nlohmann::json draft;  // null: no joint was found
+    step_import::ImportReport report;
+    geometry::Findings findings;  // of the draft and its models
+
+    [[nodiscard]] bool has_remark(const std::string& part) const;
+};
+
+// Imports the STEP file that `write` makes, and checks its draft. Fails the test if the draft has mistakes.
+ImportedLesson import_lesson(const std::function<void(const std::filesystem::path& step)>& write);
+// Fails the test for each remark of the import, each finding, and another number of joints than one.
+void require_one_good_joint(const ImportedLesson& imported);
 
 assets::Model load(const std::filesystem::path& glb);
 int node_named(const assets::Model& model, const std::string& name);  // index; −1 if there is none
