@@ -128,12 +128,12 @@ def check(root):
                 faults.append(f"{unit}: links {other}; expected only programs to need it")
     reach = {}
     for unit in order:
-        seen, todo = {unit}, [unit]
-        while todo:
-            for other in graph[todo.pop()]:
+        seen, waiting = {unit}, [unit]
+        while waiting:
+            for other in graph[waiting.pop()]:
                 if other not in seen:
                     seen.add(other)
-                    todo.append(other)
+                    waiting.append(other)
         reach[unit] = seen
     for unit in order:
         for path, line, header in includes(root, unit, units):

@@ -31,7 +31,7 @@ tl::unexpected<Error> disconnected() {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = "the sound device was disconnected";
-    error.expected = "the same one again, or another";
+    error.expected = "a connected one";
     error.lost = true;
     return fail(std::move(error));
 }

@@ -18,7 +18,7 @@ class FlushDenormals {
     FlushDenormals(const FlushDenormals&) = delete;
     FlushDenormals& operator=(const FlushDenormals&) = delete;
 
-    // Returns false on processors for which this is not implemented; the object then does nothing.
+    // Returns false on processors other than x86 and 64-bit ARM; the object then does nothing.
     static constexpr bool supported() { return bits != 0; }
 
   private:

@@ -91,11 +91,11 @@ void set_views(gpu::GraphicsInfo& info, std::uint32_t views) {
     if (views > 1) info.constants |= SCENE_VIEWS;
 }
 
-gpu::GraphicsInfo over_picture(const Shaders& shaders, std::string_view vertex, std::string_view fragment,
+gpu::GraphicsInfo over_picture(const Shaders& shaders, const std::string& vertex, const std::string& fragment,
                                std::uint32_t views) {
     gpu::GraphicsInfo info;
-    info.vertex = &shaders.find(vertex)->second;
-    info.fragment = &shaders.find(fragment)->second;
+    info.vertex = &shaders.at(vertex);
+    info.fragment = &shaders.at(fragment);
     info.colors = {color_format};
     set_views(info, views);
     info.cull = VK_CULL_MODE_NONE;

@@ -140,7 +140,7 @@ std::uint32_t view_mask(std::uint32_t views);
 void set_views(gpu::GraphicsInfo& info, std::uint32_t views);
 // A pipeline that blends flat triangles over the picture, without culling and depth. The shaders must outlive
 // the result.
-gpu::GraphicsInfo over_picture(const Shaders& shaders, std::string_view vertex, std::string_view fragment,
+gpu::GraphicsInfo over_picture(const Shaders& shaders, const std::string& vertex, const std::string& fragment,
                                std::uint32_t views);
 // Draws a triangle that extends beyond the picture, so that the driver must clip it, into a small image with
 // two layers; each view writes its own value. Returns true if each layer has the value of its view. Waits for
