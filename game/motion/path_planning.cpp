@@ -15,7 +15,6 @@ Quat tool_orientation(const servo::NutGeometry& nut, double handle_angle, bool f
 
 namespace {
 
-constexpr double beyond_grip = 1.12;  // wrench length / distance from jaw to grip
 constexpr double swing_step = to_radians(5.0);
 constexpr double swing_margin = to_radians(3.0);  // between handle and obstacles
 constexpr double max_ahead = 4e-3;                // m by which the hand may be ahead of the wrench
@@ -26,12 +25,14 @@ constexpr std::array lifts{0.06, 0.12, 0.2, 0.35};                // m, straight
 constexpr std::array approach_heights{0.03, 0.08, 0.15};          // m above a nut, checked for the approach
 constexpr double min_hover_height = 0.015, hover_height_step = 2e-3;  // m, of the hand that waits above a nut
 constexpr double squeeze_cost = 2.0;  // rad, cost of an angle with an obstructed approach
+constexpr double least_swing = to_radians(15.0);
+constexpr double cramped_cost = 2.0 * pi;  // rad, cost of an angle with less than `least_swing`
 
 // Collision queries for a wrench among the obstacles, by line-of-sight tests between points of its outline.
 struct FreeSpace {
     const servo::Setup& setup;
     const servo::ToolContact& contact;
-    double length;            // m, of the wrench
+    double length = 0.0;      // m, from the middle of the head to the end of the handle
     double half_width = 0.0;  // m, of the handle
     // m along the tool's Z: the lower and the upper face of the head and of the handle. An open-end wrench,
     // which can be turned over, has the same faces either way up.
@@ -40,14 +41,14 @@ struct FreeSpace {
     // handle of a socket the head is narrow.
     std::array<std::array<Vec3, 8>, 2> rims{};
 
-    FreeSpace(const servo::Setup& s, const servo::ToolContact& t)
-        : setup(s), contact(t), length(beyond_grip * s.wrench.handle_length) {
+    FreeSpace(const servo::Setup& s, const servo::ToolContact& t) : setup(s), contact(t) {
         double half_thickness = 0.0;
         handle = {1e9, -1e9};
         const auto each_point = [&](auto&& visit) {
             for (const auto& triangle : t.wrench.solid.corners)
                 for (const Vec3 p : triangle) visit(p);
         };
+        each_point([&](const Vec3& p) { length = std::max(length, p.x); });
         const auto of_handle = [&](const Vec3& p) { return p.x > 0.3 * length; };
         each_point([&](const Vec3& p) {
             if (of_handle(p)) {
@@ -302,10 +303,11 @@ HandleAngle choose_handle_angle(const servo::Setup& setup, const servo::ToolCont
                         penalty = squeeze_cost;
             }
             // Room for the pull has more weight than the preferred angle.
+            if (swing < std::min(stroke, least_swing)) penalty += cramped_cost;
             const double cost = std::abs(candidate - preferred) + 4.0 * (stroke - swing) + penalty;
             if (cost >= lowest_cost) continue;
             lowest_cost = cost;
-            best = {candidate, flip, std::max(swing, to_radians(15.0))};
+            best = {candidate, flip, std::max(swing, least_swing)};
         }
     }
     return best;

@@ -61,7 +61,9 @@ ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contac
 struct HandleAngle {
     double angle = 0.0;  // rad about the bolt, tightening positive
     bool flipped = false;
-    double free_swing = 0.0;  // rad by which the handle can swing from there, at least 15°
+    // rad by which the handle can swing from there, but at least 15°, so that a pull is tried where no angle
+    // has more room
+    double free_swing = 0.0;
 };
 
 // Chooses among the angles at which the head fits, also with the wrench flipped, the one nearest to

@@ -131,6 +131,28 @@ TEST_CASE("Path planning: paths from nut to nut meet no obstacle in either direc
     CHECK(counts.touching <= 1);
 }
 
+TEST_CASE("Path planning: a pull has room for the whole tool, wherever the hand grips it") {
+    test::Workbench bench("zq350");
+    servo::ToolContact& contact = *bench.state.tool_contact;
+    const double stroke = to_radians(50.0);
+    const auto chosen = [&](std::size_t joint, double preferred) {
+        return choose_handle_angle(bench.setup, &contact, joint, {}, preferred, -1.0, stroke);
+    };
+    const double grip = bench.setup.wrench.handle_length;
+    for (std::size_t joint = 0; joint < bench.setup.nuts.size(); ++joint)
+        for (const double preferred : {0.0, 0.5 * pi, pi, 1.5 * pi}) {
+            CAPTURE(joint);
+            CAPTURE(preferred);
+            const HandleAngle at_the_end = chosen(joint, preferred);
+            bench.setup.wrench.handle_length = 0.5 * grip;
+            const HandleAngle in_the_middle = chosen(joint, preferred);
+            bench.setup.wrench.handle_length = grip;
+            CHECK(in_the_middle.angle == at_the_end.angle);
+            CHECK(in_the_middle.free_swing == at_the_end.free_swing);
+            CHECK(at_the_end.free_swing > to_radians(15.0));  // each nut has such an angle
+        }
+}
+
 TEST_CASE("Path planning: a key is carried around the casing, from its front to its back") {
     if (test::sanitized) return test::skip_rest("28 paths take minutes under a sanitizer");
     auto loaded = content::load_assembly(content::assembly_folder("zq350"), "bearing_covers");
