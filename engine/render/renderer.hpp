@@ -17,7 +17,7 @@
 // shades: with forward lighting the same picture of the reducer took nearly three times as long on lavapipe.
 //
 // Each pass is a class in passes/ with its pipelines. A batch has the views that one draw call
-// renders, one layer each: with multiview all views of a size. If the driver's multiview is wrong
+// renders, one layer each: with multiview, all views of one size. If the driver's multiview is wrong
 // (multiview_works), each view is a batch with images of its own. Separate images are needed because lavapipe
 // of Mesa 22.3 always resolves into layer 0, even if the image view begins with another layer.
 #pragma once
@@ -46,8 +46,8 @@ struct RendererOptions {
     // The error allowed for coarser levels of detail, in pixels of the picture; 0: always draw all triangles.
     float level_error_px = 0.0F;
     bool keep_depth = false;  // required by depth()
-    // Width of what is drawn beyond each edge of the picture, in half widths and heights, so that no part is
-    // missing after move_eyes().
+    // How far beyond each edge of the picture parts are kept from culling, in half widths and heights, so
+    // that none is missing after move_eyes().
     float margin = 0.0F;
 };
 
@@ -55,7 +55,7 @@ struct RendererOptions {
 struct Statistics {
     std::uint64_t triangles = 0;
     std::uint32_t draws = 0, instances = 0;
-    bool shadow_drawn = false;
+    bool static_shadow_redrawn = false;
 };
 
 class Renderer {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "content/format/assembly.hpp"
+#include "game/lesson/law.hpp"
 #include "game/lesson/lesson.hpp"
 #include "haptics/joint/design.hpp"
 

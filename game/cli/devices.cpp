@@ -11,6 +11,7 @@
 
 #include "content/station/wheel_config_file.hpp"
 #include "engine/base/result.hpp"
+#include "engine/base/serial_port.hpp"
 #include "game/cli/commands.hpp"
 #include "game/station/device_check.hpp"
 #include "game/station/station_setup.hpp"
@@ -67,7 +68,7 @@ std::string device_list(const std::vector<device::ListedDevice>& found) {
 std::string port_list(const std::vector<std::filesystem::path>& found) {
     std::string text = "Serial ports for a CyberGlove:\n";
     for (const auto& port : found) {
-        const Status access = hand::check_port_access(port);
+        const Status access = check_port_access(port);
         text += fmt::format("  {}{}\n", port.string(), access ? "" : "\n    " + access.error().message());
     }
     if (found.empty())
@@ -131,7 +132,7 @@ void ask_for_stiffness(const device::Description& d, bool yes, station_setup::De
 }
 
 Result<std::string> examine_glove(const std::string& port, double seconds) {
-    BOLT_TRY(hand::check_port_access(port));
+    BOLT_TRY(check_port_access(port));
     hand::GloveDriver driver = hand::GloveDriver::start(port);
     BOLT_TRY(station_setup::wait_for_glove(driver, port));
     const device::Timer timer = device::steady_timer();
@@ -163,8 +164,7 @@ int run_devices(const DevicesOptions& options) {
         if (!found) return print_error(found.error());
         text += *found;
     }
-    if (text.empty())
-        text = device_list(device::list_devices(options.others)) + port_list(hand::serial_ports());
+    if (text.empty()) text = device_list(device::list_devices(options.others)) + port_list(serial_ports());
     const Status printed = print(text);
     return printed ? 0 : print_error(printed.error());
 }
@@ -207,7 +207,7 @@ Status check_devices(const station_setup::StationRequest& request, double second
 std::string devices_line() {
     std::size_t usable = 0, unusable = 0;
     for (const device::ListedDevice& l : device::list_devices()) ++(l.usable() ? usable : unusable);
-    const std::size_t found = hand::serial_ports().size();
+    const std::size_t found = serial_ports().size();
     std::string text = fmt::format("Devices: {}", usable + unusable);
     if (unusable > 0) text += fmt::format(", {} of them cannot be used", unusable);
     return text +

@@ -14,6 +14,7 @@
 #include "content/station/station_file.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
+#include "engine/base/serial_port.hpp"
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/pace.hpp"
@@ -24,7 +25,6 @@
 #include "game/station/trial.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/device/virtual_devices.hpp"
-#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::cli {
 
@@ -160,7 +160,7 @@ std::string suggested_trials() {
     if (!ids.empty())
         text = fmt::format("  boltwright doctor --device {} tries {}\n", fmt::join(ids, " --device "),
                            ids.size() == 1 ? "it" : "them");
-    if (const auto ports = hand::serial_ports(); !ports.empty())
+    if (const auto ports = serial_ports(); !ports.empty())
         text += fmt::format("  boltwright doctor --glove {} --trainee NAME tries a glove there\n",
                             ports.front().string());
     return text;

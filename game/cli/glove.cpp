@@ -12,6 +12,7 @@
 #include "content/trainee/glove_calibration.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
+#include "engine/base/serial_port.hpp"
 #include "engine/base/steady_seconds.hpp"
 #include "game/cli/commands.hpp"
 #include "game/station/station_setup.hpp"
@@ -58,7 +59,7 @@ struct GloveReader {
 // Opens the glove on the port of the options, or on the only serial port, and waits for its first frame.
 Result<GloveReader> open(GloveArguments& options) {
     if (options.port.empty()) {
-        const std::vector<fs::path> ports = hand::serial_ports();
+        const std::vector<fs::path> ports = serial_ports();
         if (ports.size() != 1)
             return fail(ErrorCode::no_device,
                         ports.empty() ? "there is no serial port for a glove"

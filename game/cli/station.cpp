@@ -8,10 +8,10 @@
 
 #include "content/format/folders.hpp"
 #include "content/station/station_file.hpp"
+#include "engine/base/serial_port.hpp"
 #include "game/cli/commands.hpp"
 #include "game/station/station_check.hpp"
 #include "game/station/station_setup.hpp"
-#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::cli {
 
@@ -48,7 +48,7 @@ Status make_station(const StationArguments& options) {
                     "one that `boltwright devices` lists, or --glove PORT");
     BOLT_TRY_ASSIGN(const auto mover, reported_by(selection.mover));
     BOLT_TRY_ASSIGN(const auto wheel, reported_by(selection.wheel));
-    if (!options.trial.glove.empty()) BOLT_TRY(hand::check_port_access(options.trial.glove));
+    if (!options.trial.glove.empty()) BOLT_TRY(check_port_access(options.trial.glove));
     content::StationFile station =
         station_setup::station_of(mover ? &*mover : nullptr, wheel ? &*wheel : nullptr);
     station.name = options.name;

@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "content/displays/check_displays.hpp"
+#include "engine/base/serial_port.hpp"
 #include "engine/platform/window.hpp"
 #include "engine/xr/headset.hpp"
 #include "game/cli/commands.hpp"
 #include "game/station/station_setup.hpp"
 #include "game/view/walls.hpp"
-#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::cli {
 
@@ -51,8 +51,8 @@ Status usable_walls(const std::string& file) {
 }
 
 Status usable_glove(const std::string& port) {
-    if (port != "auto") return hand::check_port_access(port);
-    if (!hand::serial_ports().empty()) return {};
+    if (port != "auto") return check_port_access(port);
+    if (!serial_ports().empty()) return {};
     return fail(ErrorCode::no_device, "no glove is connected", "a CyberGlove at a serial port");
 }
 

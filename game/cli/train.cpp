@@ -14,6 +14,7 @@
 #include "game/cli/opened_walls.hpp"
 #include "game/cli/study_displays.hpp"
 #include "game/cli/train_arguments.hpp"
+#include "game/lesson/law.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/report/report.hpp"
 #include "game/session/contact_models.hpp"

@@ -8,10 +8,10 @@
 #include <charconv>
 
 #include "content/station/station_file.hpp"
+#include "engine/base/serial_port.hpp"
 #include "game/station/station_setup.hpp"
 #include "game/view/camera.hpp"
 #include "game/view/immersive_frame.hpp"
-#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::cli {
 
@@ -198,7 +198,7 @@ Result<trainer::Equipment> equipment_of(const TrainArguments& options) {
     }
     equipment.wheel_config_file = options.wheel_config_file;
     if (options.glove == "auto") {
-        const auto ports = hand::serial_ports();
+        const auto ports = serial_ports();
         if (!ports.empty()) equipment.glove = ports.front();
     } else if (!options.glove.empty()) {
         equipment.glove = options.glove == "none" ? std::string() : options.glove;
@@ -207,7 +207,7 @@ Result<trainer::Equipment> equipment_of(const TrainArguments& options) {
     const auto chosen = station_setup::select_devices(device::list_devices(true), equipment.devices);
     if (!chosen) return fail(chosen.error());
     if (!equipment.glove.empty())
-        if (Status access = hand::check_port_access(equipment.glove); !access) return fail(access.error());
+        if (Status access = check_port_access(equipment.glove); !access) return fail(access.error());
     return equipment;
 }
 

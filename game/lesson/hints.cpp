@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "game/lesson/fastener_names.hpp"
+#include "game/lesson/step_requirements.hpp"
 
 namespace bolt::lesson {
 

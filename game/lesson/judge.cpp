@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "game/lesson/fastener_names.hpp"
-#include "game/lesson/lesson.hpp"
+#include "game/lesson/judge.hpp"
+#include "game/lesson/step_requirements.hpp"
 
 namespace bolt::lesson {
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "game/lesson/lesson.hpp"
+#include "game/lesson/law.hpp"
 #include "haptics/joint/published.hpp"
 
 namespace bolt::lesson {

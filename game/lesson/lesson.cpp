@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "game/lesson/fastener_names.hpp"
+#include "game/lesson/step_requirements.hpp"
 #include "game/tool_models/tool_model.hpp"
 
 namespace bolt::lesson {
@@ -57,10 +58,7 @@ void begin_step(Lesson& lesson, const world::ReadHaptics& world) {
     track.clicked = false;
     track.begin_angle = joint_at(world, step->joint).angle;
     const bool seated = joint_at(world, step->joint).stage != joint::Stage::navigation;
-    if (step->kind == StepKind::turn && seated && !track.snug) {
-        track.snug = true;
-        track.snug_angle = track.begin_angle;
-    }
+    if (step->kind == StepKind::turn && seated && !track.mark) track.mark = track.begin_angle;
     lesson.step_starts.resize(lesson.current);
     lesson.step_starts.push_back(lesson.joints);
     add_event(lesson, tick_of(world), EventKind::step_begin, static_cast<int>(step->joint), step->torque,
@@ -114,7 +112,7 @@ void engage(Lesson& lesson, int joint, servo::Grip grip, const world::ReadHaptic
     JointTrack& track = lesson.joints[static_cast<std::size_t>(joint)];
     track.worked = again && track.worked;
     track.turned_back = track.seated = track.common_turn_reported = track.bend_reported = false;
-    track.bent = world.only<world::ToolState>().bent;
+    track.bent_at_grip = world.only<world::ToolState>().bent;
     track.furthest = joint_at(world, static_cast<std::size_t>(joint)).angle;
     track.common_turn = track.common_turn_at_grip =
         joint_at(world, static_cast<std::size_t>(joint)).common_turn;
@@ -178,7 +176,8 @@ void update_turned_torque(Lesson& lesson, std::size_t index, const world::Joint&
     JointTrack& track = lesson.joints[index];
     if (lesson.task != Task::tighten) return;
     if (joint.stage == joint::Stage::navigation) {
-        track.snug = track.yielded = track.over_torqued = track.over_turned = false;
+        track.mark.reset();
+        track.yielded = track.over_torqued = track.over_turned = false;
         track.turned_torque = track.result.torque = track.result.angle = 0.0;
     }
     const double ratio = lesson.assembly->joints[index].design.friction.static_ratio;
@@ -245,7 +244,7 @@ void report_common_turn(Lesson& lesson, std::size_t joint, const world::ReadHapt
 // Reports a tool that bends, at most once per hold.
 void report_bent_tool(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[joint];
-    if (track.bend_reported || world.only<world::ToolState>().bent - track.bent < max_bend) return;
+    if (track.bend_reported || world.only<world::ToolState>().bent - track.bent_at_grip < max_bend) return;
     track.bend_reported = true;
     ++track.bent_count;
     const double torque = std::abs(joint_at(world, joint).torque);
@@ -279,12 +278,10 @@ void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& w
     // A nut that came off its seat during a step of kind `turn` has lost its mark; it gets a new one.
     const bool marks =
         !lesson.turns_by_angle || (due != nullptr && due->joint == joint && due->kind == StepKind::turn);
-    if (!track.snug && marks && lesson.task == Task::tighten &&
-        torque >= spec_of(lesson, joint).snug_torque && !fingers) {
-        track.snug = true;
-        track.snug_angle = nut.angle;
-    }
-    if (track.snug && torque > 0.0) track.result.angle = nut.angle - track.snug_angle;
+    if (!track.mark && marks && lesson.task == Task::tighten &&
+        torque >= spec_of(lesson, joint).snug_torque && !fingers)
+        track.mark = nut.angle;
+    if (track.mark && torque > 0.0) track.result.angle = nut.angle - *track.mark;
     if (nut.stage == joint::Stage::yield) track.yielded = true;
     if (world.only<world::ToolState>().clicked) {
         track.clicked = true;
@@ -318,50 +315,21 @@ void end_assessment(Lesson& lesson, const world::ReadHaptics& world) {
 
 }  // namespace
 
-content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& step) {
-    const content::ToleranceWindow& whole = spec_of(lesson, step.joint).torque;
-    if (whole.target <= 0.0) return {step.torque, step.torque, step.torque};
-    const double share = step.torque / whole.target;
-    return {step.torque, share * whole.low, share * whole.high};
-}
-
-double angle_from_mark(const Lesson& lesson, const world::ReadJoints& world, std::size_t joint) {
-    const JointTrack& track = lesson.joints[joint];
-    return track.snug ? joint_at(world, joint).angle - track.snug_angle : 0.0;
-}
-
-bool requires_yield(const Lesson& lesson, const LessonStep& step) {
-    return step.kind == StepKind::tighten && step.fraction > 0.999 &&
-           spec_of(lesson, step.joint).strategy == content::Strategy::yield;
-}
-
-bool needs_second_wrench(const content::Assembly& assembly, std::size_t joint) {
-    return assembly.law == joint::Law::mechanistic &&
-           assembly.joints[joint].design.counter_hold == joint::CounterHold::second_wrench;
-}
-
-bool needs_second_wrench(const content::Assembly& assembly) {
-    for (std::size_t i = 0; i < assembly.joints.size(); ++i)
-        if (needs_second_wrench(assembly, i)) return true;
-    return false;
-}
-
-bool requires_click(const Lesson& lesson, const LessonStep& step) {
-    const content::Assembly& assembly = *lesson.assembly;
-    const content::WrenchDesign& wrench = content::tool_of(assembly, assembly.joints[step.joint]);
-    if (assembly.law != joint::Law::published || wrench.click_swing <= 0.0) return false;
-    const double greatest_click = step.torque * (1.0 + wrench.click_accuracy);
-    return step.kind == StepKind::tighten &&
-           greatest_click < assembly.joints[step.joint].published.law.T_max_Nm;
-}
-
-double wrench_set_torque(const Lesson& lesson) {
-    const LessonStep* step = lesson.due();
-    if (step == nullptr) return 0.0;
-    const content::Assembly& assembly = *lesson.assembly;
-    const content::WrenchDesign& wrench = content::tool_of(assembly, assembly.joints[step->joint]);
-    const bool to_torque = step->kind == StepKind::tighten || step->kind == StepKind::recheck;
-    return to_torque && wrench.click_swing > 0.0 ? step->torque / content::adaptor_ratio(wrench) : 0.0;
+Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
+    Lesson lesson;
+    lesson.assembly = &assembly;
+    lesson.mode = mode;
+    lesson.task = task;
+    lesson.guides = mode == Mode::guided;
+    lesson.steps = make_plan(assembly, task);
+    lesson.turns_by_angle = task == Task::tighten && turns_by_angle(assembly);
+    lesson.tool_faults = faults_of_choice(assembly, task);
+    for (const content::AssemblyJoint& joint : assembly.joints) {
+        JointTrack track;
+        track.result.id = joint.design.id;
+        lesson.joints.push_back(std::move(track));
+    }
+    return lesson;
 }
 
 bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world) {

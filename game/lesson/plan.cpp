@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "game/lesson/lesson.hpp"
+#include "game/lesson/plan.hpp"
 
 namespace bolt::lesson {
 
@@ -85,23 +85,6 @@ bool uses_fingers(const content::Assembly& assembly, const servo::Setup& setup, 
 content::ToleranceWindow angle_window(const content::Assembly& assembly, const LessonStep& step) {
     const content::ToleranceWindow& whole = assembly.joints[step.joint].spec.angle;
     return {whole.target * step.fraction, whole.low * step.fraction, whole.high * step.fraction};
-}
-
-Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
-    Lesson lesson;
-    lesson.assembly = &assembly;
-    lesson.mode = mode;
-    lesson.task = task;
-    lesson.guides = mode == Mode::guided;
-    lesson.steps = make_plan(assembly, task);
-    lesson.turns_by_angle = task == Task::tighten && turns_by_angle(assembly);
-    lesson.tool_faults = faults_of_choice(assembly, task);
-    for (const content::AssemblyJoint& joint : assembly.joints) {
-        JointTrack track;
-        track.result.id = joint.design.id;
-        lesson.joints.push_back(std::move(track));
-    }
-    return lesson;
 }
 
 }  // namespace bolt::lesson

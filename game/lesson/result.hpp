@@ -32,7 +32,7 @@ struct JointResult {
     std::string id;
     // N·m, highest of the tightening step and of later pulls that tightened further; loosening: of its steps
     double torque = 0.0;
-    double angle = 0.0;  // rad, from JointTrack::snug_angle; loosening: turned back in its steps
+    double angle = 0.0;  // rad, from JointTrack::mark; loosening: turned back in its steps
     // N, when the result was last updated; at the end of the lesson it includes embedding and the interaction
     // of the joints
     double clamp = 0.0;

@@ -1,5 +1,7 @@
 #include "game/lesson/situation.hpp"
 
+#include "game/lesson/step_requirements.hpp"
+
 #include <cmath>
 
 namespace bolt::lesson {

@@ -1,5 +1,7 @@
 #include "game/scene/angle_dial.hpp"
 
+#include "game/lesson/step_requirements.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -127,7 +129,7 @@ assets::Model dial_model(const std::vector<DialWindow>& windows) {
 std::optional<Dial> dial_of(const lesson::Lesson& lesson, const servo::Setup& setup,
                             const ecs::Access<const world::Joint>& joints, const view::Palette& palette) {
     const lesson::LessonStep* due = lesson.due();
-    if (due == nullptr || due->kind != lesson::StepKind::turn || !lesson.joints[due->joint].snug)
+    if (due == nullptr || due->kind != lesson::StepKind::turn || !lesson.joints[due->joint].mark)
         return std::nullopt;
     const servo::NutGeometry& nut = setup.nuts[due->joint];
     const double radius = dial_radius * nut.across_flats;

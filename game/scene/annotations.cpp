@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "game/lesson/feedback.hpp"
+#include "game/lesson/step_requirements.hpp"
 
 namespace bolt::scene {
 
@@ -156,7 +157,7 @@ void add_verdict(render::Label& label, const content::ToleranceWindow& window, d
 // The nut angle from which the displayed angle counts, rad; none if the joint is neither snug nor due.
 std::optional<double> angle_origin(const lesson::Lesson& lesson, std::size_t joint) {
     const lesson::JointTrack& track = lesson.joints[joint];
-    if (track.snug) return track.snug_angle;
+    if (track.mark) return *track.mark;
     const lesson::LessonStep* due = lesson.due();
     return due != nullptr && due->joint == joint ? std::optional(track.begin_angle) : std::nullopt;
 }

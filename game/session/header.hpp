@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/result.hpp"
+#include "game/lesson/law.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/lesson/result.hpp"
 #include "haptics/collision/contact.hpp"

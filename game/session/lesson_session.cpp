@@ -6,6 +6,9 @@
 #include <cstring>
 #include <utility>
 
+#include "game/lesson/judge.hpp"
+#include "game/lesson/law.hpp"
+#include "game/lesson/step_requirements.hpp"
 #include "game/session/session_file.hpp"
 #include "game/tool_models/tool_model.hpp"
 
@@ -267,7 +270,7 @@ Status LessonSession::record_events(const world::ReadHaptics& world) {
     return {};
 }
 
-Result<servo::Output> LessonSession::step(const world::WriteHaptics& world, const servo::TickInput& given,
+Result<servo::Output> LessonSession::tick(const world::WriteHaptics& world, const servo::TickInput& given,
                                           std::vector<lesson::LessonEvent> extra_events) {
     servo::TickInput input = given;
     const auto undo = std::exchange(requested_undo_, std::nullopt);
@@ -275,7 +278,7 @@ Result<servo::Output> LessonSession::step(const world::WriteHaptics& world, cons
                               : undo                                     ? restore_action(*undo)
                                                                          : std::uint8_t{0};
     input.set_torque = static_cast<float>(lesson::wrench_set_torque(lesson()));
-    return tick(world, input, std::move(extra_events));
+    return compute_tick(world, input, std::move(extra_events));
 }
 
 std::uint8_t LessonSession::due_tool() const {
@@ -293,7 +296,7 @@ std::uint8_t LessonSession::restore_action(std::size_t steps) const {
 
 Status LessonSession::repeat(const world::WriteHaptics& world, const servo::TickInput& input,
                              const servo::Output& output) {
-    BOLT_TRY_ASSIGN(const auto again, tick(world, input, {}));
+    BOLT_TRY_ASSIGN(const auto again, compute_tick(world, input, {}));
     if (same_tick(input, again, output)) return {};
     return fail(ErrorCode::failed,
                 fmt::format("at {:.3f} s the station and the recording of the lesson computed different "
@@ -302,8 +305,9 @@ Status LessonSession::repeat(const world::WriteHaptics& world, const servo::Tick
                 "equal results; the lesson is saved up to this time");
 }
 
-Result<servo::Output> LessonSession::tick(const world::WriteHaptics& world, const servo::TickInput& input,
-                                          std::vector<lesson::LessonEvent>&& extra_events) {
+Result<servo::Output> LessonSession::compute_tick(const world::WriteHaptics& world,
+                                                  const servo::TickInput& input,
+                                                  std::vector<lesson::LessonEvent>&& extra_events) {
     servo::change_tool(session_setup_.setup, session_setup_.state, input);
     const servo::Output output = servo::tick(session_setup_.setup, session_setup_.state, input);
     checkpoints_saved_ += input.checkpoint_action == servo::save_checkpoint ? 1U : 0U;

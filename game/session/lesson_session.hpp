@@ -14,6 +14,7 @@
 #include "content/format/assembly.hpp"
 #include "engine/base/result.hpp"
 #include "engine/ecs/system.hpp"
+#include "game/lesson/law.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/session_file.hpp"
@@ -60,7 +61,7 @@ struct LessonOptions {
 
     std::optional<bool> view_help;               // only of a simulated trainee
     double servo_rate = 0.0;                     // Hz, of the servo's thread; 0: virtual time
-    force::OutputLimits device_limits;           // default: a 6-DoF arm of the Virtuose class
+    force::OutputLimits device_limits;           // default: a large 6-DoF arm, such as a Virtuose
     std::optional<InterruptedLesson> continues;  // none: a lesson from its beginning
 };
 
@@ -123,9 +124,9 @@ class LessonSession {
     static Result<std::unique_ptr<LessonSession>> begin(SessionSetup start, const LessonOptions& options,
                                                         const std::filesystem::path& file);
 
-    // Continues LessonOptions::continues: repeats its ticks from the state at its beginning, `start`, on
-    // `world`, and records them into `file`, which thus has the whole lesson. The interrupted recording stays
-    // as it is. Fails and deletes `file` if an output differs from the recorded one or the recording is
+    // Continues the interrupted lesson LessonOptions::continues. Repeats its ticks on `world`, beginning with
+    // `start`, and records them into `file`, so that `file` has the whole lesson. The interrupted recording
+    // stays as it is. Fails and deletes `file` if an output differs from the recorded one or the recording is
     // damaged.
     static Result<std::unique_ptr<LessonSession>> resume(SessionSetup start, const LessonOptions& options,
                                                          const std::filesystem::path& file,
@@ -138,7 +139,7 @@ class LessonSession {
     // Computes one tick and runs tick_systems on `world`, in which world::add_haptics() has created the
     // entities. Pass the same world each time. `extra_events`: additional events to record with the tick.
     // Fails if the session file cannot be written; everything written before stays readable.
-    Result<servo::Output> step(const world::WriteHaptics& world, const servo::TickInput& input,
+    Result<servo::Output> tick(const world::WriteHaptics& world, const servo::TickInput& input,
                                std::vector<lesson::LessonEvent> extra_events = {});
 
     // Repeats a tick that a station's servo has computed from the same initial state, and compares the
@@ -147,7 +148,7 @@ class LessonSession {
                   const servo::Output& output);
     // The number of checkpoints that must exist by now: those saved, plus steps begun whose checkpoint is
     // still pending. Undo does not reduce it. A caller of repeat() sends one station::SaveCheckpoint
-    // whenever the number rises by one; step() does it itself.
+    // whenever the number rises by one; tick() does it itself.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - session_setup_.state.checkpoint_count;
     }
@@ -159,7 +160,7 @@ class LessonSession {
     // due one; 0: not allowed.
     [[nodiscard]] std::uint8_t restore_action(std::size_t steps) const;
 
-    // Makes the next step() return the nuts and the lesson to the start of the due step (0) or of the step
+    // In the next tick, returns the nuts and the lesson to the start of the due step (0) or of the step
     // `steps` steps earlier; possible after the last step too. Ignored in an assessment, beyond the oldest
     // checkpoint, and while a nut is held or the tool is beside one (servo::TickInput::checkpoint_action).
     void request_undo(std::size_t steps) { requested_undo_ = steps; }
@@ -192,8 +193,8 @@ class LessonSession {
   private:
     LessonSession() = default;
     Status record_events(const world::ReadHaptics& world);
-    Result<servo::Output> tick(const world::WriteHaptics& world, const servo::TickInput& input,
-                               std::vector<lesson::LessonEvent>&& extra_events);
+    Result<servo::Output> compute_tick(const world::WriteHaptics& world, const servo::TickInput& input,
+                                       std::vector<lesson::LessonEvent>&& extra_events);
 
     SessionSetup session_setup_;  // its state advances with each tick
     LessonTracker tracker_;

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "game/lesson/law.hpp"
 #include "game/session/database.hpp"
 #include "game/session/session_file.hpp"
 #include "game/session/tables.hpp"

@@ -100,7 +100,7 @@ Result<std::unique_ptr<LessonSession>> LessonSession::resume(SessionSetup start,
     BOLT_TRY_ASSIGN(auto session, begin(std::move(start), options, file));
     Status repeated =
         for_each_tick(interrupted, [&](const servo::TickInput& input, const TickRecord& recorded) -> Status {
-            BOLT_TRY_ASSIGN(const auto output, session->tick(world, input, {}));
+            BOLT_TRY_ASSIGN(const auto output, session->compute_tick(world, input, {}));
             return check_output(interrupted, session->session_setup_, input, output, recorded);
         });
     if (repeated) repeated = session->writer_->synchronise();

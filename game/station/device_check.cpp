@@ -72,7 +72,7 @@ Result<std::string> wait_for_trial(CheckedDevice& checked, const std::function<b
 
 std::string end_of(const station::StiffnessTrial& trial) {
     switch (trial.end) {
-        case station::TrialEnd::reported:
+        case station::TrialEnd::rendered_as_reported:
             return "the full reported stiffness";
         case station::TrialEnd::oscillation:
             return fmt::format("at {:.2g} N/mm the handle keeps oscillating",

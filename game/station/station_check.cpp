@@ -8,6 +8,7 @@
 
 #include "content/format/folders.hpp"
 #include "engine/base/nearest.hpp"
+#include "engine/base/serial_port.hpp"
 #include "game/station/frame_registration.hpp"
 #include "haptics/device/device_thread.hpp"
 
@@ -140,7 +141,7 @@ StationFacts find_facts(const content::StationFile& station) {
     };
     if (station.arm) facts.arm = find(station.arm->device, {});
     if (station.wheel) facts.wheel = find(station.wheel->device, station.wheel->config);
-    if (!station.glove_port.empty()) facts.glove = hand::check_port_access(station.glove_port);
+    if (!station.glove_port.empty()) facts.glove = check_port_access(station.glove_port);
     for (const std::string& name : content::assembly_names()) {
         const content::LoadedAssembly loaded = content::load_assembly(content::assembly_folder(name));
         if (!loaded.ok()) continue;

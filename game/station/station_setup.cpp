@@ -11,6 +11,7 @@
 #include "content/trainee/settings.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/nearest.hpp"
+#include "engine/base/serial_port.hpp"
 #include "game/motion/path_planning.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/lesson_session.hpp"
@@ -193,13 +194,13 @@ Result<hand::GloveIdentity> wait_for_glove(hand::GloveDriver& driver, const fs::
 }
 
 Result<hand::GloveIdentity> find_glove(const fs::path& port) {
-    BOLT_TRY(hand::check_port_access(port));
+    BOLT_TRY(check_port_access(port));
     hand::GloveDriver driver = hand::GloveDriver::start(port);
     return wait_for_glove(driver, port);
 }
 
 std::string adapter_warning(const fs::path& port) {
-    const auto ms = hand::latency_timer_ms(port);
+    const auto ms = latency_timer_ms(port);
     if (!ms || *ms <= max_latency_timer) return {};
     return fmt::format(
         "its adapter delays bytes by {} ms: install the udev rule (60-boltwright.rules) and reconnect it",

@@ -9,6 +9,7 @@
 #include "content/format/folders.hpp"
 #include "content/format/json_document.hpp"
 #include "engine/base/hash.hpp"
+#include "game/lesson/law.hpp"
 
 namespace bolt::study {
 

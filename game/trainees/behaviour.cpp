@@ -104,7 +104,8 @@ Vec3 random_placement_error(TraineeState& t) {
                             : motion::target_visibility(t.visibility, *t.setup, *t.obstacles(), t.plan.joint,
                                                         t.tool_at_nut(t.hover_height), t.next_eye);
     // An open end that touches something beside the nut can hardly turn it, so it is placed higher the next
-    // time. The other heads go on from above, and a key that is placed higher does not reach its socket.
+    // time. Other heads are not: they are put on from above, and a key that is higher does not reach its
+    // socket.
     const int steps = std::clamp(t.fruitless_strokes - max_fruitless, 0, max_lift);
     const Vec3 lift = reversible(t.setup->wrench) ? lift_step * steps * t.nut().axis : Vec3(0.0);
     return lift +
@@ -291,7 +292,7 @@ double remaining_angle(const TraineeState& t) {
     const lesson::JointTrack& track = t.lesson->joints[t.plan.joint];
     const double angle = t.joint().nut.angle;
     if (t.plan.loosening) return t.plan.goal_angle - (track.begin_angle - angle);
-    return t.plan.goal_angle - (track.snug ? angle - track.snug_angle : 0.0);
+    return t.plan.goal_angle - (track.mark ? angle - *track.mark : 0.0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "engine/base/random.hpp"
 #include "game/lesson/lesson.hpp"
+#include "game/lesson/step_requirements.hpp"
 #include "game/motion/path_planning.hpp"
 #include "game/motion/visibility_model.hpp"
 #include "game/trainees/human_model.hpp"

@@ -82,7 +82,8 @@ class DelayedPerception {
     std::vector<Stimulus> delay_line_;  // ring buffer of one reaction time
     std::size_t next_ = 0;              // oldest entry of delay_line_
     Percept percept_;
-    Stimulus slope_start_;   // start of the stretch over which the slope is measured; `turned` is the nut's
+    Stimulus slope_start_;   // at the start of the stretch over which the slope is measured; its `turned` is
+                             // the nut's angle
     double steepest_ = 0.0;  // N·m/rad, since the nut was grasped
     double hand_angle_ = 0.0, nut_angle_ = 0.0;  // rad
     double hand_rate_ = 0.0, nut_rate_ = 0.0;    // rad per tick, smoothed

@@ -1,5 +1,7 @@
 #include "game/trainees/step_plan.hpp"
 
+#include "game/lesson/step_requirements.hpp"
+
 #include <algorithm>
 
 namespace bolt::trainees {

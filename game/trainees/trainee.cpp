@@ -302,7 +302,7 @@ Result<session::LessonOutcome> train(const content::Assembly& assembly, const Tr
     bool running = true;
     while (running && state.tick - made.tick < patience && !session.finished() && state.tick < last) {
         const servo::TickInput input = trainee.act(session.setup(), state, lesson);
-        const Result<servo::Output> output = session.step(world, input, trainee.take_events());
+        const Result<servo::Output> output = session.tick(world, input, trainee.take_events());
         if (!output) return fail(output.error());
         TrainingProgress progress{session.time(), lesson.current, lesson.steps.size(), nullptr};
         for (const lesson::LessonEvent& event : session.events()) {

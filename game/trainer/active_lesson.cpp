@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/vec2.hpp>
 
+#include "game/lesson/step_requirements.hpp"
 #include "game/scene/angle_dial.hpp"
 #include "game/trainer/hint_visuals.hpp"
 
@@ -278,7 +279,7 @@ void step_ticks(scene::SceneWorld& world, LessonFrame& frame) {
         const auto undo = steps_to_undo(active.undo, session.lesson());
         if (undo && active.helped_hand.action == HandAction::resting && !active.helped_hand.nut)
             session.request_undo(*undo);
-        const Result<servo::Output> output = session.step(world, input);
+        const Result<servo::Output> output = session.tick(world, input);
         if (!output) {
             frame.status = fail(output.error());
             break;

@@ -104,7 +104,7 @@ struct ActiveLesson {
     std::vector<lesson::LessonEvent> events;  // not logged yet
 };
 
-// Components that world::write_haptics has written.
+// Components of the hand and the tool after the last tick. write_hand() replaces the first once a frame.
 inline const world::WorkingHand& hand_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::WorkingHand>();
 }

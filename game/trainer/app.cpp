@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "game/lesson/step_requirements.hpp"
 #include "game/sound/event_detection.hpp"
 #include "game/trainer/hud.hpp"
 #include "game/trainer/room_bar.hpp"

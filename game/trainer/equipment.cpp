@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/base/serial_port.hpp"
 #include "game/station/station_setup.hpp"
 #include "haptics/device/device.hpp"
-#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::trainer {
 
@@ -70,7 +70,7 @@ void use_glove(const std::string& glove, Equipment& equipment) {
     if (glove.empty()) return;
     equipment.glove = glove == "none" ? std::string() : glove;
     if (glove != "auto") return;
-    const auto ports = hand::serial_ports();
+    const auto ports = serial_ports();
     equipment.glove = ports.empty() ? std::filesystem::path(glove) : ports.front();
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "game/lesson/feedback.hpp"
+#include "game/lesson/step_requirements.hpp"
 #include "game/trainer/active_lesson.hpp"
 #include "game/trainer/arm_screen.hpp"
 #include "game/trainer/controls.hpp"

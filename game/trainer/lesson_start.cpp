@@ -6,6 +6,7 @@
 #include <ctime>
 #include <utility>
 
+#include "game/lesson/law.hpp"
 #include "game/session/resume.hpp"
 #include "game/station/frame_registration.hpp"
 #include "game/station/station_setup.hpp"

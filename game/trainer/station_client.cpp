@@ -1,5 +1,7 @@
 #include "game/trainer/station_client.hpp"
 
+#include "game/lesson/step_requirements.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -88,8 +88,8 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
 // joint by joint, from the last solution, so the sweeps never diverge, and the next steps reduce the
 // remaining error.
 //
-// With CounterHold::second_wrench, nut and bolt turn together if the faces under nut and head resist less
-// than thread and nut face (resistance_together). Then the clamp force does not change.
+// With CounterHold::second_wrench, nut and bolt turn together (resistance_together) if the face under the
+// head resists less than the thread. Then the clamp force does not change.
 //
 // Returns the step of the drive's click mechanism.
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,

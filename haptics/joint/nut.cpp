@@ -44,15 +44,15 @@ NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const
     const double gap = drive.engaged ? drive.angle - nut.angle : 0.0;
     double wound = gap - std::clamp(gap, -drive.half_play, drive.half_play);
     SpringTorque spring{drive.stiffness * wound, wound == 0.0 ? 0.0 : drive.stiffness};
-    const double mass = wound == 0.0 ? std::min(inertia, nut_inertia) : inertia;
-    double speed = next_speed(r, mass, nut, spring, dt);
+    const double moving = wound == 0.0 ? std::min(inertia, nut_inertia) : inertia;  // kg·m²
+    double speed = next_speed(r, moving, nut, spring, dt);
     if (wound == 0.0 && drive.engaged && std::abs(gap - dt * speed) > drive.half_play) {
         // The nut would leave the play within the step, so the edge that it meets acts in this step already.
         // Otherwise the nut would return from each edge faster than it arrived.
         const double edge = std::copysign(drive.half_play, gap - dt * speed);
         wound = gap - edge;
         spring = {drive.stiffness * wound, drive.stiffness};
-        speed = next_speed(r, mass, nut, spring, dt);
+        speed = next_speed(r, moving, nut, spring, dt);
         wound = std::copysign(1.0, edge);  // the side that pushes, for the test below
     }
     step.torque = spring.at_rest - dt * spring.stiffness * speed;
@@ -60,12 +60,12 @@ NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const
     const double limit = drive.torque_limit;
     if (limit > 0.0 && std::abs(step.torque) > limit) {
         spring = {std::copysign(limit, wound), 0.0};
-        speed = next_speed(r, mass, nut, spring, dt);
+        speed = next_speed(r, moving, nut, spring, dt);
         step.torque = spring.at_rest;
         step.slipped = true;
     } else if (step.torque * wound < 0.0) {  // a jaw pushes; it does not pull
         spring = {};
-        speed = next_speed(r, mass, nut, spring, dt);
+        speed = next_speed(r, moving, nut, spring, dt);
         step.torque = 0.0;
         // A nut that would cross the whole play within the step stops at the other edge.
         const double after = gap - dt * speed;

@@ -53,9 +53,8 @@ struct NutMotion {
 // The drive of the nut: a spring with play between the angles of hand and nut.
 struct NutDrive {
     bool engaged = false;  // false: no drive
-    // rad. step_nut(): the nut's angle when it was gripped, plus the hand's rotation since then.
-    // step_group(): the nut's rotation (JointState::rotation) when it was gripped, plus the hand's since
-    // then.
+    // rad, the angle of the nut when it was gripped, plus the hand's rotation since then. For step_nut() it
+    // is the angle on the bolt; for step_group(), in which the bolt may turn as well, JointState::rotation.
     double angle = 0.0;
     double half_play = 0.0;     // rad, backlash to either side
     double stiffness = 0.0;     // N·m/rad
@@ -102,10 +101,13 @@ inline double drive_inertia(double stiffness, double dt) { return stiffness * dt
 //
 //   T = p e ((x1 + x2)/2)²
 //
-// p is that of a flat die on one flank of a wedge up to its edge, p = 2k (1 + ψ - π/2) for an obtuse angle ψ
-// (R. Hill, The Mathematical Theory of Plasticity, 1950; at ψ = π it is Prandtl's punch), ψ = 120° here and
-// 2k = 2/√3 of the flow stress, which is a third of the hardness (D. Tabor, The Hardness of Metals, 1951).
-// The hardness is the minimum that ISO 898-2 requires for the nut's class.
+// The jaw is a flat die on one flank of a wedge with the angle ψ, which reaches to the edge of the wedge:
+//
+//   p = 2k (1 + ψ - π/2)   for an obtuse ψ (R. Hill, The Mathematical Theory of Plasticity, 1950)
+//   ψ = 120°               of a hexagon
+//   2k = 2/√3 σ            σ: flow stress
+//   σ = H / 3              H: hardness (D. Tabor, The Hardness of Metals, 1951), the minimum that ISO 898-2
+//                          requires for the nut's class
 //
 // Modelling assumptions: rigid and ideally plastic, the jaw harder than the nut, no friction; if the jaw is
 // tilted, the length of contact is the part where the gap is smaller than the clearance on one side.

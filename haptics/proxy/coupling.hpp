@@ -31,8 +31,9 @@ struct CouplingRange {
 // The coupling is as stiff as passivity permits with a margin: the damping of device and hand must exceed
 // stiffness × dt / 2 plus the coupling's own damping (Colgate and Schenkel, J. Robotic Systems 14(1), 1997).
 // Stiffness and damping are also small enough that a collision at 0.5 m/s raises the force by at most a tenth
-// of the maximum per millisecond. Half of the remaining damping is used. The stiffnesses are positive even if
-// the device renders no force or torque, because they also weight the tool's motions.
+// of the maximum per millisecond. The damper of the coupling gets half of the damping that the stiffness
+// leaves. The stiffnesses are positive even if the device renders no force or torque, because they also
+// weight the tool's motions.
 Coupling make_coupling(const CouplingRange& range);
 
 // The constrained pose of the tool relative to the commanded pose.

@@ -85,9 +85,9 @@ class Stepper {
             const AdvanceResult advance = advance_once();
             rate_limited = advance == AdvanceResult::rate_limited;
             arrived = advance == AdvanceResult::arrived;
-            if (advance == AdvanceResult::budget_exhausted) break;
+            if (advance == AdvanceResult::cut_short) break;
         }
-        step_.budget_exhausted = !rate_limited && !arrived;
+        step_.cut_short = !rate_limited && !arrived;
         step_.rate_limited = rate_limited;
         step_.nearest = current_query_.nearest;
         step_.contacts = current_query_.count;
@@ -102,7 +102,7 @@ class Stepper {
     }
 
   private:
-    enum class AdvanceResult { moved, rate_limited, arrived, budget_exhausted };
+    enum class AdvanceResult { moved, rate_limited, arrived, cut_short };
 
     // Upper bound (m) of the distance that any point of the tool travels in a motion from the current pose.
     [[nodiscard]] double travel_bound(const Twist& motion) const {
@@ -354,11 +354,11 @@ class Stepper {
                 current_query_.nearest -= displacement;
                 if (rate_limited) return AdvanceResult::rate_limited;
                 if (at_commanded_pose) return AdvanceResult::arrived;
-                if (!may_query()) return AdvanceResult::budget_exhausted;
+                if (!may_query()) return AdvanceResult::cut_short;
                 current_query_ = query(pose_);
                 return AdvanceResult::moved;
             }
-            if (!may_query()) return AdvanceResult::budget_exhausted;
+            if (!may_query()) return AdvanceResult::cut_short;
             const ContactQuery next_query = query(next);
             if (!too_near(next_query, next)) {
                 accept(next, part);
@@ -371,7 +371,7 @@ class Stepper {
             add_blocking_constraints(next_query, next, rows);
             longest *= 0.5;
         }
-        return AdvanceResult::budget_exhausted;
+        return AdvanceResult::cut_short;
     }
 
     const GodObjectParameters& p_;

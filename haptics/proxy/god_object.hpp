@@ -29,17 +29,17 @@ inline constexpr std::size_t max_contacts = 32;  // capacity of the finder's out
 //   the hand's part   the change that the hand's motion causes while the constrained tool stands still
 //   the tool's part   the rest: the constrained tool itself moves, because it slips or falls off an edge
 //
-// The tool's part is limited to the greater of its two shares. Both parts together are limited to
-// `total_share_of_maximum`. People notice a step of 7 %. While the tool is pushed out of an obstacle that
-// moved into it, only the total limit applies. The same limits hold for the torque, with the rendered and the
-// greatest torque.
+// The tool's part is limited to the greater of its two shares; people notice a step of 7 % of the force that
+// they feel. Both parts together are limited to `total_share_of_maximum`. While the tool is pushed out of an
+// obstacle that moved into it, only the total limit applies. The same limits hold for the torque, with the
+// rendered and the greatest torque.
 struct ForceRateLimits {
     double tool_share_of_rendered = 0.05;  // of the rendered force
     double tool_share_of_maximum = 0.005;  // of the greatest force; applies if little is rendered
     double total_share_of_maximum = 0.08;  // of the greatest force
-    // Share of the limit of the tool's part that applies in every direction. The rest of the limit applies
-    // only along the tool's part of the last tick, because a change that alternates from tick to tick is felt
-    // as trembling.
+    // Share of the limit of the tool's part that may be used in any direction. The rest may be used only in
+    // the direction of the last tick's change, because a change that alternates from tick to tick is felt as
+    // trembling.
     double any_direction_share = 0.3;
 };
 
@@ -85,19 +85,21 @@ struct GodObjectStep {
     int queries = 0;
     std::uint32_t query_cost = 0;
     int solves = 0;
-    bool budget_exhausted = false;  // the query budget ended before the tool reached its constrained pose
-    bool rate_limited = false;      // the motion was shortened to limit the change of force
+    bool cut_short = false;     // the queries or attempts ended before the tool reached its constrained pose
+    bool rate_limited = false;  // the motion was shortened to limit the change of force
 };
 
 // The tool must not penetrate anything at `pose`.
 GodObjectState start_god_object(const Pose& pose);
 
-// Advances by one tick of `dt` (s). A motion is accepted in one of two cases. Either no point of the tool
-// travels further than the distance to the nearest obstacle, less the skin. Or no point travels further than
-// `stride`, and the query at the end of the motion finds no contact that the motion has approached to less
-// than a fifth of the skin. A contact that the motion did not approach is tolerated if it was at most
-// 0.25 mm deep at the start, because the finder can have missed it there. Ignores a pose that is not finite.
-// Does not allocate.
+// Advances by one tick of `dt` (s). A motion is accepted in one of two cases:
+//
+//   free    no point of the tool travels further than the distance to the nearest obstacle, less the skin
+//   short   no point travels further than `stride`, and a query at the end finds no contact that came nearer
+//           and is now nearer than a fifth of the skin
+//
+// In the second case a contact that did not come nearer is tolerated if it was at most 0.25 mm deep at the
+// start, because the finder can have missed it there. Ignores a pose that is not finite. Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
                               const Pose& commanded_tool, ContactFinder finder, double dt);
 

@@ -9,7 +9,7 @@ namespace bolt::servo {
 
 namespace {
 
-// N·m, the drag of a ratchet's pawl. Makers give about 0.1 to 0.5 (memory of catalogues).
+// N·m, the drag of a ratchet's pawl. Our estimate; it has no source.
 constexpr double usual_drag = 0.25;
 // m between a socket screw and its key: the middle of the tolerances of ISO 4762 and ISO 2936 at 6 mm.
 constexpr double key_clearance = 0.1e-3;

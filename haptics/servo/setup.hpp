@@ -1,4 +1,5 @@
-// The constants of the servo tick. Built once when an assembly is loaded; the tick itself does not allocate.
+// The constants of the servo tick. Built for each lesson, and again for the limits of a device. Between two
+// ticks change_tool() changes the tool in it.
 #pragma once
 
 #include <span>
@@ -73,9 +74,8 @@ collision::TurnedShape shape_of(const NutGeometry& nut);
 
 struct Wrench {
     collision::ToolHead head;
-    // rad from the handle to the direction of the head that points to a corner of a fitting hexagon; of a jaw
-    // the direction to the throat, which is parallel to two flats. Turning an open-end wrench over negates
-    // it.
+    // rad, from the handle to the direction of the head: that of a jaw points to its throat, that of any
+    // other head to a corner of its hexagon. Turning an open-end wrench over negates it.
     double head_angle = 0.0;
     double handle_length = 0.0;  // m
     double half_play = 0.0;      // rad of free rotation of the head on the hexagon, to either side
@@ -141,7 +141,7 @@ struct SetupDescription {
     const joint::FlangePlate* flange = nullptr;
     ToolDescription tool;  // in use at the beginning
     std::vector<ToolDescription> more_tools;
-    std::vector<std::size_t> tool_of_joint;  // 0: `tool`, then `more_tools`; empty: `tool` turns all joints
+    std::vector<std::size_t> tool_of_joint;  // 0: `tool`, i + 1: more_tools[i]; empty: all 0
     double max_torque = 0.0;  // N·m, the largest torque of the lesson; maps to the device's range
     force::OutputLimits limits;
     std::uint64_t seed = 0;

@@ -92,8 +92,8 @@ force::ForceRequest hold_request(const Setup& setup, State& state, const ToolPos
     request.command.force += setup.hold_stiffness * off;
     const double hold = spring_energy(setup.hold_stiffness, off);
     request.stored_energy += hold;
-    // The target moves with the nut and towards its centre; the energy of that motion is not work of the
-    // hand.
+    // The target moves with the nut and, while the offset at the engagement fades, towards its centre. The
+    // energy of that motion is not work of the hand.
     const Vec3 moved = target - (held_before ? state.hold_target : target);
     request.injected_energy = hold - spring_energy(setup.hold_stiffness, off - moved);
     state.hold_target = target;
@@ -126,8 +126,8 @@ struct PoseStep {
 };
 
 // The work (J) of the guiding force on the motion of the commanded tool relative to the constrained one. The
-// guiding force acts on the hand, but derives from a potential of the constrained pose; where contacts hold
-// the tool back the two differ, and the difference counts as injected energy.
+// guiding force acts on the hand, but derives from a potential of the constrained pose. Where contacts hold
+// the tool back, hand and tool move differently, and the difference counts as injected energy.
 double relative_work(const force::OutputCommand& guiding, const PoseStep& commanded,
                      const PoseStep& constrained) {
     const Vec3 relative = (commanded.now.position - commanded.before.position) -
@@ -138,7 +138,7 @@ double relative_work(const force::OutputCommand& guiding, const PoseStep& comman
                         turn_between(constrained.before.orientation, constrained.now.orientation));
 }
 
-// The aligning torque for a device that renders none, as a force at the end of the wrench: a wrench near a
+// For a device without torque: the aligning torque as a force at the end of the wrench: a wrench near a
 // bolt turns with the end of its handle.
 force::OutputCommand as_force_at_lever_end(const Setup& setup, const force::OutputCommand& guiding,
                                            const ToolPose& tool) {
@@ -364,7 +364,7 @@ force::GuideTarget guide_target(const Setup& setup, std::span<const joint::Joint
     target.axis = nut.axis;
     // The ball that the target's own nut and bolt end fill; the nut's corners are 0.58 across_flats away.
     target.bounding_radius = 1.2 * std::max(nut.height, nut.across_flats);
-    // `across` is axis × flat.
+    // Hexagon::axis, flat, and across = axis × flat.
     target.hexagon = {nut.axis, std::cos(angle) * nut.e1 - nut.sense * std::sin(angle) * nut.e2,
                       nut.sense * std::sin(angle) * nut.e1 + std::cos(angle) * nut.e2};
     return target;

@@ -79,7 +79,7 @@ void end_level(StiffnessTrial& t) {
         t.stable = stiffness_of(t, t.level);
     if (t.end != TrialEnd::none) return;
     if (t.level + 1 == stiffness_levels) {
-        t.end = TrialEnd::reported;
+        t.end = TrialEnd::rendered_as_reported;
         return;
     }
     ++t.level;

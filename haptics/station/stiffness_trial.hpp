@@ -19,11 +19,11 @@ inline constexpr double trial_force_share = 0.2;     // of the arm's largest for
 
 // The reason for the end of a trial.
 enum class TrialEnd : std::uint8_t {
-    none,         // it continues
-    reported,     // the arm renders the stiffness that it reports
-    oscillation,  // an oscillation that a step of the spring has excited does not decay
-    energy,       // a spring at rest gives energy to the hand
-    fault,        // the output stage has blocked the force (Fault)
+    none,                  // it continues
+    rendered_as_reported,  // the arm renders the stiffness that it reports
+    oscillation,           // an oscillation that a step of the spring has excited does not decay
+    energy,                // a spring at rest gives energy to the hand
+    fault,                 // the output stage has blocked the force (Fault)
 };
 
 struct StiffnessTrial {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "game/lesson/lesson.hpp"
+#include "game/lesson/step_requirements.hpp"
 #include "haptics/station/station.hpp"
 
 namespace bolt::test {

@@ -1,5 +1,7 @@
 #include "tests/dead_ends/lesson_run.hpp"
 
+#include "game/lesson/step_requirements.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +23,7 @@ LessonRun::LessonRun(session::LessonSession& lesson_session, InvariantChecker& i
 
 bool LessonRun::tick(servo::TickInput input, bool wrench_in_hand, double room, bool hint_key) {
     input.set_torque = static_cast<float>(set_torque_scale * lesson::wrench_set_torque(session.lesson()));
-    const auto stepped = session.step(world, input);
+    const auto stepped = session.tick(world, input);
     if (!stepped) {
         checker.report(stepped.error().message());
         return false;

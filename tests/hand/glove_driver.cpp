@@ -71,13 +71,3 @@ TEST_CASE("GloveDriver: recovers from a stall and from a port that vanishes and 
     CHECK(driver.report().openings >= 2);
     std::filesystem::remove(name);
 }
-
-TEST_CASE("SerialPort: a path that is not a port is an error with a remedy") {
-    const auto none = SerialPort::open("/nonexistent/glove");
-    REQUIRE(!none);
-    CHECK(none.error().code == ErrorCode::no_device);
-    CHECK(none.error().message().find("plugged in") != std::string::npos);
-    const auto file = SerialPort::open("/dev/null");
-    REQUIRE(!file);
-    CHECK(file.error().message().find("not a serial port") != std::string::npos);
-}

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "game/lesson/judge.hpp"
 #include "tests/hints/bench.hpp"
 
 using namespace bolt;

@@ -1,6 +1,7 @@
 // Lessons that turn nuts by an angle from a mark, and loosening lessons that turn them back in rounds.
 #include <doctest/doctest.h>
 
+#include "game/lesson/judge.hpp"
 #include "tests/lesson/played_session.hpp"
 #include "tests/lesson/script.hpp"
 
@@ -88,7 +89,7 @@ TEST_CASE(
     REQUIRE(s.lesson.due()->kind == StepKind::turn);
     CHECK(s.lesson.due()->angle == doctest::Approx(to_radians(30.0)));
     const double mark = s.state.joints[0].nut.angle;
-    CHECK(s.lesson.joints[0].snug_angle == mark);
+    CHECK(s.lesson.joints[0].mark == mark);
     CHECK(angle_window(s.assembly, *s.lesson.due()).low == doctest::Approx(to_radians(25.0)));
     s.turn(0, 24.0, 110.0);  // the torque does not end the step
     CHECK(s.lesson.due()->joint == 0);
@@ -98,7 +99,7 @@ TEST_CASE(
     s.turn(0, 30.0);
     s.turn(1, 30.0);
     REQUIRE(s.lesson.due() == nullptr);
-    CHECK(s.lesson.joints[0].snug_angle == mark);  // one mark for both passes
+    CHECK(s.lesson.joints[0].mark == mark);  // one mark for both passes
     CHECK(s.judged(0).angle == doctest::Approx(to_radians(56.0)));
     CHECK(s.judged(0).overall == Verdict::ok);
     CHECK(s.judged(1).angle == doctest::Approx(to_radians(60.0)));
@@ -135,25 +136,25 @@ TEST_CASE(
     s.state.joints[0].stage = joint::Stage::navigation;
     for (int i = 0; i < 100; ++i) s.tick(0, servo::Grip::wrench, -0.2, -4.0);
     s.idle();
-    CHECK_FALSE(s.lesson.joints[0].snug);
+    CHECK_FALSE(s.lesson.joints[0].mark.has_value());
     for (int i = 0; i < 100; ++i) s.tick(0, servo::Grip::wrench, 5.0, 4.0);
-    CHECK_FALSE(s.lesson.joints[0].snug);  // below the snug torque
+    CHECK_FALSE(s.lesson.joints[0].mark.has_value());  // below the snug torque
     s.state.joints[0].stage = joint::Stage::transition;
     s.turn(0, 26.0, 40.0);
-    CHECK(s.lesson.joints[0].snug);
+    CHECK(s.lesson.joints[0].mark.has_value());
     CHECK(s.lesson.due()->joint == 1);
 }
 
 TEST_CASE("Angle: undoing a step restores its mark") {
     AngleScript s;
     s.to_the_turns();
-    const double mark = s.lesson.joints[0].snug_angle;
+    const std::optional<double> mark = s.lesson.joints[0].mark;
     s.turn(0, 30.0);
     REQUIRE(s.lesson.due()->joint == 1);
     REQUIRE(s.undo(1));
     CHECK(s.lesson.due()->joint == 0);
-    CHECK(s.lesson.joints[0].snug);
-    CHECK(s.lesson.joints[0].snug_angle == mark);
+    REQUIRE(mark);
+    CHECK(s.lesson.joints[0].mark == mark);
 }
 
 TEST_CASE("Angle: a loosening lesson turns every nut back before it loosens the first") {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "game/lesson/judge.hpp"
 #include "game/motion/path_planning.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/tool_models/tool_model.hpp"

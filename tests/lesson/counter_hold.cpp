@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "game/lesson/hints.hpp"
+#include "game/lesson/judge.hpp"
 #include "game/motion/path_planning.hpp"
 #include "tests/lesson/played_session.hpp"
 #include "tests/support/second_wrench.hpp"

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "content/format/assembly.hpp"
+#include "game/lesson/judge.hpp"
+#include "game/lesson/law.hpp"
 #include "game/session/export.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/session/replay.hpp"

@@ -194,13 +194,13 @@ TEST_CASE("Lesson: a nut that leaves its seat resets torque, snug and yield") {
     s.pull(0, 95.0);
     s.state.joints[0].stage = joint::Stage::navigation;
     s.tick(0, servo::Grip::wrench, -0.1, -1.0);
-    CHECK_FALSE(s.lesson.joints[0].snug);
+    CHECK_FALSE(s.lesson.joints[0].mark.has_value());
     CHECK(s.lesson.joints[0].turned_torque == 0.0);
     s.idle();
     s.state.joints[0].stage = joint::Stage::transition;
     const double before = s.state.joints[0].nut.angle;
     s.pull(0, 70.0);
-    CHECK(s.lesson.joints[0].snug_angle > before);
+    CHECK(s.lesson.joints[0].mark > before);
     CHECK(s.judged(0).torque == doctest::Approx(70.0).epsilon(less_breakaway));
 }
 
@@ -286,7 +286,7 @@ TEST_CASE("Lesson: changing from fingers to wrench without a release is a new vi
     s.tick(0, servo::Grip::fingers, 0.1, 1.0);
     s.tick(0, servo::Grip::wrench, 12.0);
     CHECK(s.lesson.grip == servo::Grip::wrench);
-    CHECK(s.lesson.joints[0].snug);
+    CHECK(s.lesson.joints[0].mark.has_value());
     CHECK(s.count(EventKind::engage) == 2);
 }
 

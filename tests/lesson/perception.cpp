@@ -1,4 +1,5 @@
 // The perception of a simulated trainee, against the torques that it is given.
+#include "game/lesson/judge.hpp"
 #include "game/trainees/human_model.hpp"
 
 #include <doctest/doctest.h>

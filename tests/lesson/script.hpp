@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "game/lesson/judge.hpp"
 #include "game/lesson/lesson.hpp"
 #include "tests/support/haptic_world.hpp"
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "content/format/assembly.hpp"
+#include "game/lesson/judge.hpp"
+#include "game/lesson/law.hpp"
+#include "game/lesson/step_requirements.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/lesson/played_session.hpp"

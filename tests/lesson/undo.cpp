@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "content/format/assembly.hpp"
+#include "game/lesson/judge.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/lesson/script.hpp"
@@ -15,10 +16,9 @@ namespace {
 
 bool same(const JointTrack& a, const JointTrack& b) {
     return a.result.torque == b.result.torque && a.result.angle == b.result.angle &&
-           a.result.strokes == b.result.strokes && a.snug == b.snug && a.snug_angle == b.snug_angle &&
-           a.peak_torque == b.peak_torque && a.turned_torque == b.turned_torque &&
-           a.begin_angle == b.begin_angle && a.yielded == b.yielded && a.over_torqued == b.over_torqued &&
-           a.done_in_pass == b.done_in_pass;
+           a.result.strokes == b.result.strokes && a.mark == b.mark && a.peak_torque == b.peak_torque &&
+           a.turned_torque == b.turned_torque && a.begin_angle == b.begin_angle && a.yielded == b.yielded &&
+           a.over_torqued == b.over_torqued && a.done_in_pass == b.done_in_pass;
 }
 
 void work(Script& s) {

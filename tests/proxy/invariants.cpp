@@ -67,7 +67,7 @@ struct Tally {
     double fastest = 0.0;  // m per tick
     int in_contact = 0;
     int most_queries = 0, max_solves = 0;
-    int budget_exhausted = 0, rate_limited = 0;
+    int cut_short = 0, rate_limited = 0;
     std::vector<GodObjectState> states;
 };
 
@@ -88,7 +88,7 @@ Tally wander(const Scene& scene, const GodObjectParameters& p, std::uint64_t see
         tally.in_contact += clear < 2.0 * p.skin ? 1 : 0;
         tally.most_queries = std::max(tally.most_queries, step.queries);
         tally.max_solves = std::max(tally.max_solves, step.solves);
-        tally.budget_exhausted += step.budget_exhausted ? 1 : 0;
+        tally.cut_short += step.cut_short ? 1 : 0;
         tally.rate_limited += step.rate_limited ? 1 : 0;
         tally.fastest = std::max(
             tally.fastest, travel(twist_between(before.constrained_tool, state.constrained_tool), p.radius));
@@ -113,14 +113,13 @@ TEST_CASE("God-object: in random scenes it never penetrates and keeps the query 
         sum.in_contact += tally.in_contact;
         sum.most_queries = std::max(sum.most_queries, tally.most_queries);
         sum.max_solves = std::max(sum.max_solves, tally.max_solves);
-        sum.budget_exhausted += tally.budget_exhausted;
+        sum.cut_short += tally.cut_short;
         sum.rate_limited += tally.rate_limited;
     }
     MESSAGE("in contact " << sum.in_contact << " of 18000 ticks; queries up to " << sum.most_queries
-                          << ", solves up to " << sum.max_solves << "; budget exhausted "
-                          << sum.budget_exhausted << ", rate limited " << sum.rate_limited
-                          << "; farthest in a tick " << 1e3 * sum.fastest << " mm; deepest "
-                          << 1e6 * sum.deepest << " um");
+                          << ", solves up to " << sum.max_solves << "; budget exhausted " << sum.cut_short
+                          << ", rate limited " << sum.rate_limited << "; farthest in a tick "
+                          << 1e3 * sum.fastest << " mm; deepest " << 1e6 * sum.deepest << " um");
     CHECK(sum.in_contact > 5000);
 }
 
@@ -156,7 +155,7 @@ TEST_CASE("God-object: expensive queries only delay the tool") {
         bool arrived = false;
         for (int i = 0; i < 1000 && !arrived; ++i) {
             const GodObjectStep step = step_god_object(p, state, device, dear, dt);
-            arrived = !step.budget_exhausted && !step.rate_limited;
+            arrived = !step.cut_short && !step.rate_limited;
         }
         CHECK(arrived);
     }
@@ -272,7 +271,7 @@ TEST_CASE("God-object: a frictionless wall pushes only along its normal and neve
             // limit holds it back.
             REQUIRE(push >= -0.0075 * p.coupling.max_force);
             // Rate-limited steps are excluded: the tool has not reached its constrained pose.
-            if (!step.rate_limited && !step.budget_exhausted)
+            if (!step.rate_limited && !step.cut_short)
                 REQUIRE(glm::length(state.rendered.force - push * n) < 0.02 + 0.01 * push);
         }
     }

@@ -247,7 +247,7 @@ TEST_CASE("Deform: a hand with curled fingers is drawn, lit and shadowed like a 
             assets::joint_matrices(model.skins[0], assets::world_transforms(model, curled(model, 0.1F))),
             {}});
         const Picture open = studio.shoot(scene, eye, extent);
-        CHECK_FALSE(studio.renderer().statistics().shadow_drawn);
+        CHECK_FALSE(studio.renderer().statistics().static_shadow_redrawn);
         scene.objects.back().moves = false;
         (void)studio.shoot(scene, eye, extent);
         test::Studio fresh;
@@ -262,12 +262,12 @@ TEST_CASE("Deform: a hand with curled fingers is drawn, lit and shadowed like a 
     SUBCASE("the shadow of a static hand is redrawn when the pose changes") {
         (void)studio.shoot(scene, eye, extent);
         const Picture before = studio.shoot(scene, eye, extent);
-        CHECK_FALSE(studio.renderer().statistics().shadow_drawn);
+        CHECK_FALSE(studio.renderer().statistics().static_shadow_redrawn);
         Deformation moved = *scene.objects.back().deformation;
         for (glm::mat4& m : moved.joints) m[3].x += 0.02F;
         scene.objects.back().deformation = std::make_shared<const Deformation>(moved);
         CHECK(different(studio.shoot(scene, eye, extent), before) > 20.0);
-        CHECK(studio.renderer().statistics().shadow_drawn);
+        CHECK(studio.renderer().statistics().static_shadow_redrawn);
     }
 }
 

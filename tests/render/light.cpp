@@ -148,12 +148,12 @@ TEST_CASE("Shadow: a plate shades the plate below it and nothing else") {
     CHECK(at(-2.5F, -2.5F) > 150);
     CHECK(at(1.0F, 0.0F) > 150);  // the upper plate has no shadow acne
     // The shadow map is redrawn only when an object has moved.
-    CHECK(studio.renderer().statistics().shadow_drawn);
+    CHECK(studio.renderer().statistics().static_shadow_redrawn);
     (void)studio.shoot(scene, make_eye({0, 10, 0}, {0, 0, 0}, p), extent);
-    CHECK_FALSE(studio.renderer().statistics().shadow_drawn);
+    CHECK_FALSE(studio.renderer().statistics().static_shadow_redrawn);
     scene.objects.back().world[3].x += 0.5F;
     (void)studio.shoot(scene, make_eye({0, 10, 0}, {0, 0, 0}, p), extent);
-    CHECK(studio.renderer().statistics().shadow_drawn);
+    CHECK(studio.renderer().statistics().static_shadow_redrawn);
 }
 
 TEST_CASE("Ambient occlusion: an open floor is not occluded, and a wall occludes half of the floor's sky") {

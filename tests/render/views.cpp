@@ -176,17 +176,18 @@ TEST_CASE("Shadow: the map of static objects is kept while another object moves"
     Perspective p;
     const Eye eye = make_eye({0, 6, 9}, {0, -1, 0}, p);
     const Picture before = still.studio.shoot(still.scene, eye, {128, 96});
-    CHECK(still.studio.renderer().statistics().shadow_drawn);
+    CHECK(still.studio.renderer().statistics().static_shadow_redrawn);
     still.scene.objects[0].moves = true;
     const Picture apart = still.studio.shoot(still.scene, eye, {128, 96});
-    CHECK(still.studio.renderer().statistics().shadow_drawn);  // the set of static objects has changed
+    CHECK(
+        still.studio.renderer().statistics().static_shadow_redrawn);  // the set of static objects has changed
     CHECK(test::largest_difference(before, apart) == 0);
     still.scene.objects[0].world[3].z += 0.8F;
     const Picture moved = still.studio.shoot(still.scene, eye, {128, 96});
-    CHECK_FALSE(still.studio.renderer().statistics().shadow_drawn);
+    CHECK_FALSE(still.studio.renderer().statistics().static_shadow_redrawn);
     still.scene.objects[0].moves = false;
     const Picture anew = still.studio.shoot(still.scene, eye, {128, 96});
-    CHECK(still.studio.renderer().statistics().shadow_drawn);
+    CHECK(still.studio.renderer().statistics().static_shadow_redrawn);
     CHECK(test::largest_difference(moved, anew) == 0);
     CHECK(test::largest_difference(before, moved) > 50);
 }

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "game/lesson/step_requirements.hpp"
 #include "game/scene/systems.hpp"
 #include "game/scene/workplace.hpp"
 #include "haptics/servo/engagement.hpp"

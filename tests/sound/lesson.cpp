@@ -116,7 +116,7 @@ TEST_CASE("Lesson sound: a recorded swing back sounds once for each tooth, in th
     const auto heard = [&](double by) {
         const double angle = lesson.state().joints[0].nut.angle;
         handle += by;
-        const auto output = lesson.step(
+        const auto output = lesson.tick(
             lesson_world,
             test::holding(servo::Grip::wrench, test::tool_at(nut, servo::nut_centre(nut, angle), handle)));
         REQUIRE(output);

@@ -98,7 +98,7 @@ inline session::LessonOutcome run_lesson(const char* name, const char* trainee, 
     world::World world;
     world::add_haptics(world, lesson_session.state());
     while (!lesson_session.finished() && lesson_session.time() < longest) {
-        const auto output = lesson_session.step(
+        const auto output = lesson_session.tick(
             world, hand.act(lesson_session.setup(), lesson_session.state(), lesson_session.lesson()));
         REQUIRE(output);
         const sound::SoundCues cues = sound::detect_events(detector, lesson_session.setup(), world,

@@ -89,7 +89,7 @@ Measured measure(const device::HandAndArmParameters& parameters, int late,
 
 TEST_CASE("Stiffness trial: a good arm renders all that it announces, with a fifth of its force") {
     const Measured m = measure(arm_with(0.3, 12.0), 0);
-    CHECK(m.trial.end == TrialEnd::reported);
+    CHECK(m.trial.end == TrialEnd::rendered_as_reported);
     CHECK(m.trial.stable == 5000.0);
     CHECK(m.largest_force <= 0.2 * 12.0 + 1e-9);
     CHECK(m.largest_force > 1.0);
@@ -115,7 +115,7 @@ TEST_CASE("Stiffness trial: the later the forces arrive, the lower the figure, a
         CAPTURE(late);
         const Measured m = measure(arm_with(0.3, 5.0), late);
         CHECK(m.trial.stable < before);
-        CHECK((m.trial.end == TrialEnd::reported) == (late == 0));
+        CHECK((m.trial.end == TrialEnd::rendered_as_reported) == (late == 0));
         before = m.trial.stable;
         const double response = median_response(m.trial).value_or(1.0);
         CHECK(response > response_before);
@@ -148,7 +148,7 @@ TEST_CASE("Stiffness trial: a hand that trembles and wanders does not make an ar
         bench.arm.intention.position = Vec3(wander, 1e-4 * std::sin(2.0 * pi * 9.0 * bench.time), 0.0);
         bench.tick(true);
     }
-    CHECK(bench.trial.end == TrialEnd::reported);
+    CHECK(bench.trial.end == TrialEnd::rendered_as_reported);
 }
 
 TEST_CASE("Stiffness trial: it renders only while the button is held, and goes on when it is held again") {
@@ -161,7 +161,7 @@ TEST_CASE("Stiffness trial: it renders only while the button is held, and goes o
     for (int i = 0; i < 1000; ++i) CHECK(bench.tick(false) == 0.0);
     CHECK(bench.trial.level == reached);
     for (int i = 0; i < 20000 && bench.trial.end == TrialEnd::none; ++i) bench.tick(true);
-    CHECK(bench.trial.end == TrialEnd::reported);
+    CHECK(bench.trial.end == TrialEnd::rendered_as_reported);
     for (int i = 0; i < 20; ++i) bench.tick(true);
     CHECK(bench.tick(true) == 0.0);
 }
@@ -182,7 +182,7 @@ TEST_CASE("Stiffness trial: an arm that renders along one axis is pushed along i
     device::Description d = announced();
     d.renders = {false, true, false, false, false, false};
     CHECK(begin_stiffness_trial(d).direction == Vec3(0, 1, 0));
-    CHECK(measure(arm_with(0.3, 12.0), 0, d).trial.end == TrialEnd::reported);
+    CHECK(measure(arm_with(0.3, 12.0), 0, d).trial.end == TrialEnd::rendered_as_reported);
 }
 
 }  // namespace station_stiffness_trial_test

@@ -66,7 +66,7 @@ TEST_CASE("Tool contact: a wrench pulled through the reducer is never caught for
             const bool stays =
                 glm::length(output.constrained_tool.position - before.position) < still &&
                 glm::length(proxy::twist_between(before, output.constrained_tool).angular) < still;
-            caught = step.budget_exhausted && stays ? caught + 1 : 0;
+            caught = step.cut_short && stays ? caught + 1 : 0;
             longest = std::max(longest, caught);
             if (output.contacts > 0) deepest = std::min(deepest, step.nearest);
             before = output.constrained_tool;

@@ -110,7 +110,7 @@ TEST_CASE("Captions: a played lesson shows exactly the captions of the sounds th
                                c.state());
         const bool tightens = c.lesson().due()->kind != lesson::StepKind::run_down;
         for (int i = 0; i < 20 && !c.finished(); ++i) {
-            const auto output = c.step(world, trainer::step_hand(player.hand, c.setup(), c.state()));
+            const auto output = c.tick(world, trainer::step_hand(player.hand, c.setup(), c.state()));
             REQUIRE(output);
             observe(captions,
                     sound::detect_events(detector, c.setup(), world, sound::lesson_cues(c.events())),

@@ -46,7 +46,7 @@ Outcome play_through(const content::Assembly& lesson, session::LessonOptions opt
     for (std::uint64_t tick = 0; !session.finished() && session.time() < longest; ++tick) {
         if (tick % 16 == 0) apply_next_command(player, session);
         const servo::TickInput input = trainer::step_hand(player.hand, session.setup(), session.state());
-        REQUIRE(session.step(world, input));
+        REQUIRE(session.tick(world, input));
         out.longest_jump = std::max(out.longest_jump, glm::distance(before, player.hand.pose.position));
         before = player.hand.pose.position;
     }

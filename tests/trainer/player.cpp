@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "content/format/assembly.hpp"
+#include "game/lesson/step_requirements.hpp"
 
 namespace trainer_test {
 

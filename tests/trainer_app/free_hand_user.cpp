@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "game/lesson/step_requirements.hpp"
 #include "haptics/collision/jaw.hpp"
 #include "haptics/servo/engagement.hpp"
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "game/analysis/session_data.hpp"
+#include "game/lesson/step_requirements.hpp"
 #include "tests/support/need.hpp"
 #include "tests/trainer_app/free_hand_user.hpp"
 #include "tests/trainer_app/simulated_user.hpp"

@@ -1,5 +1,7 @@
 #include "tests/trainer_app/simulated_user.hpp"
 
+#include "game/lesson/step_requirements.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>

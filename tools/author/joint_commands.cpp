@@ -16,6 +16,7 @@
 #include "engine/base/file.hpp"
 #include "engine/base/nearest.hpp"
 #include "engine/base/result.hpp"
+#include "game/lesson/law.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/plot/html.hpp"
 #include "game/plot/plot.hpp"

@@ -100,7 +100,7 @@ void lesson_frames(benchmark::State& state, const char* name, session::ObstacleU
                 const servo::TickInput input =
                     expert.act(lesson_session.setup(), lesson_session.state(), lesson_session.lesson());
                 const double start = bench::thread_microseconds();
-                const servo::Output output = unwrap(lesson_session.step(world, input, expert.take_events()));
+                const servo::Output output = unwrap(lesson_session.tick(world, input, expert.take_events()));
                 frame_cost += 1e-3 * (bench::thread_microseconds() - start);
                 touches = touches || !output.touched.is_none();
                 if (lesson_session.time() < last_frame + frame_time) continue;
