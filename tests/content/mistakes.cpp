@@ -201,7 +201,7 @@ const FileMistake mistakes[] = {
     {R"({ "kind": "tighten", "percent": 50 })", R"({ "kind": "tighten", "percent": 0.5 })",  // a share
      {R"(54:37: /passes/1/percent: 0.5 is too small; expected a number >= 1 and <= 100)"}},
     {R"({ "kind": "tighten", "percent": 50 })", R"({ "kind": "tighten", "percent": 5, "order": ["B1", "B2", "B3"] })",
-     {R"(54:51: /passes/1/order: "B4" is missing in this order; expected every joint once)"}},
+     {R"(54:49: /passes/1/order: "B4" is missing in this order; expected every joint once)"}},
     {R"({ "kind": "tighten", "percent": 50 })", R"({ "kind": "run_down", "percent": 50 })",
      {R"(54:38: /passes/1/percent: only a pass of kind "tighten" or "turn" has a share of the target; expected no "percent" here)"}},
     {R"({ "kind": "tighten", "percent": 100 })", R"({ "kind": "tighten", "percent": 40 })",
