@@ -30,7 +30,7 @@ def quoted(document):
 
 
 def is_path(text):
-    return " " not in text and "/" in text and text.split("/")[0] in FOLDERS
+    return "node_modules" not in text and " " not in text and "/" in text and text.split("/")[0] in FOLDERS
 
 
 def check_names(root, document):

@@ -1,5 +1,8 @@
 #include "game/trainer/hint_visuals.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "game/motion/path_planning.hpp"
 #include "game/scene/annotations.hpp"
 #include "game/trainer/active_lesson.hpp"
@@ -15,7 +18,8 @@ using scene::MotionArrow;
 constexpr double tip_height = 1.6, tail_height = 4.4;
 // Radii, relative to the length of the handle and the width of the nut.
 constexpr double handle_radius = 0.45, finger_radius = 1.15;
-constexpr double handle_height = 0.03, finger_height = 0.02, return_height = 0.06;  // m
+constexpr double handle_stroke = to_radians(40.0), finger_stroke = to_radians(60.0);  // of animated ghosts
+constexpr double handle_height = 0.03, finger_height = 0.02, return_height = 0.06;    // m
 
 MotionArrow down_to(const Vec3& at, const Vec3& up, double width, const glm::vec4& color) {
     return scene::straight_arrow(at + tail_height * width * up, at + tip_height * width * up, color);
@@ -42,22 +46,24 @@ MotionArrow finger_arrow(const MotionGeometry& geometry, double sense, const glm
                               color);
 }
 
-// Shows the hand where it should work: fingers on the nut, or around the wrench at rest.
-void show_hand(scene::SceneWorld& world, ActiveLesson& active, HintMotion motion) {
-    const servo::Setup& setup = active.session->setup();
-    const lesson::LessonStep* due = active.session->lesson().due();
+// A ghost at its target.
+struct Ghost {
+    Pose pose;
+    const hand::Skeleton* posture = nullptr;
+    bool has_wrench = false;
+};
+
+// The hand where it should work: fingers on the nut, or around the wrench at rest.
+Ghost hand_ghost(const ActiveLesson& active, HintMotion motion, const MotionGeometry& geometry) {
+    const scene::Postures& postures = postures_of(active);
     if (motion == HintMotion::take) {
-        const std::size_t posture = scene::natural_handle_posture(postures_of(active), hand_of(active).rest,
-                                                                  Vec3(0, 1, 0), active.shoulder);
-        scene::show_hand_ghost(world, hand_of(active).rest, postures_of(active).on_handle.at(posture));
-        return;
+        const std::size_t posture =
+            scene::natural_handle_posture(postures, geometry.rest, Vec3(0, 1, 0), active.shoulder);
+        return {geometry.rest, &postures.on_handle.at(posture)};
     }
-    const servo::NutGeometry& nut = setup.nuts[due->joint];
-    const Pose at{world::nut_centre(active.workplace.world, setup, due->joint),
-                  motion::tool_orientation(nut, 0.0, false)};
-    scene::show_hand_ghost(
-        world, scene::frame_towards(at, active.shoulder, 0.0),
-        motion == HintMotion::let_go ? postures_of(active).open : postures_of(active).on_nut);
+    const Pose at{geometry.nut_centre, motion::tool_orientation(geometry.nut, 0.0, false)};
+    return {scene::frame_towards(at, active.shoulder, 0.0),
+            motion == HintMotion::let_go ? &postures.open : &postures.on_nut};
 }
 
 // The pose in which the hand would put the wrench on the nut. Cached per step, because the search casts rays.
@@ -70,18 +76,32 @@ const Pose& wrench_ghost_pose(ActiveLesson& active, const lesson::LessonStep& du
     return active.guidance.wrench_ghost->second;
 }
 
+bool begins_on_nut(HintMotion motion) {
+    return motion == HintMotion::pull_on || motion == HintMotion::pull_off ||
+           motion == HintMotion::set_back || motion == HintMotion::lift;
+}
+
+// The hand on the wrench, and the wrench: at rest, or on the nut.
+Ghost wrench_ghost(ActiveLesson& active, const lesson::Hint& hint, const lesson::LessonStep& due,
+                   const MotionGeometry& geometry) {
+    const bool at_tool = hint.level >= 3 && begins_on_nut(hint.motion);
+    const Pose& tool = hint.motion == HintMotion::put_away ? geometry.rest
+                       : at_tool                           ? geometry.tool
+                                                           : wrench_ghost_pose(active, due);
+    const scene::Postures& postures = postures_of(active);
+    const std::size_t posture = scene::natural_handle_posture(postures, tool, Vec3(0, 1, 0), active.shoulder);
+    return {tool, &postures.on_handle.at(posture), true};
+}
+
 void show_ghosts(scene::SceneWorld& world, ActiveLesson& active, const lesson::Hint& hint,
-                 const lesson::LessonStep& due) {
+                 const lesson::LessonStep& due, const MotionGeometry& geometry) {
     if (hint.ghost() == lesson::GhostKind::none) return;
-    if (hint.ghost() == lesson::GhostKind::hand) {
-        show_hand(world, active, hint.motion);
-        return;
-    }
-    const Pose& tool = wrench_ghost_pose(active, due);
-    const std::size_t posture =
-        scene::natural_handle_posture(postures_of(active), tool, Vec3(0, 1, 0), active.shoulder);
-    scene::show_wrench_ghost(world, active.session->setup().tool, tool);
-    scene::show_hand_ghost(world, tool, postures_of(active).on_handle.at(posture));
+    const Ghost ghost = hint.ghost() == lesson::GhostKind::hand ? hand_ghost(active, hint.motion, geometry)
+                                                                : wrench_ghost(active, hint, due, geometry);
+    const double share = ghost_share(active.session->time());
+    const Pose pose = hint.level >= 3 ? animated_ghost(hint.motion, ghost.pose, geometry, share) : ghost.pose;
+    if (ghost.has_wrench) scene::show_wrench_ghost(world, active.session->setup().tool, pose);
+    scene::show_hand_ghost(world, pose, *ghost.posture);
 }
 
 MotionGeometry geometry_of(const ActiveLesson& active, const lesson::LessonStep& due, std::size_t joint) {
@@ -133,6 +153,51 @@ std::optional<MotionArrow> arrow_of(HintMotion motion, const MotionGeometry& geo
     return std::nullopt;
 }
 
+double ghost_share(double time) {
+    return minimum_jerk(
+        std::min(1.0, std::fmod(time, ghost_motion_time + ghost_rest_time) / ghost_motion_time));
+}
+
+Pose animated_ghost(HintMotion motion, const Pose& target, const MotionGeometry& geometry, double share) {
+    const Vec3 of_rest = geometry.rest.orientation * Vec3(0, 0, 1);
+    const double distance = (tail_height - tip_height) * geometry.nut.across_flats;
+    const double sense = geometry.loosens ? -1.0 : 1.0;
+    const auto moved = [&](const Vec3& by) { return Pose{target.position + by, target.orientation}; };
+    // `turn`: rad, tightening positive.
+    const auto turned = [&](double turn) {
+        const Quat about = rotation(-turn * servo::loosening_axis(geometry.nut));
+        return Pose{geometry.nut_centre + about * (target.position - geometry.nut_centre),
+                    glm::normalize(about * target.orientation)};
+    };
+    switch (motion) {
+        case HintMotion::none:
+        case HintMotion::counter_hold:
+            return target;
+        case HintMotion::take:
+        case HintMotion::put_away:
+            return moved((1.0 - share) * distance * of_rest);
+        case HintMotion::approach:
+        case HintMotion::reach:
+        case HintMotion::set_on:
+        case HintMotion::grip_nut:
+            return moved((1.0 - share) * distance * geometry.nut.axis);
+        case HintMotion::let_go:
+        case HintMotion::lift:
+            return moved(share * distance * geometry.nut.axis);
+        case HintMotion::spin:
+            return turned(share * finger_stroke);
+        case HintMotion::twist_back:
+            return turned(-share * finger_stroke);
+        case HintMotion::pull_on:
+            return turned(share * handle_stroke);
+        case HintMotion::pull_off:
+            return turned(-share * handle_stroke);
+        case HintMotion::set_back:
+            return turned(-sense * share * handle_stroke);
+    }
+    return target;
+}
+
 void show_hint_visuals(scene::SceneWorld& world, ActiveLesson& active, const lesson::Hint* hint) {
     scene::hide_ghosts(world);
     const lesson::LessonStep* due = active.session->lesson().due();
@@ -144,8 +209,9 @@ void show_hint_visuals(scene::SceneWorld& world, ActiveLesson& active, const les
     // A held nut is released where it is, even if another joint is due.
     const int held = active.session->lesson().held_joint;
     const std::size_t joint = held >= 0 ? static_cast<std::size_t>(held) : due->joint;
-    scene::show_arrow(world, arrow_of(hint->arrow(), geometry_of(active, *due, joint)));
-    show_ghosts(world, active, *hint, *due);
+    const MotionGeometry geometry = geometry_of(active, *due, joint);
+    scene::show_arrow(world, arrow_of(hint->arrow(), geometry));
+    show_ghosts(world, active, *hint, *due, geometry);
 }
 
 }  // namespace bolt::trainer

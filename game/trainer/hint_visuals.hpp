@@ -28,6 +28,16 @@ struct MotionGeometry {
 // wrench one from the other side; taking or laying down the wrench a straight one down to its resting place.
 std::optional<scene::MotionArrow> arrow_of(lesson::HintMotion motion, const MotionGeometry& geometry);
 
+// The ghosts of an animated motion (level 3 of a hint). They move for `ghost_motion_time`, rest at the end of
+// the motion, and begin again.
+inline constexpr double ghost_motion_time = 1.2, ghost_rest_time = 0.6;  // s
+// The share of the motion, 0 … 1, that is done `time` seconds after a beginning.
+double ghost_share(double time);
+// The pose of a ghost at that share of the motion. `target`: of the hint's ghost at level 2, where an
+// approach ends and a turn or a lift begins.
+Pose animated_ghost(lesson::HintMotion motion, const Pose& target, const MotionGeometry& geometry,
+                    double share);
+
 // Shows the visuals of `hint`; null hides all.
 void show_hint_visuals(scene::SceneWorld& world, ActiveLesson& active, const lesson::Hint* hint);
 

@@ -186,10 +186,11 @@ bool ImportedLesson::has_remark(const std::string& part) const {
                        [&](const std::string& remark) { return remark.find(part) != std::string::npos; });
 }
 
-ImportedLesson import_lesson(const std::function<void(const std::filesystem::path& step)>& write) {
+ImportedLesson import_lesson(const std::function<void(const std::filesystem::path& step)>& write,
+                             step_import::ImportOptions options) {
     const Folder folder;
     write(folder / "machine.step");
-    const auto imported = import(folder / "machine.step", folder / "out");
+    const auto imported = import(folder / "machine.step", folder / "out", std::move(options));
     REQUIRE(imported.ok());
     ImportedLesson result{{}, imported.report, {}};
     if (!std::filesystem::exists(folder / "out" / "assembly.json")) return result;

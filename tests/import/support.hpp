@@ -70,7 +70,8 @@ struct ImportedLesson {
 };
 
 // Imports the STEP file that `write` makes, and checks its draft. Fails the test if the draft has mistakes.
-ImportedLesson import_lesson(const std::function<void(const std::filesystem::path& step)>& write);
+ImportedLesson import_lesson(const std::function<void(const std::filesystem::path& step)>& write,
+                             step_import::ImportOptions options = {});
 // Fails the test for each remark of the import, each finding, and another number of joints than one.
 void require_one_good_joint(const ImportedLesson& imported);
 

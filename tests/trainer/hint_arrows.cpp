@@ -101,6 +101,53 @@ TEST_CASE("Hint arrows: a straight arrow points to the nut or away from it and s
     CHECK(at(*take, Vec3(0, 0, 1)).x == doctest::Approx(1.15));  // the middle of the handle
 }
 
+TEST_CASE("Hint ghosts: they move as the arrow points, from or to the pose of the ghost at rest") {
+    Random random(9, 1);
+    for (int i = 0; i < 50; ++i) {
+        servo::NutGeometry nut = some_nut(random);
+        nut.sense = i % 2 == 0 ? 1.0 : -1.0;
+        MotionGeometry place{nut, nut.seat, {}, {{1.0, 2.0, 3.0}, {}}, 0.3, i % 3 == 0};
+        const Pose target{nut.seat + 0.01 * nut.axis,
+                          glm::normalize(glm::quat_cast(glm::dmat3(nut.e2, -nut.e1, nut.axis)))};
+        const Vec3 handle{0.3, 0.0, 0.0};
+        place.tool = target;
+        for (const HintMotion motion : {HintMotion::pull_on, HintMotion::pull_off, HintMotion::set_back,
+                                        HintMotion::spin, HintMotion::twist_back}) {
+            CAPTURE(static_cast<int>(motion));
+            CHECK(glm::distance(animated_ghost(motion, target, place, 0.0) * handle, target * handle) <
+                  1e-12);
+            const auto arrow = arrow_of(motion, place);
+            REQUIRE(arrow);
+            const Vec3 tail = at(*arrow, on_arc(0.0)) - nut.seat,
+                       tip = at(*arrow, on_arc(scene::arrow_sweep)) - nut.seat;
+            const Pose end = animated_ghost(motion, target, place, 1.0);
+            const Vec3 from = target * handle - nut.seat, to = end * handle - nut.seat;
+            CHECK(glm::dot(glm::cross(tail, tip), nut.axis) * glm::dot(glm::cross(from, to), nut.axis) > 0.0);
+            CHECK(glm::dot(to, nut.axis) == doctest::Approx(glm::dot(from, nut.axis)));
+            CHECK(glm::length(to) == doctest::Approx(glm::length(from)));
+        }
+        for (const HintMotion motion : {HintMotion::approach, HintMotion::reach, HintMotion::set_on,
+                                        HintMotion::grip_nut, HintMotion::take, HintMotion::put_away}) {
+            const bool to_rest = motion == HintMotion::take || motion == HintMotion::put_away;
+            const Vec3 up = to_rest ? place.rest.orientation * Vec3(0, 0, 1) : nut.axis;
+            const Vec3 begin = animated_ghost(motion, target, place, 0.0).position - target.position;
+            CHECK(glm::dot(begin, up) > 0.03);
+            CHECK(glm::length(glm::cross(begin, up)) < 1e-12);
+            CHECK(animated_ghost(motion, target, place, 1.0).position == target.position);
+        }
+        for (const HintMotion motion : {HintMotion::lift, HintMotion::let_go}) {
+            CHECK(animated_ghost(motion, target, place, 0.0).position == target.position);
+            CHECK(glm::dot(animated_ghost(motion, target, place, 1.0).position - target.position, nut.axis) >
+                  0.03);
+        }
+    }
+    CHECK(ghost_share(0.0) == 0.0);
+    CHECK(ghost_share(0.5 * ghost_motion_time) == doctest::Approx(0.5));
+    for (const double time : {ghost_motion_time, ghost_motion_time + 0.9 * ghost_rest_time})
+        CHECK(ghost_share(time) == 1.0);
+    CHECK(ghost_share(ghost_motion_time + ghost_rest_time + 0.3) == doctest::Approx(ghost_share(0.3)));
+}
+
 TEST_CASE("Hint arrows: triangles face outward and agree with their normals") {
     const assets::Model model = scene::arrow_model();
     REQUIRE(model.meshes.size() == 2);

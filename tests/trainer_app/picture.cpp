@@ -173,6 +173,38 @@ TEST_CASE("Hint panel: it has its full size from its first frame on") {
     CHECK(changed == 3);
 }
 
+TEST_CASE("Hint: at its third level the ghost moves, at its second it rests") {
+    test::HeadlessTrainer driver(options(lesson::Mode::guided, false, "seen-ghost"));
+    driver.draws = false;
+    // The poses of the shown ghosts in ten frames, while the hint has this level.
+    const auto ghosts = [&](int level) {
+        for (int i = 0; i < 600; ++i) {
+            driver.frame();
+            const auto& hint = driver.lesson().guidance.hints.shown;
+            if (hint && hint->level == level && hint->ghost() != lesson::GhostKind::none) break;
+        }
+        std::vector<glm::mat4> poses;
+        for (int i = 0; i < 10; ++i) {
+            driver.frame();
+            // view() is not const.
+            auto& world = const_cast<scene::SceneWorld&>(driver.lesson().workplace.world);
+            world.view<const scene::GhostPart, const scene::Transform>().each(
+                [&](ecs::Entity, const scene::GhostPart& ghost, const scene::Transform& at) {
+                    if (ghost.shown) poses.push_back(at.world);
+                });
+        }
+        REQUIRE(driver.lesson().guidance.hints.shown);
+        REQUIRE(driver.lesson().guidance.hints.shown->level == level);
+        REQUIRE(poses.size() >= 10);
+        return poses;
+    };
+    const auto moves = [](const std::vector<glm::mat4>& poses) {
+        return std::any_of(poses.begin(), poses.end(), [&](const glm::mat4& at) { return at != poses[0]; });
+    };
+    CHECK_FALSE(moves(ghosts(2)));
+    CHECK(moves(ghosts(3)));
+}
+
 TEST_CASE("Labels: the name of the due joint covers no other nut from any viewpoint") {
     test::HeadlessTrainer driver(options(lesson::Mode::guided, false, "seen-names"));
     const auto fonts = text::load_fonts();

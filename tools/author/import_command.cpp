@@ -171,6 +171,11 @@ void add_import_step(CLI::App& app, int& exit_code) {
     import->add_option("--far-triangles", options->far_triangles, "Triangles of the far level, all instances")
         ->check(CLI::Range(100, 10'000'000))
         ->capture_default_str();
+    import
+        ->add_option(
+            "--turn-heads", options->turn_heads,
+            "Ids of joints whose bolt is turned at its hexagon head instead of its nut, as J1,J2; or all")
+        ->delimiter(',');
     import->add_flag("!--no-joints", options->joints, "Find no joints and draft no assembly.json");
     import
         ->add_option("--time-limit", command->limits.processor_s,

@@ -46,9 +46,20 @@ struct ToolCheck {
     // `expected`: without other tools; empty: a free path.
     void error(const std::string& what, std::string expected) const {
         const std::string other = rooms.describe_fitting_tool(tool);
+        const bool nothing_fits = expected.empty() && other.empty();
+        if (nothing_fits) expected = "a free path";
         if (!expected.empty() && !other.empty()) expected += ", or ";
-        if (expected.empty() && other.empty()) expected = "a free path; no other tool of this size fits";
+        if (other.empty() && has_other_hexagon())
+            expected += fmt::format(", or the head turned instead (bolt-author import-step --turn-heads {})",
+                                    space.joint().design.id);
+        if (nothing_fits) expected += "; no other tool of this size fits";
         messages.error(joint_pointer(joint), what, expected + other);
+    }
+    // True if the nut is turned, but a hexagon head is at the bolt's other end.
+    [[nodiscard]] bool has_other_hexagon() const {
+        const joint::JointDesign& design = space.joint().design;
+        return design.form == joint::JointForm::through_bolt && design.turned == joint::TurnedPart::nut &&
+               design.head == joint::HeadShape::hexagon;
     }
     // Both return false after an error.
     bool check_swing(const SwingPair& swings, const std::string& start) const;

@@ -223,13 +223,14 @@ class DraftWriter {
             }
         std::string name = fmt::format("{}x{}{}{}", type.size, in_mm(type.length * mm),
                                        joint::size_suffix(type.thread_direction),
-                                       type.is_stud                            ? " stud"
-                                       : type.head == joint::HeadShape::socket ? " socket head"
-                                                                               : "");
+                                       type.is_stud                             ? " stud"
+                                       : type.head == joint::HeadShape::socket  ? " socket head"
+                                       : type.tapped.empty() && type.turns_head ? " turned at head"
+                                                                                : "");
         const auto same = std::count_if(types_.begin(), types_.end(), [&](const DraftJointType& one) {
             return one.type.size == type.size && one.type.length == type.length &&
-                   one.type.head == type.head && one.type.is_stud == type.is_stud &&
-                   one.type.thread_direction == type.thread_direction;
+                   one.type.head == type.head && one.type.turns_head == type.turns_head &&
+                   one.type.is_stud == type.is_stud && one.type.thread_direction == type.thread_direction;
         });
         if (same > 0) name += fmt::format(" ({})", same + 1);
         types_.push_back({name, type, target_torque(type), tool_index(joint), {joint.id}});

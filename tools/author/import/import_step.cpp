@@ -199,6 +199,8 @@ class Importer {
     bool find_and_group_joints() {
         if (options_.joints) {
             search_ = find_joints(tree_, geometry_);
+            if (const Status turned = turn_at_heads(search_, options_.turn_heads); !turned)
+                return fail_with(turned.error());
             add_joint_nodes(tree_, search_);
             report().joints = search_.joints.size();
             report().remarks.insert(report().remarks.end(), search_.remarks.begin(), search_.remarks.end());

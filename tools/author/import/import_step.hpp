@@ -21,7 +21,8 @@ struct ImportOptions {
     double contact_deflection_mm = 0.0;  // of the contact model; 0: deflection_mm
     bool far_level = false;              // also write NAME.far.glb
     std::size_t far_triangles = 60'000;
-    bool joints = true;  // find joints and draft assembly.json
+    bool joints = true;                   // find joints and draft assembly.json
+    std::vector<std::string> turn_heads;  // ids of joints to turn at the head instead of the nut, or "all"
 };
 
 struct PartReport {

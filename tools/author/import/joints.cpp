@@ -25,6 +25,19 @@ struct BoltEnd {
     explicit operator bool() const { return nut || tapped; }
 };
 
+bool has_two_hexagons(const JointCandidate& joint) {
+    return joint.nut >= 0 && joint.tapped < 0 && joint.head == joint::HeadShape::hexagon;
+}
+
+// Of a joint that is turned at its nut.
+Vec3 head_seat(const JointCandidate& joint) { return joint.seat - joint.grip * joint.axis; }
+
+void turn_at_head(JointCandidate& joint) {
+    joint.seat = head_seat(joint);
+    joint.axis = -joint.axis;
+    joint.turned_at_head = true;
+}
+
 class JointFinder {
   public:
     JointFinder(const Tree& tree, const std::vector<PartGeometry>& parts) : tree_(tree), parts_(parts) {
@@ -52,6 +65,7 @@ class JointFinder {
         for (const PlacedFastener& stud : placed_of(FastenerKind::stud)) add_stud(stud);
         explain_unused();
         assign_ids();
+        turn_at_head_where_groups_are();
         return std::move(search_);
     }
 
@@ -145,8 +159,7 @@ class JointFinder {
         else if (search_.remarks.size() > before)
             search_.remarks.push_back(
                 "correct the parts above in CAD and import again, or write their joints into assembly.json "
-                "by hand; hexagon bolts with nuts that are turned at their heads are always written by hand, "
-                "and need a sub-assembly joint_ID in CAD (content/AUTHORING.md)");
+                "by hand (content/AUTHORING.md)");
     }
 
     std::string explain_stud(const BoltEnd& end) const {
@@ -382,9 +395,40 @@ class JointFinder {
                              return std::pair(a.id.size(), a.id) < std::pair(b.id.size(), b.id);
                          });
     }
+
+    // Where a group's origin is on the seat of the head, the author means to turn the head.
+    void turn_at_head_where_groups_are() {
+        for (JointCandidate& joint : search_.joints) {
+            if (joint.group < 0 || !has_two_hexagons(joint)) continue;
+            const Vec3& origin = poses_[static_cast<std::size_t>(joint.group)].position;
+            if (glm::distance(origin, head_seat(joint)) < glm::distance(origin, joint.seat))
+                turn_at_head(joint);
+        }
+    }
 };
 
 }  // namespace
+
+Status turn_at_heads(JointSearchResult& search, std::span<const std::string> ids) {
+    for (const std::string& id : ids) {
+        bool found = false;
+        for (JointCandidate& joint : search.joints) {
+            if (id != "all" && id != joint.id) continue;
+            const bool possible = has_two_hexagons(joint) && !joint.turned_at_head;
+            found = found || possible || joint.turns_head();
+            if (possible) turn_at_head(joint);
+        }
+        if (found || id == "all") continue;
+        std::string possible;
+        for (const JointCandidate& joint : search.joints)
+            if (has_two_hexagons(joint)) possible += (possible.empty() ? "" : ", ") + joint.id;
+        return fail(ErrorCode::usage,
+                    fmt::format("--turn-heads: no hexagon bolt with a nut is a joint {}", id),
+                    possible.empty() ? "no such option: the file has no hexagon bolt with a nut"
+                                     : fmt::format("one of {}, or all", possible));
+    }
+    return {};
+}
 
 JointSearchResult find_joints(const Tree& tree, const std::vector<PartGeometry>& parts) {
     return JointFinder(tree, parts).run();

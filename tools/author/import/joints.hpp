@@ -2,10 +2,12 @@
 // part, a stud with a nut that is screwed into a part, and the washers and parts between.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/base/result.hpp"
 #include "haptics/joint/design.hpp"
 #include "tools/author/import/clamped_members.hpp"
 #include "tools/author/import/tree.hpp"
@@ -25,6 +27,7 @@ struct JointCandidate {
     // m, distance from the head to the nut or the tapped part, of a stud from nut to tapped part, without the
     // washers
     double grip = 0.0;
+    bool turned_at_head = false;  // of a hexagon bolt with a nut: its head is turned, not its nut
     // Centre of the hole, m, on the face of the member under the nut or head that is turned.
     Vec3 seat{0.0};
     Vec3 axis{0.0, 1.0, 0.0};  // from the members to the nut or head that is turned
@@ -40,7 +43,9 @@ struct JointCandidate {
     [[nodiscard]] bool is_screw() const { return tapped >= 0 && nut < 0; }
     [[nodiscard]] bool is_stud() const { return tapped >= 0 && nut >= 0; }
     // Cap screws are turned at the head, with a key, even if they have a nut.
-    [[nodiscard]] bool turns_head() const { return is_screw() || head == joint::HeadShape::socket; }
+    [[nodiscard]] bool turns_head() const {
+        return is_screw() || head == joint::HeadShape::socket || turned_at_head;
+    }
 };
 
 struct JointSearchResult {
@@ -49,8 +54,13 @@ struct JointSearchResult {
 };
 
 // `parts`: by part of the document. A group named joint_ID in the file gives the id; other joints are
-// numbered J1, J2 … by position.
+// numbered J1, J2 … by position. A hexagon bolt with a nut is turned at its nut, unless the origin of its
+// group is on the seat of its head.
 JointSearchResult find_joints(const Tree& tree, const std::vector<PartGeometry>& parts);
+
+// Turns the hexagon bolts of these joints at their heads; "all": of all joints that can. Fails if an id is
+// unknown, or its joint is not a hexagon bolt with a nut.
+Status turn_at_heads(JointSearchResult& search, std::span<const std::string> ids);
 
 // Gives every joint a node joint_ID, at the seat with +Y along the axis, and moves its fasteners under it as
 // ID_bolt, ID_washer_head, ID_washer_nut and ID_nut (not of a screw). A group that exists in the file keeps
