@@ -63,9 +63,10 @@ std::vector<DisplayFinding> check_viewing(const DisplayFile& displays);
 std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const DisplayHost& host = {});
 
 // The findings of check_walls(), check_viewing() and check_outputs(); those that prevent the use come first.
+// If a finding of check_walls() prevents the use, check_viewing() is left out.
 std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const DisplayHost& host = {});
 
-// A line each; it begins with file, line and column of the wall.
+// A line each; it begins with the file, and with line and column of the wall if the finding has one.
 std::string describe(std::span<const DisplayFinding> findings, const LoadedDisplays& loaded);
 
 }  // namespace bolt::content

@@ -57,8 +57,9 @@ ordered_json json_of(const Flystick& flystick) {
     return object;
 }
 
-// Writes the members that only a tracker uses if the head has that tracker or their values are not the
+// Writes `port`, `body` and `pose` if the head has the tracker that uses them, or if they are not the
 // defaults.
+// Writes the members from `axes` on together, if any of them is not the default.
 ordered_json json_of(const HeadTracking& head) {
     const HeadTracking unless_given;
     ordered_json object;

@@ -20,14 +20,16 @@ struct ImportedDisplays {
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };
 
-// Each Machine becomes a wall with a window at its Geometry; machines of one Name are shown by one process.
-// Two machines with the same corners and the stereo types Left and Right become one wall with two outputs.
 struct PvxOptions {
     double scale = 1.0;  // metres per unit of the file's corners and eye separation
-    // m, of the file's origin above the floor. In many files the origin is between the viewer's eyes; the
-    // head is then placed there.
+    // m, of the file's origin above the floor. In many files the origin is between the viewer's eyes. The
+    // head is placed at the origin if it is in front of all walls there.
     std::optional<double> eye_height{};
 };
+
+// Each Machine becomes a wall, with a window at its Geometry or, without one, on a monitor. Machines of one
+// Name are shown by one process. Two machines with the same corners and the stereo types Left and Right
+// become one wall with two outputs.
 ImportedDisplays import_pvx(std::string_view text, const std::string& file, const PvxOptions& options = {});
 ImportedDisplays load_pvx(const std::filesystem::path& path, const PvxOptions& options = {});
 

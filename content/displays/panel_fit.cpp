@@ -12,7 +12,7 @@ namespace {
 
 constexpr double margin_share = 0.02;  // of the wall's edges, which stays free
 constexpr double below_eyes = 0.03;    // rad, of the direction to the panel
-constexpr int refinements = 4;         // the distance determines the size, and the size the place
+constexpr int refinements = 4;         // place, distance and size depend on one another
 
 struct RatedFit {
     PanelFit fit;

@@ -22,7 +22,7 @@ struct PanelFit {
 };
 
 // The panel on the wall that shows it best: with text of comfortable_text, or as large as the wall permits,
-// near the direction in which the head looks, a little below the eyes. None: no wall is in front of the head.
+// near the direction in which the head looks, a little below the eyes. None: the head is in front of no wall.
 std::optional<PanelFit> fit_panel(std::span<const Wall> walls, const Pose& head);
 
 }  // namespace bolt::content

@@ -33,8 +33,8 @@ std::array<Vec3, 4> corners_of(const WallAxes& wall, double margin = 0.0);
 // Parallel walls do not cross.
 bool walls_cross(const WallAxes& a, const WallAxes& b, double margin);
 
-// If an edge of `a` lies in the plane of `b` and inside its outline, returns its distance from the outline,
-// m; none if that is at most `tolerance`. The part of `b` behind `a` cannot be seen.
+// If an edge of `a` lies in the plane of `b` and inside the outline of `b`, returns the distance of the edge
+// from that outline; none if it is at most `tolerance`. The part of `b` behind `a` cannot be seen.
 std::optional<double> edge_inset(const WallAxes& a, const WallAxes& b, double tolerance);
 
 // The width of the strip that two walls in the same plane (to `tolerance`) have in common; none if they have

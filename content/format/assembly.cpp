@@ -144,7 +144,8 @@ fs::path canonical_path(const fs::path& path) {
     return problem ? path : whole;
 }
 
-// An assembly in content/ may refer to files in content/, any other assembly only to files in its own folder.
+// An assembly in content/ may refer to files in content/, any other assembly to files in its own folder. The
+// models of tools are in content/tools for both.
 ModelFolders model_folders(const fs::path& file) {
     const fs::path folder = canonical_path(file).parent_path(), content = canonical_path(content_folder());
     const auto differs = std::mismatch(content.begin(), content.end(), folder.begin(), folder.end());

@@ -37,8 +37,8 @@ struct Specification {
     ToleranceWindow torque;    // N·m, at the wrench
     double snug_torque = 0.0;  // N·m, from which the tightening angle is measured
     bool has_angle = false;
-    // rad, judged if has_angle. It counts from the snug torque or, in a lesson with turn passes, from where
-    // the nut rests when the first of them begins: there a fitter marks nut and part.
+    // rad, judged if has_angle. It counts from the angle at which the nut reaches the snug torque or, in a
+    // lesson with turn passes, from the nut's angle when its first step of kind `turn` begins.
     ToleranceWindow angle;
     double target_clamp = 0.0;  // N; 0: derived from the target torque and the nominal friction
     RiskClass risk = RiskClass::C;
@@ -119,7 +119,7 @@ struct WrenchDesign {
     double jaw = 0.0, size = 0.0;
     int teeth = 0;                // of a ratchet; 0: none
     double extension = 0.0;       // m, length of the bar between ratchet and socket or bit; 0: none
-    double head_thickness = 0.0;  // m; 0, here and below: not given (defaults in haptics/collision/jaw.hpp)
+    double head_thickness = 0.0;  // m; 0, as in jaw_depth and jaw_tip: not given (collision::make_jaw())
     double jaw_depth = 0.0;       // m, from the middle of the jaw to its throat
     double jaw_tip = 0.0;         // m, from the middle of the jaw to its tips
     double head_angle = 0.0;      // rad, between jaw and handle
@@ -206,7 +206,7 @@ struct Assembly {
     std::vector<Pass> passes;
     std::vector<Pass>
         loosening;            // passes of a loosening lesson; empty: one, in the reverse of the last order
-    std::vector<Tool> tools;  // the default one first; of a variant with `joints` those that turn them
+    std::vector<Tool> tools;  // the default one first; a variant with `joints` has only those that turn these
     std::string tool;         // name of the chosen tool
     WrenchDesign wrench;      // of the chosen tool
     FlangeDesign flange;
@@ -231,8 +231,8 @@ struct LoadedAssembly {
 LoadedAssembly parse_assembly(std::string_view text, std::string_view file, std::string_view variant = {});
 
 // Loads an assembly. `where` is a folder with an assembly.json, a file, or one of assembly_names().
-// The files that the assembly refers to must exist within content/ or, for an assembly outside content/,
-// within its own folder.
+// The files that the assembly refers to must exist: models of tools within content/tools, all others within
+// content/ or, for an assembly outside content/, within its own folder.
 LoadedAssembly load_assembly(const std::filesystem::path& where, std::string_view variant = {});
 
 // The tools that a trainee can choose for the joints that name no tool: the default one, and those that no
@@ -260,7 +260,7 @@ struct LessonTools {
 // In the order in which the joints of the first pass need them.
 LessonTools lesson_tools(const Assembly& assembly);
 
-// Their designs, in this order.
+// The designs of lesson.tools, in their order.
 std::vector<const WrenchDesign*> designs_of(const Assembly& assembly, const LessonTools& lesson);
 
 // The tool that turns a joint: its own one, or the chosen one, or the one that the latter names instead.

@@ -74,8 +74,8 @@ std::string suggest_joint(std::string_view id, const std::vector<std::string>& m
                              nearest_name(id, missing).empty() ? "expected " : "", suggest(id, missing));
 }
 
-// Reads an order, which contains no joint twice. An unknown name probably stands for a missing joint
-// (only the name is then reported), or for a joint without a valid id (the name is then not reported).
+// Reads an order, which contains no joint twice. An unknown name probably stands for a joint that the order
+// lacks, and then only the name is reported; or for a joint without a valid id, and then nothing is reported.
 std::vector<std::size_t> read_order(JsonReader& reader, const JsonNode& node, const JointIds& ids,
                                     OrderRule rule = OrderRule::every_joint) {
     std::vector<std::size_t> order;

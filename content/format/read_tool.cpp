@@ -155,8 +155,8 @@ bool suits_any(const WrenchDesign& wrench, const std::vector<AssemblyJoint>& joi
                        [&](const AssemblyJoint& joint) { return suits(wrench, joint.design); });
 }
 
-// Reports a tool whose size fits no part, or not the part that its joint has. `remedy`: another one than
-// another size; may be empty.
+// Reports a tool, once, if a part of `joints` that its kind can grip has another size. `remedy`: appended to
+// the expected size; may be empty.
 void check_fit(JsonReader& reader, const Located<double>& given, const WrenchDesign& wrench,
                const std::vector<AssemblyJoint>& joints, const std::string& remedy) {
     const bool inside = grips_inside(wrench);
@@ -220,7 +220,7 @@ std::vector<AssemblyJoint> joints_of(std::string_view tool, const std::vector<As
     return own;
 }
 
-// Returns true if a joint type names the tool, but no joint has this type because another one is misspelled.
+// Returns true if a joint type names the tool and a joint has an unknown type, perhaps this one misspelled.
 bool lost_its_joints(JsonReader& reader, std::string_view tool, const std::vector<AssemblyJoint>& joints) {
     const auto is_unknown = [](const AssemblyJoint& joint) {
         return joint::turned_part_size(joint.design).across_flats <= 0.0;
@@ -269,8 +269,8 @@ ParsedTool parse_tool(JsonReader& reader, std::string name, const JsonNode& node
 // Checks that a tool fits the joints that it is to turn.
 void check_sizes(JsonReader& reader, const ParsedTool& parsed, const std::vector<AssemblyJoint>& joints) {
     const WrenchDesign& wrench = parsed.tool.wrench;
-    // Each trainee may select a tool that no joint type names, so such a tool must fit all joints without
-    // one.
+    // Each trainee may select a tool that no joint type names, so such a tool must fit all joints that name
+    // no tool.
     const bool fits_another = !is_named(parsed.tool.name, joints) && suits_any(wrench, joints);
     const std::string remedy = fits_another ? fmt::format(", or \"tool\": {} in the joint types of its size",
                                                           in_quotes(parsed.tool.name))
@@ -438,7 +438,7 @@ std::vector<Tool> read_tools(JsonReader& reader, const std::string& variant, con
     std::vector<Tool> tools;
     for (const std::size_t i : kept) {
         const std::string& name = parsed[i].tool.name;
-        // A misspelled name leaves a tool without its joints. It is not compared with the other joints then.
+        // A tool that has lost its joints by a misspelled name is not compared with other joints.
         if (is_named(name, joints.joints) || (names_are_known && !lost_its_joints(reader, name, joints.all)))
             check_sizes(reader, parsed[i], joints_of(name, joints.joints));
         tools.push_back(parsed[i].tool);

@@ -105,7 +105,7 @@ std::vector<ComparedGroup> groups_of_conditions(StudyReader& reader, const JsonN
     return groups;
 }
 
-// Each condition of `groups` is in a group of `others` too, and each pair of groups shares a condition.
+// Reports each pair of a level of the factor and a level of the interaction that no condition has.
 void check_cells(StudyReader& reader, const JsonNode& node, const PlannedComparison& comparison) {
     for (const ComparedGroup& a : comparison.groups)
         for (const ComparedGroup& b : comparison.interaction_groups)

@@ -55,7 +55,7 @@ StudyLesson read_lesson(JsonReader& json, const JsonNode& own, const StudyLesson
     return lesson;
 }
 
-// A lesson of the plan, and the base whose settings it replaces.
+// Reads and checks the member "lesson" of `object`. Settings that it lacks are those of `base`.
 StudyLesson read_whole_lesson(JsonReader& json, const JsonNode& object, const StudyLesson& base) {
     const JsonNode own = json.member(object, "lesson");
     StudyLesson lesson = read_lesson(json, own, base);

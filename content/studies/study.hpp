@@ -72,7 +72,7 @@ enum class FormTime : std::uint8_t {
     before,           // after consent
     after_training,   // needs a training
     after_lesson,     // after each lesson of a condition
-    after_condition,  // after its last lesson
+    after_condition,  // after the last lesson of a condition
     after,            // at the end of the first visit
     retention,        // after the retention test
 };
@@ -175,8 +175,8 @@ Error plan_error(const std::filesystem::path& folder, const std::vector<std::str
 // factors that change together, comparisons that repeat each other (check_plan.cpp).
 std::vector<Error> plan_weaknesses(const Study& study, const std::filesystem::path& folder);
 
-// The JSON pointers at which a lesson's member may be, the lesson's own first. `lesson`: "/training" or
-// "/conditions/2".
+// The JSON pointers for an error about a lesson's member: the lesson's own, that of the study's "lesson", the
+// object `lesson`, the whole plan. `lesson`: "/training", "/retention" or "/conditions/2".
 std::vector<std::string> lesson_pointers(const std::string& lesson, const std::string& member);
 
 inline constexpr const char* study_file_name = "study.json";

@@ -25,7 +25,7 @@ struct IdentifiedPerson {
     // Why the name cannot be found or saved. The person then has a code without a name: a lesson is possible,
     // but nothing connects it with the person's other lessons.
     std::optional<Error> names_error{};
-    std::string similar_code{};  // a known code that differs from the typed, unknown one in a character
+    std::string similar_code{};  // the only known code that differs from the typed one in one character
     std::vector<Error> adoption_errors{};  // files of older programs that could not be renamed
 };
 

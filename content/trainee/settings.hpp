@@ -24,9 +24,8 @@ inline constexpr std::size_t max_trainee_name_size = 64;         // bytes
 
 // The settings file:
 //
-//   {"format": "boltwright settings 1", "trainee": "T-7K3M9Q", "language": "de", "volume": 0.8, "vibration":
-//   0.5,
-//    "captions": true, "palette": "distinct", "left_handed": false, "force_scale": 0.5,
+//   {"format": "boltwright settings 1", "trainee": "T-7K3M9Q", "language": "de", "volume": 0.8,
+//    "vibration": 0.5, "captions": true, "palette": "distinct", "left_handed": false, "force_scale": 0.5,
 //    "seated_height_m": 1.2, "force_arrow": false, "surroundings": true, "vignette": false,
 //    "law": "published",
 //    "keys": {"tool": "T", "hint": "F1"}}

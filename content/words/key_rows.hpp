@@ -100,7 +100,7 @@ inline constexpr KeyRow key_rows[] = {
     {"how.lift", "control fastener"},
     {"how.set_back", "control fastener"},
     {"how.hold", "control"},
-    // Values of {control}, for a mouse and for a device (game/lesson/hints.cpp). Their choices are selected
+    // Values of {control}, one group a device (game/lesson/control_names.cpp). Their choices are selected
     // with those of the text that contains them.
     {"control.mouse.take", "key"},
     {"control.mouse.put_away", "key"},
@@ -274,7 +274,7 @@ inline constexpr KeyRow key_rows[] = {
     {"menu.vibration", ""},
     {"menu.settings", ""},
     {"menu.back", ""},
-    // The menu: choices, what is missing for them, its pages (game/trainer/menu.cpp).
+    // The menu: choices, and what is missing for them (menu*.cpp and assembly_entry.cpp in game/trainer).
     {"menu.tagline", ""},
     {"menu.tour", ""},
     {"menu.tour.about", ""},
@@ -305,6 +305,7 @@ inline constexpr KeyRow key_rows[] = {
     {"arm.calibrates", ""},
     {"arm.warm", ""},
     {"arm.rests", ""},
+    // The check of an arm's registration by touching its check point (game/trainer/touch_check.cpp).
     {"touch.ask", ""},
     {"touch.mark", ""},
     {"touch.tip", ""},
@@ -331,6 +332,7 @@ inline constexpr KeyRow key_rows[] = {
     // The dialog of a lesson whose headset is missing.
     {"room.lost", ""},
     {"room.use_mouse", ""},
+    // The pages of the menu about this computer and its files (game/trainer/menu_pages.cpp).
     {"menu.computer", ""},
     {"menu.files", ""},
     {"files.sessions", "folder"},
@@ -432,7 +434,7 @@ inline constexpr KeyRow key_rows[] = {
     {"caption.scrape", ""},
     {"caption.tooth", ""},
     {"caption.run", ""},
-    // Boxes over the picture of a lesson (game/trainer/hud.cpp); hud.turns is a label at the nut.
+    // Boxes over the picture of a lesson (game/trainer/hud.cpp); hud.turns and label.pull are labels.
     {"hud.curve", "joint"},
     {"hud.step", "step of"},
     {"hud.pull", "force"},
