@@ -218,8 +218,8 @@ struct ValidateOptions {
     std::string variant, pictures;
 };
 
-// Draws the joints of each variant. Pictures of a joint that an earlier variant has drawn differently go into
-// a folder of the variant.
+// Draws the joints of each variant. If an earlier variant has drawn one of them, all pictures of the variant
+// go into a folder of its own.
 Status draw_pictures(const std::vector<CheckedVariant>& variants, const std::string& folder) {
     std::set<std::string> drawn;
     for (const CheckedVariant& variant : variants) {

@@ -74,7 +74,7 @@ std::uint32_t find_obstruction(const Obstacles& surroundings, const Bvh& tool, c
         for (const double angle : tried_angles(arc)) {
             PathProbe path{surroundings, tool, angle};
             if (path.free(start, up, lift)) return no_part;
-            // Sideways off the nut: the wrench moves towards the bottom of its jaw, along its handle.
+            // Sideways off the nut: the wrench moves in the direction from its mouth to its throat.
             const double away = angle + paths.jaw_angle, off = jaw_to_tip * paths.head_size;
             const Vec3 direction{std::cos(away), 0.0, -std::sin(away)};
             PathProbe sideways{surroundings, tool, angle};

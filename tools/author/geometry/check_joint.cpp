@@ -158,8 +158,9 @@ void check_tapped_members(const JointCheck& s) {
                 "both within 0.1 mm");
 }
 
-// The lower and upper end of the part of a fastener that has the height `y`: head and shank of a bolt shrink
-// separately, so that the bearing face under the head leaves the member.
+// The lower and upper end of what a point at the height `y` belongs to: the head or the shank of a bolt, or
+// the whole of another fastener. Head and shank shrink separately, so that the bearing face under the head
+// leaves the member.
 std::pair<double, double> section_around(const JointCheck& s, const Fastener& fastener, double y) {
     const double low = fastener.box.low.y, high = fastener.box.high.y;
     if (&fastener != &s.parts.bolt || s.joint.design.form == joint::JointForm::stud) return {low, high};

@@ -43,7 +43,7 @@ struct ToolCheck {
     [[nodiscard]] const char* turned() const {
         return space.joint().design.turned == joint::TurnedPart::head ? "head" : "nut";
     }
-    // `expected`: without other tools; empty: a free path.
+    // `expected`: a remedy besides another tool, which is appended; may be empty.
     void error(const std::string& what, std::string expected) const {
         const std::string other = rooms.describe_fitting_tool(tool);
         const bool nothing_fits = expected.empty() && other.empty();
@@ -75,8 +75,8 @@ std::string ToolCheck::expected_swing(const SwingPair& swings) const {
         return fmt::format("{:.3g} degrees, two teeth of its ratchet", to_degrees(rule.least));
     if (!shape.is_open_end())
         return fmt::format("{:.3g} degrees, after which it fits again", to_degrees(rule.least));
-    // If the swing is enough either way up, the head limits the wrench, at the same jaw angles either way up,
-    // so that turning it over gains nothing.
+    // If each way up has enough swing, both cover the same angles of the jaw, so that turning the wrench over
+    // gains nothing.
     const bool gains_nothing = std::abs(shape.head_angle) < to_radians(1.0) || swings.least() >= rule.least;
     return gains_nothing ? "60 degrees: turning the wrench over gains nothing here"
                          : "30 degrees or more both ways up, or 60 one way up";

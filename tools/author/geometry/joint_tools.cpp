@@ -14,7 +14,7 @@ namespace bolt::geometry {
 namespace {
 
 constexpr double beyond_grip = 50.0 * mm;  // from the middle of the grip to the end of the handle
-constexpr double much_torque = 0.8;        // of the test torque, beyond which there is a note
+constexpr double much_torque = 0.8;        // of the torque that the tool bears, beyond which there is a note
 constexpr double much_force = 800.0;       // N at the grip, beyond which there is a note (ours)
 
 }  // namespace

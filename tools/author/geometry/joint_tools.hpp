@@ -24,8 +24,8 @@ std::string name_of_tool(const content::Assembly& assembly, std::size_t tool);
 // Designs of common tools, with common lengths, of the kinds that can turn the part of a joint.
 std::vector<content::WrenchDesign> usual_tools(const joint::JointDesign& design);
 
-// Reports each tool that cannot grip the part of a joint, has another size, or bears less than the joint's
-// target torque. Reports each pair of joint type and tool once.
+// Reports each tool that cannot grip the part of a joint, has another size, or bears less than the highest
+// torque that is judged OK. Reports each pair of joint type and tool once.
 void check_tools(const content::Assembly& assembly, const Messages& messages);
 
 }  // namespace bolt::geometry

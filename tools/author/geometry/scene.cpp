@@ -144,8 +144,8 @@ Fastener find_fastener(const FlattenedModel& scene, int joint_node, std::string 
     return fastener;
 }
 
-// The triangles of a bolt above the `face` (m) that its head bears on and above the fillet there, or wider
-// than its shank and the fillet.
+// The head of a bolt: the triangles above its bearing face, at the height `face` (m), and the fillet there,
+// and those that reach further out than shank and fillet.
 Fastener head_of(const Fastener& bolt, double diameter, double face) {
     const double shank = 0.62 * diameter, fillet = 0.12 * diameter;
     const auto is_wide = [&](const Vec3& p) { return std::hypot(p.x, p.z) > shank; };

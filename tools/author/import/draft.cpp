@@ -158,7 +158,7 @@ class DraftWriter {
         return {joint::HeadShape::hexagon, thread->size.across_flats, 0.0};
     }
 
-    // Index into tools_; their number if an assembly has too few tools for this joint.
+    // Index into tools_; tools_.size() if draft_tools() has left out the tool of this joint.
     std::size_t tool_index(const JointCandidate& joint) const {
         const auto found = std::find_if(tools_.begin(), tools_.end(),
                                         [&](const DraftTool& tool) { return tool.need == need_of(joint); });

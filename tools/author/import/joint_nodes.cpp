@@ -20,7 +20,7 @@ Quat rotation_to(const Vec3& axis) {
     return glm::normalize(Quat{1.0 + cos, cross.x, cross.y, cross.z});
 }
 
-// Adds a node at the seat, under the nearest common ancestor of bolt and nut; of a screw beside it.
+// Adds a node at the seat, under the nearest common ancestor of bolt and nut, or beside a screw.
 int make_group(Tree& tree, const JointCandidate& joint) {
     const int node = static_cast<int>(tree.nodes.size());
     TreeNode group;

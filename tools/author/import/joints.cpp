@@ -78,7 +78,7 @@ class JointFinder {
     std::map<int, int> bolt_of_nut_;  // nodes
     struct UnusedBolt {
         PlacedFastener bolt;
-        BoltEnd end;  // empty, unless the bolt's size is not metric
+        BoltEnd end;  // of a bolt: empty if its size is metric; of a stud: its nut, if any
     };
     std::vector<UnusedBolt> unused_bolts_;
 

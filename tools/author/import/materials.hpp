@@ -71,8 +71,8 @@ class MaterialPicker {
     explicit MaterialPicker(const MaterialTable& table) : table_(table) {}
 
     // Returns an index into materials(). Order: an exact colour of the table; a name, longest pattern first;
-    // a guess from the colour, with transparent as glass, grey as metal, nearly black as plastic and all else
-    // as paint.
+    // a guess from the colour, with transparent as glass, grey or none as metal, nearly black as plastic and
+    // all else as paint.
     int pick(const FaceAppearance& appearance);
 
     [[nodiscard]] const std::vector<assets::Material>& materials() const { return materials_; }

@@ -40,7 +40,7 @@ struct Blocker {
     double total = 0.0, widest = 0.0, middle = 0.0;  // rad
 };
 
-// The widest first.
+// Sorted by `total`, the largest first.
 std::vector<Blocker> blockers_of(const geometry::DrawnToolRooms& rooms, const geometry::DrawnToolRoom& room);
 
 // "40.0 degrees of free swing; blocked by "casing" (320 degrees)". `tool`: name of the tool, if the joint has
