@@ -41,7 +41,7 @@ constexpr int cover_screws = 4;
 constexpr double leg_x = -226.0, leg_half_width = 70.0;
 constexpr double plate_top = -axis_height, plate_thickness = 30.0;
 
-// A solid of revolution about X: its outline has the axial position as the second coordinate.
+// Lays a solid of revolution about Z along the shaft: z becomes x.
 TopoDS_Shape about_shaft(const TopoDS_Shape& about_z) {
     gp_Trsf lay;
     lay.SetTransformation(gp_Ax3(gp_Pnt(0.0, 0.0, 0.0), gp::DX(), gp::DY()), gp_Ax3(gp::XOY()));
@@ -55,7 +55,7 @@ TopoDS_Shape drill_z(double x, double y, double z0, double z1, double diameter) 
     return cylinder(gp_Ax2(gp_Pnt(x, y, z0), gp::DZ()), 0.5 * diameter, z1 - z0);
 }
 
-// The places of `count` joints on a circle about the shaft, the first half a step past the top.
+// The place of joint `i` of `count` on a circle about the shaft; joint 0 is half a step past the top.
 gp_Pnt on_circle(int i, int count, double radius, double x) {
     const double angle = (i + 0.5) * 2.0 * pi / count;
     return {x, radius * std::sin(angle), radius * std::cos(angle)};

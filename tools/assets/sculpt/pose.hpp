@@ -29,7 +29,7 @@ std::optional<HandPosture> named_pose(std::string_view name);
 // Returns the same pose for the left hand.
 HandPosture mirrored(const HandPosture& pose);
 
-// Returns a copy of the hand in the pose, without its skin. Joints are found by name.
+// Returns a copy of the hand in the pose, as a mesh without a glTF skin. Joints are found by name.
 Result<assets::Model> posed(const assets::Model& hand, const HandPosture& pose);
 
 // The same for given global joint transforms in the frame of the model.

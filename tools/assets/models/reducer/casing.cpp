@@ -102,7 +102,8 @@ Result<Casting> casing_upper() {
     });
 }
 
-// The lower half is built upside down, as the upper half is, and turned over before its holes are cut.
+// The lower half is built upside down, from the same shapes as the upper half, and turned over before its
+// holes are cut.
 Result<Casting> casing_lower() {
     return catch_build_errors("lower casing", [] {
         const TopoDS_Shape outside = housing(contour_lower, 0.0, half_width, 10.0);
