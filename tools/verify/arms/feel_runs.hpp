@@ -54,7 +54,7 @@ enum class Pull : std::uint8_t {
 };
 inline constexpr std::string_view pull_names[] = {"hold", "breakaway", "yield", "slip off"};
 
-// `options.tool` and `guided_joint` are ignored.
+// `options.tool` is ignored.
 FeelOutcome run_press(TightenedAssembly& tightened, RigOptions options, const Press& press);
 FeelOutcome run_pull(TightenedAssembly& tightened, RigOptions options, Pull pull);
 

@@ -21,7 +21,7 @@ struct PenetrationRun {
 
 // `motions` straight motions between random free poses, through anything that lies between, 1.5 s each.
 // Beyond the play, the hexagon of the nut in the jaw is assumed to turn with the jaw, as in
-// servo/tool_contact.hpp.
+// haptics/servo/tool_contact.hpp.
 PenetrationRun run_through_obstacles(const servo::Setup& setup, servo::State& state,
                                      const ContactScene& scene, std::uint64_t seed, int motions);
 
