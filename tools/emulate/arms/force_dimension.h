@@ -13,11 +13,14 @@ struct EmulatedArmHand {
 
 // Resets to an arm that is switched on and connected, has not found its position and rests at the origin, at
 // time 0. From then on only emu_advance() advances its time. Before the first call its clock is the
-// computer's, and environment variables control it: it knows its position from the start if
-// EMULATED_ARM_INITIALIZED is set, and otherwise takes EMULATED_ARM_HOMING seconds to find it; it is switched
-// off while EMULATED_ARM_SWITCH names a file that does not exist; EMULATED_ARM_BUTTONS is the mask of its
-// buttons. If EMULATED_ARM_HAND names a file "x y z buttons", the hand holds the arm rigidly there; to move
-// it, write a new file and rename it.
+// computer's, and environment variables control it:
+// - EMULATED_ARM_INITIALIZED: if set, the arm knows its position from the start
+// - EMULATED_ARM_HOMING: s that it otherwise takes to find its position
+// - EMULATED_ARM_SWITCH: a file; while it does not exist, the arm is switched off
+// - EMULATED_ARM_BUTTONS: mask of the buttons
+// - EMULATED_ARM_DELAY: s from a call until its force acts
+// - EMULATED_ARM_HAND: a file "x y z buttons"; the hand holds the arm rigidly there. To move the hand, write a
+//   new file and rename it.
 void emu_reset(void);
 void emu_advance(double seconds);
 void emu_hand(struct EmulatedArmHand hand);

@@ -75,7 +75,7 @@ struct EmulatedHaply::Service {
     std::uint16_t port = 0;
     asio::io_context io;
     std::vector<Tcp::acceptor> acceptors;  // states, events, /version of old services
-    mutable std::mutex mutex;              // guards the next three members
+    mutable std::mutex mutex;              // guards the next four members
     HaplyArmModel model;
     double followed = steady_seconds();  // s, time of the model
     std::set<int> sockets;               // of open connections

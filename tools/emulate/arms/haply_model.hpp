@@ -17,12 +17,12 @@ enum class HaplyGrip : std::uint8_t { none, wired, wireless };
 
 enum class HaplyFault : std::uint8_t {
     none,
-    // Instead of the next answer:
+    // Instead of every answer from now on:
     close,     // the connection ends
-    silence,   // nothing, from now on
+    silence,   // nothing
     nonsense,  // text that is not JSON
     array,     // JSON that is no object
-    huge,      // 200 kB
+    huge,      // 200 kB of blanks after the answer
     // In every answer from now on:
     null_position,
     text_position,

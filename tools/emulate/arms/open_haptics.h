@@ -23,7 +23,7 @@ struct EmulatedHdReport {
 // Resets to a calibrated Touch that is switched on and connected and rests at the origin, at time 0. From
 // then on only emu_hd_advance() advances its time. Before the first call, and again after emu_hd_own_clock(),
 // the scheduler runs in a thread, in real time. If EMULATED_ARM_NEEDS_INKWELL is set, the arm needs its
-// inkwell until emu_hd_reset().
+// inkwell until emu_hd_inkwell() or emu_hd_reset().
 void emu_hd_reset(void);
 void emu_hd_own_clock(void);
 void emu_hd_advance(double seconds);
