@@ -53,15 +53,15 @@ class TorqueCurveBuilder {
     double sign_ = 1.0;
     double origin_ = 0.0;  // rad
     double anchor_ = 0.0;  // rad turned when the last sample was added
-    double step_;  // rad after it within which values merge into it; doubles when the curve is too long
+    double step_;  // rad; samples this close behind anchor_ are merged; grows when the curve is too long
 };
 
 // The curve of a measured run, without stages.
 TorqueCurve make_torque_curve(std::span<const double> angle, std::span<const double> torque,
                               joint::Direction direction);
 
-// The session's curves, one for each joint of the assembly; none for a nut that was not turned by at least 1°
-// in this direction under load.
+// The session's curves, one for each joint of the assembly; none for a nut that turned by less than 1° in
+// this direction, or had no torque in it.
 Result<std::vector<std::optional<TorqueCurve>>> torque_curves(const session::SessionReader& session,
                                                               std::size_t joints, joint::Direction direction);
 
@@ -78,8 +78,8 @@ struct Alignment {
 };
 
 // Aligns curves from make_torque_curve(). Tightening: where the running maximum of the torque passes `share`
-// of the highest torque of both, so that a ripple or a re-grip does not move the point. Loosening: at the
-// breakaway peak.
+// of the highest torque that both reach, so that a ripple or a re-grip does not move the point. Loosening: at
+// the breakaway peak.
 Result<Alignment> align(const TorqueCurve& simulated, const TorqueCurve& measured,
                         double share = default_alignment_share);
 
@@ -100,8 +100,8 @@ struct TorqueErrors {
     double floor = 0.0;       // N·m; pooled: the largest
 };
 
-// Share of a run's highest |T_a| below which a sample is excluded: 1 %, the resolution of a good torque
-// sensor.
+// Share of a run's highest |T_a| below which a sample has no relative error: 1 %, the resolution of a good
+// torque sensor.
 inline constexpr double default_floor_share = 0.01;
 
 // Share of a run's highest |T_a| below which a sample does not enter the MRE: 5 %, at which a joint counts as
@@ -109,8 +109,8 @@ inline constexpr double default_floor_share = 0.01;
 inline constexpr double near_zero_share = 0.05;
 
 // Errors at the measured samples. Interpolates the simulated torque; the stage is that of the simulated
-// sample before. Adds `shift` in rad to the measured angles; `floor` and `mre_floor`, for the MRE only, in
-// N·m.
+// sample before. Adds `shift` in rad to the measured angles; `floor` and `mre_floor`: N·m; the second one
+// applies to the MRE only.
 TorqueErrors torque_errors(const TorqueCurve& simulated, const TorqueCurve& measured, double shift,
                            double floor, double mre_floor = 0.0);
 
@@ -127,11 +127,11 @@ struct ComparisonOptions {
     bool same_joint = false;  // the user asserts that the record is of this joint: its curves are not judged
 };
 
-// One run of the measured file compared with one joint. Errors relative to the measured value, with sign;
-// NaN where there is none.
+// One run of the measured file compared with one joint.
 struct CycleComparison {
     Alignment alignment;
     TorqueErrors errors;
+    // Relative to the measured value, with sign; NaN where there is none.
     double slope_error = nan;      // of the regression lines over the angles of the linear stage
     double breakaway_error = nan;  // of the highest loosening torque
 };

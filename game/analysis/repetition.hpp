@@ -2,8 +2,7 @@
 // bolt, so whole repetitions are resampled, never single samples of a curve, which depend on each other.
 //
 // All intervals are percentile bootstrap intervals of 95 % (statistics/summary.hpp) with the fixed seed
-// `band_seed`, so equal files give equal pages. With n repetitions they describe the mean over repetitions;
-// below `min_repetitions` they are not computed.
+// `band_seed`, so equal files give equal pages. Below `min_repetitions` they are not computed.
 #pragma once
 
 #include <array>
@@ -20,6 +19,7 @@ namespace bolt::analysis {
 inline constexpr std::size_t min_repetitions = 4;
 inline constexpr std::uint64_t band_seed = 1;
 
+// Intervals of the errors of a stage or of all, each error pooled over the samples of all repetitions.
 struct StageBand {
     statistics::ConfidenceInterval mape, rmse;  // NaN: not enough repetitions with samples
 };
@@ -35,7 +35,8 @@ struct RepetitionBands {
 
 RepetitionBands repetition_bands(std::span<const CycleComparison> cycles);
 
-// The mean measured torque with its interval, at angles of the simulated curve that all repetitions reach.
+// The mean measured torque with its interval, at evenly spaced angles that all repetitions reach, counted as
+// in the simulated curve.
 struct CurveBand {
     std::vector<double> angle;            // rad, ascending; empty: not enough repetitions
     std::vector<double> mean, low, high;  // N·m

@@ -13,9 +13,9 @@
 
 namespace bolt::analysis {
 
-// The peaks of one joint may differ by this factor. VDI 2230 table A1: at the same use of the bolt's
-// strength, friction from 0.08 to 0.24 changes the torque by a factor of 2.1, the class from 8.8 to 12.9
-// by 1.7; two coarse sizes further (M8, M12) it is 3.4. One cause alone does not reach 3.
+// The peaks of one joint may differ by this factor. VDI 2230 table A1, at the same use of the bolt's
+// strength: friction from 0.08 to 0.24 changes the torque by a factor of 2.1, and the class from 8.8 to 12.9
+// by 1.7; neither alone reaches 3. Two coarse sizes (M8 to M12) change it by 3.4.
 inline constexpr double largest_peak_ratio = 3.0;
 
 // The slopes of the linear stage may differ by this factor. The slope is the product of stiffness, pitch and
@@ -32,8 +32,8 @@ inline constexpr double largest_fall_ratio = 2.0;
 // than largest_peak_ratio. Empty if they can.
 std::string different_peaks(const TorqueCurve& simulated, const std::vector<MeasuredCurve>& measured);
 
-// As above, from the median of the slopes. `cycles`: the alignments of the measured curves. Empty also if no
-// curve has a slope.
+// As above, from the median ratio of the slopes. `cycles`: the alignments of the measured curves. Empty also
+// if no curve has a slope.
 std::string different_slopes(const TorqueCurve& simulated, const std::vector<MeasuredCurve>& measured,
                              std::span<const CycleComparison> cycles);
 

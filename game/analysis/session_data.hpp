@@ -78,7 +78,8 @@ struct PassOrder {
     [[nodiscard]] bool in_turn() const;                // no entry is out of turn or repeated
     [[nodiscard]] bool as_planned() const;             // an order was planned, and followed completely
     [[nodiscard]] std::size_t skipped_joints() const;  // number of planned joints without a visit
-    // Position in the order, counted from 1; 0 if it is not in it. Repeated visits do not count.
+    // Position of the joint in the order, counted from 1; 0: the joint is not in it. Repeated visits do not
+    // count.
     [[nodiscard]] std::size_t planned_position(std::size_t joint) const;
     [[nodiscard]] std::size_t actual_position(std::size_t joint) const;
     [[nodiscard]] std::size_t visits(std::size_t joint) const;
