@@ -56,8 +56,8 @@ struct FactsRequest {
     audio::OpenSink open_sound = audio::open_openal;
 };
 
-// Takes as long as the timing and some tenths of a second more. Does not use Vulkan, so that another thread
-// may draw meanwhile. Writes no files.
+// Takes some tenths of a second; with timing, also its duration and the time to load the assembly. Does not
+// use Vulkan, so that another thread may draw meanwhile. Writes no files.
 ComputerFacts gather_facts(const FactsRequest& request);
 
 enum class Severity : std::uint8_t {
