@@ -42,7 +42,7 @@ double low_pass_gain(double frequency, double cut_off, double rate) {
 
 std::vector<double> zero_phase_low_pass(std::span<const double> samples, double cut_off, double rate) {
     if (samples.size() < 2) return {samples.begin(), samples.end()};
-    // Three periods of the cut-off: transients of the ends have decayed to 10⁻⁵ by then.
+    // Three periods of the cut-off: transients of the ends have decayed below 10⁻⁵ by then.
     const std::size_t n = samples.size();
     const auto pad =
         static_cast<std::size_t>(std::min(static_cast<double>(n - 1), std::ceil(3.0 * rate / cut_off)));

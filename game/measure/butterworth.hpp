@@ -2,8 +2,8 @@
 // forwards and backwards (as filtfilt in SciPy and MATLAB does), so that peaks and seats keep their angle.
 //
 // One pass has the gain 1/√(1 + (Ω/Ω_c)⁴), Ω = tan(π f/f_s) (bilinear transform). Two passes have its square,
-// so Ω_c is raised by (√2 − 1)^(−1/4): the gain of both is −3 dB at the cut-off (D. A. Winter, Biomechanics
-// and Motor Control of Human Movement, 4th ed. 2009, section 2.2.4.4).
+// so Ω_c is multiplied by (√2 − 1)^(−1/4): the gain of both is −3 dB at the cut-off (D. A. Winter,
+// Biomechanics and Motor Control of Human Movement, 4th ed. 2009, section 2.2.4.4).
 //
 //   gain(f) = 1 / (1 + (√2 − 1) (tan(π f/f_s) / tan(π f_c/f_s))⁴)
 #pragma once

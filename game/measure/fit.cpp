@@ -67,7 +67,7 @@ void collect(std::span<const Landmarks> runs, joint::Direction direction, JointF
         if (direction == joint::Direction::loosen) breakaways.push_back(std::abs(run.peak.torque));
     }
     fit.slope = measured(slopes);
-    // A few runs that yield among many that do not are no yield load of the joint.
+    // The joint has a yield load only if most runs yield.
     if (2 * yields.size() > runs.size()) fit.yield = measured(yields);
     fit.breakaway = measured(breakaways);
     fit.running = measured(free);
@@ -224,7 +224,7 @@ Result<JointFit> fit_joint(const joint::JointDesign& design, std::span<const Lan
 
 namespace {
 
-// Adds the members that distinguish a joint from a through-bolt whose nut is turned.
+// Adds the JSON members that distinguish a joint from a through-bolt whose nut is turned.
 void add_form(const joint::JointDesign& d, nlohmann::ordered_json& type) {
     if (d.head != joint::HeadShape::hexagon) type["head"] = name(d.head);
     if (d.thread_direction != joint::ThreadDirection::right)

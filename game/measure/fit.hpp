@@ -46,12 +46,14 @@ struct JointFit {
 // thread and bearing have this friction.
 double yield_torque(const joint::JointDesign& design, double friction);
 
-// `runs`: landmarks of the runs of one direction. Fails without a linear part (tightening).
+// `runs`: landmarks of the runs of one direction. Fails for tightening without a linear part or members, and
+// for loosening without a breakaway.
 Result<JointFit> fit_joint(const joint::JointDesign& design, std::span<const Landmarks> runs,
                            joint::Direction direction);
 
-// A fragment of an assembly file to paste: the materials of the members, and the joint type `name` with all
-// properties of the design. Its specification has only the target torque (N·m).
+// A fragment of an assembly file to paste: the materials of the members, and the joint type `name` with the
+// properties of the design, but without `counter_hold`, `start_gap_mm` and `nut_mass_g`. Its specification
+// has only the target torque (N·m).
 std::string joint_type_json(const JointFit& fit, const std::string& name, double target_torque);
 
 // The fitted values, and those that the data cannot tell, for the terminal.

@@ -115,7 +115,7 @@ Result<std::vector<double>> torque_values(const Rig& rig, const Table& table, co
     return filtered(rig, table, rows, channel, s, std::move(values));
 }
 
-// The angles of a column, as an encoder without an end would count them. Adds what was done to `notes`.
+// The angles of a column, as a multi-turn encoder would count them. Adds what was done to `notes`.
 Result<std::vector<double>> angle_values(const Rig& rig, const Table& table, const Rows& rows,
                                          std::size_t column, const Sampling& s,
                                          std::vector<std::string>& notes) {
@@ -136,7 +136,7 @@ Result<std::vector<double>> angle_values(const Rig& rig, const Table& table, con
     return filtered(rig, table, rows, channel, s, std::move(values));
 }
 
-// Subtracts the mean of the time at rest from `torque`.
+// Subtracts the mean torque of the time at rest.
 Status subtract_tare(const Rig& rig, const Table& table, const Rows& rows, const Sampling& s, RigRun& run) {
     if (rig.torque.tare == 0.0) return {};
     std::size_t count = 0;

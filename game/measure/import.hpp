@@ -1,7 +1,7 @@
 // Turns the files of a test rig into a record of torque over angle that `boltwright compare` reads, with the
 // uncertainty of every torque, and finds the landmarks of each run.
 //
-// Order: values of the channels, tare, low pass, torque from force and lever, angle, checks, uncertainty.
+// Order: values of the channels, low pass, torque from force and lever, tare, angle, checks, uncertainty.
 //
 // The uncertainty is a combined standard uncertainty after JCGM 100:2008 (GUM), from independent parts: the
 // resolution a as a uniform distribution (a/√12), the calibration (its expanded uncertainty over k = 2), a
@@ -56,9 +56,10 @@ Result<std::vector<RigRun>> import_file(const Rig& rig, const std::filesystem::p
 // Adds " (2)" and so on to names that occur more than once, because a record distinguishes its runs by name.
 void name_uniquely(std::vector<RigRun>& runs);
 
-// The record as CSV: cycle, time_s, angle_deg, torque_Nm, u_torque_Nm. While the nut turns by less than
-// `record_step`, only the first sample and the one with the largest torque are written.
+// While the nut turns by less than this, record_csv() writes only the first sample and the one with the
+// largest torque.
 inline constexpr double record_step = 0.02;  // degrees
+// The record as CSV: cycle, time_s, angle_deg, torque_Nm, u_torque_Nm.
 std::string record_csv(const Rig& rig, const std::vector<RigRun>& runs);
 
 // The landmarks and the uncertainty of each run, for the terminal.

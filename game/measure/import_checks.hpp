@@ -44,9 +44,9 @@ struct PlausibleRange {
 PlausibleRange plausible_torque(const Rig& rig);
 
 // The slope of torque over angle, N·m/rad: K d c P/2π with the joint's stiffness c. High: K = 0.31 (friction
-// 0.24) and rigid members, as thick as the rig's bolt length permits, or else as the bolt's diameter. Low: K
-// = 0.08 and a tenth of the stiffness of a bolt of the rig's length, or else of 20 diameters. None without a
-// thread.
+// 0.24) and rigid members, as thin as the rig's bolt length permits, or else as thick as the bolt's diameter.
+// Low: K = 0.08 and a tenth of the stiffness of a bolt of the rig's length, or else of 20 diameters. None
+// without a thread.
 std::optional<PlausibleRange> plausible_slope(const Rig& rig);
 
 Status check_torque(const Rig& rig, const RigRun& run);

@@ -119,8 +119,8 @@ LinearPart linear_part(const analysis::TorqueCurve& curve, const GradientTable& 
     return part;
 }
 
-// Replaces the range by the samples around its steepest one whose gradient is at least a share of its slope;
-// the slope settles in a few rounds.
+// Replaces the range by the samples around its steepest one whose gradient is at least linear_share of the
+// range's slope. The slope settles in a few rounds.
 Rise settle_linear(const GradientTable& table, Rise range, std::size_t peak, double window) {
     for (int round = 0; round < 4; ++round) {
         const double enough = linear_share * table.regression(range.begin, range.end).slope;

@@ -3,8 +3,8 @@
 //
 // Definitions, for a curve without model knowledge:
 //   gradient   slope of the regression line over a window of the angle
-//   linear     the angles around the steepest regression line where the gradient is at least 0.75 of its
-//              slope: the same share separates transition and linearity in the mechanistic law
+//   linear     the angles around the steepest gradient where the gradient is at least 0.75 of the slope of
+//              their regression line; the mechanistic law separates transition and linearity at this share
 //   seat       where the line of the linear part meets the mean torque of the run-down (projected tangent,
 //              as in torque–angle signature analysis)
 //   yield      from where the gradient stays below half of the slope of the linear part, as controllers of

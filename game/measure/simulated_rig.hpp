@@ -1,6 +1,6 @@
 // A stand-in for a test rig: the sensor data that a wrench with a force sensor and an encoder would give at a
 // joint under the mechanistic law. It is a simulation and shows nothing about real joints; it exercises the
-// whole path from raw data to a comparison, and holds one law against the other.
+// whole path from raw data to a comparison, and compares one law with the other.
 //
 // The operator pulls in strokes and lets go in between. The hand's angle drives the nut through the elastic
 // wrench (joint::step_group), so the nut sticks until the breakaway torque is reached and then slips. The
@@ -30,7 +30,7 @@ struct SensorModel {
     double wrench_stiffness = 1500.0;  // N·m/rad, between hand and nut
     double arm_stiffness = 20000.0;    // N·m/rad, of the encoder's arm
     double stroke = to_radians(60.0);  // of the hand; varies by 15 %
-    double speed = to_radians(40.0);   // rad/s, in the middle of a stroke; unsteady by 10 %
+    double speed = to_radians(40.0);   // rad/s, in the middle of a stroke; varies by 10 %
     double pause = 0.4;                // s between strokes, with the release
     double release = 0.2;              // s in which the hand gives way at the end of a stroke
 };

@@ -126,7 +126,8 @@ class TableParser {
         return value;
     }
 
-    // A row may be longer than the header (loggers write comments there), but not shorter.
+    // A row may be longer than the header, because loggers write comments there. It may be shorter if it has
+    // all requested columns.
     Status row(std::string_view text) {
         if (fields_.size() < field_count_ && fields_.size() <= last_needed())
             return error(column_at(text, text.size()), fmt::format("this row has {} fields", fields_.size()),
