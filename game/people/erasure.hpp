@@ -20,8 +20,8 @@ struct Erasure {
 // of a study is missing, so that the erasure can be repeated by name.
 Erasure erase_person(const DataFolders& folders, const PersonData& data);
 
-// Deletes only the name: first renames files of older programs that have the name, then removes it from
-// names.json. `kept` has the files that still hold the name.
+// Deletes only the name: first renames settings and calibrations that older programs named after the person,
+// then removes the name from names.json. `kept` has the files that still hold the name.
 Erasure erase_name(const DataFolders& folders, const PersonData& data);
 
 }  // namespace bolt::people

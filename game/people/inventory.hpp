@@ -50,7 +50,7 @@ struct PersonData {
     std::vector<PersonFile> files;  // by kind, then oldest first
     std::vector<std::filesystem::path> shared_pages;  // reports that show other people too
 
-    [[nodiscard]] std::optional<std::time_t> last_lesson() const;  // end of its newest session
+    [[nodiscard]] std::optional<std::time_t> last_lesson() const;  // when a session last changed
 };
 
 struct Inventory {

@@ -16,7 +16,8 @@ struct PersonExport {
 };
 
 // Copies the person's files into `out`, a new or empty folder that only the user may read: settings/,
-// calibrations/, and sessions/NUMBER with each lesson and its pages. Writes index.json:
+// calibrations/, sessions/NUMBER with each lesson and its pages, and studies/NUMBER with the answers in a
+// study. Writes index.json:
 //
 //   {"format": "boltwright export 1", "code": "T-7K3M9Q", "name": "Ada", "files":
 //    [{"file": "sessions/001/session.boltwright", "kind": "session", "modified": "2026-11-28T15:10:00Z",
