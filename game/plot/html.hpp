@@ -25,7 +25,7 @@ std::string escape(std::string_view text);
 std::string number(double value, int decimals);
 std::string signed_number(double value, int decimals);  // "+2.0"
 
-// "3 min 24.5 s"
+// "24.5 s", "3 min 25 s", "1 h 03 min 25 s"
 std::string duration_text(double seconds);
 
 // The style sheet of all pages and drawings, for light and dark screens and for paper.

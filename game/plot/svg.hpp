@@ -104,7 +104,7 @@ struct LabelPosition {
 SvgBox text_box(const LabelPosition& position, std::string_view text, double size);
 std::string_view anchor_class(TextAnchor anchor);  // " mid", " end" or ""
 
-// Sizes of the style sheet's letters on a narrow screen: usual labels; bold numbers.
+// Sizes of the style sheet's letters on a narrow screen: small labels; all others.
 inline constexpr double small_print = 12.0, large_print = 13.0;
 
 // Places labels so that they overlap neither each other nor occupied boxes, as far as possible.
