@@ -15,7 +15,7 @@ constexpr double controller_period = 5e-3;  // s; trackers send about 100 poses 
 ControllerTip::ControllerTip(ControllerIo io, const Vec3& tip, const TouchOptions& options)
     : io_(std::move(io)), tip_(tip), options_(options) {}
 
-// Waits for one poll.
+// Waits for one polling period, then reads.
 Result<ControllerSample> ControllerTip::next_sample() {
     io_.timer.wait(controller_period);
     if (io_.stop()) return fail(ErrorCode::failed, "the registration was interrupted", {});
@@ -51,7 +51,7 @@ Status ControllerTip::wait_for_press() {
     }
 }
 
-// Empty if the controller was not tracked for a moment: the poses around such a gap are unreliable.
+// Empty if tracking failed, even for a moment: the poses around such a gap are unreliable.
 Result<std::vector<Pose>> ControllerTip::tracked_poses(double seconds) {
     std::vector<Pose> poses;
     bool tracked = true;

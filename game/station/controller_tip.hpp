@@ -88,8 +88,8 @@ inline constexpr double max_fingertip_rms = 5.0e-3;
 
 // Measures the fingertips of a gloved hand to which the controller is fixed: the user turns the hand about
 // each fingertip. PointPair::from is the fingertip in the frame of the wrist, from the skeleton that
-// `fingers` returns after the turn; PointPair::to is in the frame of the grip. The last pair is that of the
-// ring finger. Fails if `fingers` fails, the tracker is lost, or the user interrupts.
+// `fingers` returns after the turn; PointPair::to is in the frame of the grip. The last pair, the check
+// point, is that of the ring finger. Fails if `fingers` fails, the tracker is lost, or the user interrupts.
 Result<std::vector<PointPair>> measure_fingertips(ControllerTip& controller,
                                                   const std::function<Result<hand::Skeleton>()>& fingers);
 

@@ -41,7 +41,7 @@ Result<Vec3> average_touch(std::span<const Vec3> positions, const TouchOptions& 
 ArmTip::ArmTip(TouchIo io, const Vec3& tip, const TouchOptions& options)
     : io_(std::move(io)), tip_(tip), options_(options), sample_time_(io_.timer.now()) {}
 
-// Waits for one poll. The snapshot is the latest one, new or not.
+// Waits for one polling period, then returns the latest snapshot, new or not.
 Result<device::DeviceSnapshot> ArmTip::next_snapshot() {
     io_.timer.wait(touch_period);
     if (io_.stop()) return fail(ErrorCode::failed, "the registration was interrupted", {});

@@ -6,7 +6,8 @@
 namespace bolt::station_setup {
 
 struct StationFinding {
-    // The station cannot be used with the settings of the file. False: a setting has no effect.
+    // The station cannot be used with the settings of the file. False: a warning, for example of a setting
+    // without effect.
     bool prevents_use = false;
     std::string text;
 };

@@ -78,8 +78,8 @@ hand::GloveWearer wearer_of(const content::GloveCalibration& calibration);
 
 // The pose of the wrist, in the tool's frame, of a hand around the handle at `along` m from the jaw, thumb
 // towards the jaw, palm on the side of the tool's normal. Tries poses near a natural one with several
-// closures of the hand. Returns the pose at which the hand grasps the handle with the most of them; of equal
-// poses, the one nearest to the natural one.
+// closures of the hand. Returns the pose at which the most closures grasp the handle; of equal poses, the one
+// nearest to the natural one.
 Pose wrist_at_handle(const hand::Hand& hand, const collision::ToolShape& tool, double along);
 
 // The gloved hand at the assembly's wrench. Fails if the wrench has no contact model.
@@ -116,7 +116,7 @@ struct PlannedStation {
     DeviceSelection devices;
     std::filesystem::path glove;                           // serial port; empty: no glove
     std::optional<content::GloveCalibration> calibration;  // of the glove's wearer
-    bool obstacles = false;                                // the assembly has contact models
+    bool obstacles = false;                                // the request has them, and the assembly
 };
 
 // Applies the settings of a station file to those devices of `planned` whose ids it names: the workspace

@@ -22,7 +22,7 @@ struct WornFingers {
 };
 
 // The share by which the four fingers are closed, 0 … 1: the mean of their flexion at MCP and PIP, relative
-// to a hand that holds a handle (hand::closed_hand_angles).
+// to a fist (hand::closed_hand_angles).
 double closed_share(const hand::Angles& angles);
 
 class WornGlove {
