@@ -10,7 +10,8 @@ namespace bolt::statistics {
 
 namespace {
 
-// Values below which distributions are exact: the time for that of rank sums grows with their fourth power.
+// Number of values below which the distributions of rank sums and of shifts are exact. The time for a
+// distribution of rank sums grows with its fourth power.
 constexpr std::size_t max_exact = 100;
 
 double median_of_sorted(std::span<const double> sorted) {
@@ -75,7 +76,7 @@ Tails tails(std::span<const double> p, std::size_t x) {
 
 // The number of averages or differences that are positive if there is no shift, as a random variable.
 struct PositiveCount {
-    std::vector<double> p;   // of each number; empty for large samples: normal with the mean of half of all
+    std::vector<double> p;   // of each number; empty for large samples: normal, with half of all as its mean
     double deviation = 0.0;  // of that normal distribution
 };
 

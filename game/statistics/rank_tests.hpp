@@ -17,7 +17,7 @@ std::vector<double> midranks(std::span<const double> values);
 // An estimate of a location shift with its interval (Hodges and Lehmann 1963).
 struct Shift {
     double estimate = std::numeric_limits<double>::quiet_NaN();
-    ConfidenceInterval interval;  // from one of the averages or differences to another
+    ConfidenceInterval interval;  // its ends are two of the averages or differences
     double confidence = 0.0;      // of the interval; exact without ties, below 100 values
 };
 
