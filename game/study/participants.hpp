@@ -1,4 +1,4 @@
-// The participants of a study's folder: PARTICIPANTS/Pnn with a journal for each. Enrolment, withdrawal, and
+// The participants of a study's folder: participants/Pnn with a journal for each. Enrolment, withdrawal, and
 // the list that the experimenter sees.
 #pragma once
 
@@ -21,7 +21,8 @@ struct NewParticipant {
 };
 // Makes the folder and the journal of the next participant, and returns the folder. Takes the smallest place
 // that no active participant has. Fails if the person takes part already, if active participants follow
-// another plan, or if people and simulated participants would be mixed. Two programs may call it at once.
+// another plan, or if people and simulated participants would be mixed. A call fails while another program
+// enrols.
 Result<std::filesystem::path> add_participant(const content::Study& study,
                                               const std::filesystem::path& study_folder,
                                               const NewParticipant& participant);

@@ -78,7 +78,7 @@ class Participation {
     // s by which the clock is behind the last entry; 0: it is not. A clock that was set back since the last
     // visit would shift the day of the retention test.
     [[nodiscard]] double clock_behind() const;
-    // Records that the earlier entries were made with a wrong clock: their steps count as done now.
+    // Records that the entries later than now were made with a wrong clock: their steps count as done now.
     Status accept_clock();
 
     // s until the due step can be completed: of a break, or of the days until the retention test; 0: now.

@@ -55,7 +55,8 @@ struct Progress {
     std::size_t plan_changes = 0;         // accepted since the participant began
     bool simulated = false;
     std::string language;
-    // When each step was done, s since 1970-01-01 UTC. After a clock was set back, none is later than that.
+    // When each step was done, s since 1970-01-01 UTC. A following clock_set_back entry lowers a later time
+    // to its own.
     std::map<std::string, std::int64_t> done;
     std::map<std::string, content::Answers> answers;                // by step
     std::map<std::string, std::map<std::string, double>> measures;  // of lessons, by step
