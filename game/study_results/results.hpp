@@ -146,11 +146,11 @@ struct PowerOptions {
 struct Power {
     const content::PlannedComparison* planned = nullptr;
     double rate = 0.0;  // share of the simulated studies in which Holm's p is below the significance.
-                        // Comparisons of objective measures count for the correction, with p = 1
+                        // The comparisons of without_power() count for the correction, with p = 1
 };
-// answer = middle of the scale + (trait + effect + error) · half of its width / 3, rounded to its step and
-// limited to it. The trait of the person and the error have a standard deviation of 1. Comparisons of
-// objective measures and of retention are left out.
+// answer = middle of the scale + (trait + effect + error) · width of the scale / 6, rounded to the scale's
+// step and clamped to the scale. The trait of the person and the error have a standard deviation of 1. Leaves
+// out the comparisons of without_power().
 std::vector<Power> simulate_power(const content::Study& study, const PowerOptions& options);
 
 // The planned comparisons that simulate_power() leaves out: those of objective measures, of the retention
