@@ -58,7 +58,8 @@ Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instan
     render::RendererOptions renderer;
     renderer.level_error_px = window_level_error;
     renderer.keep_depth = options.headset != nullptr;
-    if (options.headset != nullptr) renderer.margin = 0.02F;  // about 1°; recording takes 1 to 2 ms
+    // About 1°, because the head turns during the recording, which takes 1 to 2 ms.
+    if (options.headset != nullptr) renderer.margin = 0.02F;
     gpu::VulkanCreator* creator = options.headset != nullptr ? options.headset->creator() : nullptr;
     Canvas canvas;
     BOLT_TRY_ASSIGN(auto gpu_context,
@@ -119,8 +120,8 @@ class FrameLoop {
     [[nodiscard]] bool minimised() const;
     [[nodiscard]] double refresh_rate() const;  // Hz, of window or walls; 0: unknown
 
-    // Adds the events of all windows to those of the next frame. `only_minimised`: a minimised window is the
-    // only display. Then waits for events, and returns false if the window was closed, because the content
+    // Adds the events of all windows to those of the next frame. With `only_minimised`, a minimised window is
+    // the only display: waits for events, and returns false if the window was closed, because the content
     // gets no frame with this event.
     bool poll_events(bool only_minimised);
     Status draw();

@@ -41,9 +41,9 @@ class WindowContent {
     virtual void release() = 0;
     // Applies the input and advances by the time of the frame.
     virtual Status update(const WindowFrame& window) = 0;
-    // Records the commands of the frame. Without an immersive frame it makes window_picture();
-    // with one, each group of eyes is drawn as a group of the renderer. The poses of the eyes may be newer
-    // than those of update().
+    // Records the commands of the frame. Without an immersive frame, and on walls, it makes window_picture().
+    // With an immersive frame, each group of eyes is drawn as a group of the renderer. The poses of the eyes
+    // may be newer than those of update().
     virtual Status draw(gpu::FrameContext& frame, const WindowFrame& window) = 0;
     // Called between draw() and the submission of a headset's frame, with its newest eyes. Moves the recorded
     // pictures to them (Renderer::move_eyes). Returns false if they stay where draw() had them.
@@ -62,7 +62,7 @@ class WindowContent {
     // The state of a frame stays below 4 KiB; what is larger, and rarely changes, is in `bulk`.
     virtual Status share(cluster::MessageWriter& /*state*/, cluster::MessageWriter& /*bulk*/) { return {}; }
     virtual Status follow(cluster::MessageReader& /*state*/, cluster::MessageReader& /*bulk*/) { return {}; }
-    // Called instead of update() and draw() while the window is minimised and no headset is used.
+    // Called instead of update() and draw() while the window is minimised and is the only display.
     virtual Status frame_while_hidden() { return {}; }
     // Called once, when the window closes or drawing has failed permanently.
     virtual Status end() { return {}; }
@@ -111,16 +111,16 @@ struct WindowRunOptions {
     // shows the content instead. A headset that fails later never ends the run.
     bool needs_headset = false;
     Walls* walls = nullptr;  // null: there are none; not together with a headset
-    // Lower the resolution of a headset if the GPU cannot keep its frame rate, and that of scenes in the
-    // window if it cannot draw 30 frames a second.
+    // True: lowers the resolution of a headset if the GPU cannot keep its frame rate, and that of scenes in
+    // the window if it cannot draw 30 frames a second.
     bool adapts_resolution = true;
     // With a headset: the options of `instance`. When a headset is found, its runtime creates the instance
     // again with these options and the same log.
     gpu::InstanceOptions instance{};
 };
 
-// Creates the Vulkan instance, by the runtime of a headset that was found. If that fails, the headset is
-// refused and the instance is created without it, unless `needs_headset`.
+// Creates the Vulkan instance; if a headset was found, by its runtime. If that fails, the headset is refused
+// and the instance is created without it, unless `needs_headset`.
 Result<gpu::Instance> make_instance(gpu::InstanceOptions instance_options, xr::Headset* headset,
                                     bool needs_headset);
 
@@ -131,7 +131,8 @@ Result<gpu::Instance> make_instance(gpu::InstanceOptions instance_options, xr::H
 Status run_in_window(WindowContent& content, platform::Window& window, gpu::Instance& instance,
                      WindowRunOptions options = {});
 
-// Shows the walls of this process in step with the first one, until that ends. `gpu`: as in WindowRunOptions.
+// Shows the walls of this process in step with the first process, until that ends. `gpu`: as in
+// WindowRunOptions.
 Status follow_on_walls(WindowContent& content, Walls& walls, WallFollower& follower,
                        const gpu::Instance& instance, const std::string& gpu);
 
