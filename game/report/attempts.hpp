@@ -31,8 +31,8 @@ struct Attempt {
 
     // Haptic metrics; NaN: unknown.
     bool guided = false, view_help = false, obstacles = false;
-    double time_to_nut = 0.0, time_near_nut = 0.0;       // s with the wrench, medians over the steps
-    double visible_share = 0.0;                          // 0…1, share of time_near_nut with a visible nut
+    double time_to_nut = 0.0, time_near_nut = 0.0;  // s, medians over the steps with the wrench
+    double visible_share = 0.0;  // 0…1, share of all time near the nuts in which they were visible
     double obstacle_contacts = 0.0, contact_time = 0.0;  // count, s
     // Change of the force in a millisecond, as shares of the device's maximum: the largest and the 99th
     // percentile.
@@ -50,9 +50,9 @@ Attempt attempt_of(const analysis::SessionData& session, const TraineeNames& nam
 // the groups are in the order of their first attempts.
 std::vector<std::vector<std::size_t>> attempt_groups(std::span<const Attempt> attempts);
 
-// HTML: the table, the studies, and the learning curves of every group with at least two attempts. `alone`:
-// the page has no sections of single sessions, so the table has no links, and studies replace learning
-// curves.
+// HTML: the table, the studies, and the learning curves of every group in which a trainee has at least two
+// attempts. `alone`: the page has no sections of single sessions, so the table has no links, and studies
+// replace learning curves.
 std::string attempts_section(std::span<const Attempt> attempts, bool alone = false);
 
 // HTML: compares attempts with and without the guiding force that otherwise differ at most in the seed. One

@@ -182,8 +182,8 @@ bool nut_turned(const analysis::Visit& visit) {
     return std::abs(visit.release.angle - visit.begin_angle) > to_radians(2.0);
 }
 
-// Follows the judgement of game/lesson: the last pass to the full target and re-checks that turned the nut
-// count. A re-check in which the nut only began to move shows the breakaway torque, not the tightening
+// Two kinds of visits count, as in game/lesson: the last pass to the full target, and re-checks in which the
+// nut turned. A re-check in which the nut only began to move shows the breakaway torque, not the tightening
 // torque.
 bool is_judged(const analysis::SessionData& session, const analysis::Visit& visit) {
     const content::Pass* pass = pass_of(session, visit);

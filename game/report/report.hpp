@@ -18,8 +18,8 @@ namespace bolt::report {
 // "M16×180 · 8.8", or with a pitch other than the coarse one "M12×1.25×70 · 8.8".
 std::string bolt_text(const content::AssemblyJoint& joint);
 
-// HTML: "✓ OK", "▲ HIGH torque", "▼ LOW" as shape, word and colour. Names torque and angle if both were
-// judged. A damaged joint shows its condition instead.
+// HTML: "✓ OK", "▲ HIGH torque", "▼ LOW" as shape, word and colour. If the angle was judged too, a wrong
+// verdict names torque, angle or both. A damaged joint shows its condition instead.
 std::string verdict_mark(const lesson::JointResult& result);
 
 // HTML of one session. `number` counts from 1 and is part of the anchor's name; 0: the only session.
@@ -34,8 +34,8 @@ std::string haptics_section(const analysis::SessionData& session);
 enum class ReportExtent : std::uint8_t { everything, overview };
 
 // Returns the page, a single file without external resources. Its head lists the people on it
-// (people::page_trainees). Fails without sessions, or if one cannot be read. Holds the curves of one session
-// at a time.
+// (people::page_trainees). Fails without sessions, or if one cannot be read. Keeps the curves of only one
+// session in memory.
 Result<std::string> make_report(std::span<const session::SessionReader* const> sessions,
                                 ReportExtent extent = ReportExtent::everything,
                                 const TraineeNames& names = {});
@@ -43,8 +43,7 @@ Result<std::string> make_report(std::span<const session::SessionReader* const> s
 // As above, for data that is already read.
 std::string make_report(std::span<const analysis::SessionData> sessions, const TraineeNames& names = {});
 
-// A session beside a measured joint (comparison.cpp).
-
+// The text of a comparison, for the terminal (comparison.cpp).
 std::string console_text(const analysis::Comparison& comparison);
 
 // A complete HTML document without external resources.
