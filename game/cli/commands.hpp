@@ -44,9 +44,8 @@ void add_trainees(CLI::App& app, int& exit_code);
 
 // The treatment of an unknown name: `added` gives it a code, `unchanged` leaves it without one.
 enum class NewPerson : std::uint8_t { unchanged, added };
-// The person that --trainee names. Renames the person's calibrations of gloves in the folder `gloves` that
-// older programs named without the code. Prints what the user should know to stderr. Fails if a name cannot
-// be added.
+// The person that --trainee names. Renames the person's calibrations in the folder `gloves` if older programs
+// named them without the code. Prints what the user should know to stderr. Fails if a name cannot be added.
 Result<content::Person> person_argument(const std::string& typed, const std::filesystem::path& gloves,
                                         NewPerson new_person);
 
@@ -112,12 +111,12 @@ struct OpenDevice {
     std::shared_ptr<const device::Description> description;
 };
 
-// Opens a device, and asks on the terminal for what an arm needs. `yes`: the answer to the question whether
-// the arm may move by itself.
+// Opens a device, and asks on the terminal for what an arm needs. `yes`: the arm may move by itself, without
+// a question.
 Result<OpenDevice> open_device(const std::string& id, device::OpenOptions opening, bool yes);
 
 // Opens each device of the request, examines it, and prints a report; asks before an arm pushes the hand.
-// `yes`: the answer to all questions. Fails if a device cannot be used.
+// `yes`: answers all questions with yes. Fails if a device cannot be used.
 Status check_devices(const station_setup::StationRequest& request, double seconds, bool yes);
 
 // One line for boltwright doctor: the number of USB devices, of those that cannot be used, and of serial

@@ -266,7 +266,8 @@ Status register_station(const RegisterArguments& options) {
 }
 
 // Compares the stored registration with a touch of its check point, with a point that the arm and a
-// controller touch, or with the points of a file. Fails if a point is off by more than the limit.
+// controller touch, with the fingertips of a gloved hand, or with the points of a file. Fails if a point is
+// off by more than the limit.
 Status check_registration(RegisterArguments options) {
     BOLT_TRY_ASSIGN(const content::StationFile station, content::load_station(options.file));
     BOLT_TRY_ASSIGN(const FramePair frames, frames_of(options, station));

@@ -165,7 +165,7 @@ int run_results(const StudyArguments& options) {
     return printed ? 0 : print_error(printed.error());
 }
 
-// "force=0.5" for each condition or level; several for one condition are added.
+// "force=0.5" for each condition; several for one condition are added.
 Result<std::vector<double>> read_effects(const std::vector<std::string>& texts, const content::Study& study) {
     std::vector<double> effects(study.conditions.size(), 0.0);
     std::vector<std::string> ids;
@@ -188,7 +188,7 @@ Result<std::vector<double>> read_effects(const std::vector<std::string>& texts, 
     return effects;
 }
 
-// The person's number chooses the profile of the trainee, so each profile is equally frequent.
+// The person's random number chooses the profile of the trainee, so each profile is equally likely.
 Result<session::LessonOutcome> play_simulated(const study::SimulatedLesson& lesson) {
     const std::vector<std::string> profiles = trainees::profile_names();
     trainees::TrainOptions train;

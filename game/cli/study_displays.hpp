@@ -14,7 +14,7 @@ class StudyDisplay {
     // `desktop` must outlive it. `quiet`: as in open_walls().
     StudyDisplay(const platform::Desktop& desktop, bool quiet) : desktop_(desktop), quiet_(quiet) {}
 
-    // Closes the display that is open, and opens this one. If that fails, no display is open but the window.
+    // Closes the display that is open, and opens this one. If that fails, only the window is open.
     Status open(const trainer::LessonDisplay& display);
     void close();
     [[nodiscard]] xr::Headset* headset() const { return headset_.get(); }  // null: none is open

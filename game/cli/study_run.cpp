@@ -106,7 +106,7 @@ Status run(const StudyRunArguments& options) {
         return fail(ErrorCode::bad_content,
                     "there is no language of the program in which everything can be read",
                     "the texts that `boltwright study check` lists");
-    // The window opens first, so that a failure enrols no participant.
+    // Devices and desktop are checked first, so that a failure enrols no participant.
     BOLT_TRY(equipment_of(options.window));
     BOLT_TRY(platform::Desktop::open());
     BOLT_TRY_ASSIGN(auto participation, find_participation(study, options));

@@ -31,7 +31,7 @@ struct TrainArguments {
     std::string station_file, wheel_config_file;
     // The word after --hmd: "required" (or nothing), "optional", or the assembly; none: no headset is used.
     std::optional<std::string> hmd;
-    std::string mirror = "left";   // view::mirror_names: of a headset in its window
+    std::string mirror = "left";   // one of view::mirror_names
     std::string displays;          // display file of projection walls; empty: there are none
     bool full_resolution = false;  // of headset and window, also if the GPU is too slow for it
     bool headless = false;
