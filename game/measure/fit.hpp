@@ -52,8 +52,8 @@ Result<JointFit> fit_joint(const joint::JointDesign& design, std::span<const Lan
                            joint::Direction direction);
 
 // A fragment of an assembly file to paste: the materials of the members, and the joint type `name` with the
-// properties of the design, but without `counter_hold`, `start_gap_mm` and `nut_mass_g`. Its specification
-// has only the target torque (N·m).
+// properties of the design, but without `counter_hold`, `friction_held_bearing`, `start_gap_mm` and
+// `nut_mass_g`. Its specification has only the target torque (N·m).
 std::string joint_type_json(const JointFit& fit, const std::string& name, double target_torque);
 
 // The fitted values, and those that the data cannot tell, for the terminal.
