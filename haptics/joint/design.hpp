@@ -35,7 +35,7 @@ struct Member {
     double E = 0.0;          // Pa
 };
 
-// How the bolt holds the members together.
+// The parts that hold the members together.
 enum class JointForm : std::uint8_t {
     through_bolt,  // head and nut
     tapped_hole,   // a screw in the thread of the part behind the members
@@ -200,9 +200,9 @@ HeldPartSize held_part_size(const JointDesign& design);
 inline double bearing_mean_diameter(double d_w, double d_h) { return 0.5 * (d_w + d_h); }
 
 // tan(φ + ρ'), the slope on which the nut slides: φ lead angle, tan ρ' = friction_share · μ_G/cos β.
-// friction_share in [−1, 1]: +1 tightening, −1 loosening. VDI 2230's closed forms use its first order, P/(π
-// d2) + 1.155 μ_G. The exact tangent reproduces the published table A1 to its rounding, the closed form
-// within 0.9 %.
+// friction_share in [−1, 1]: +1 tightening, −1 loosening. The closed form of VDI 2230 is the first-order
+// approximation P/(π d2) + 1.155 μ_G. The exact tangent reproduces table A1 of VDI 2230 to its rounding, the
+// closed form within 0.9 %.
 double sliding_slope(const ScrewThread& thread, double mu_thread, double friction_share = 1.0);
 
 // Ratio of equivalent (von Mises) to tensile stress while the thread torque acts: √(1 + 3 [κ (d2/d0) tan(φ +
@@ -236,12 +236,13 @@ BoltEnds bolt_ends(const JointDesign& design);
 double bolt_compliance(const ScrewThread& thread, double E, double grip, double shank,
                        const BoltEnds& ends = {});
 
+enum class DeformationCones : std::uint8_t { two = 1, one = 2 };  // w of VDI 2230
+
 // Elastic compliance of the clamped members, m/N, VDI 2230-1 section 5.1.2. δ_P of a stack of layers under
-// the deformation cones of head and nut, concentric, with a cone that may be cut by the outer diameter D_A
-// (0: unlimited; the cone's angle is then taken at D_A = 3 d_w). Layers of different modulus are integrated
+// the concentric deformation cones of head and nut. The outer diameter D_A may cut the cones; 0: unlimited,
+// and the cones have the angle that belongs to D_A = 3 d_w. Layers of different modulus are integrated
 // exactly along the cone. With a tapped hole there is one cone, from the bearing face to the tapped part; the
 // layers are then in this order.
-enum class DeformationCones : std::uint8_t { two = 1, one = 2 };  // w of VDI 2230
 double member_compliance(std::span<const Member> layers, double bearing_diameter, double hole, double D_A,
                          DeformationCones cones = DeformationCones::two);
 

@@ -83,7 +83,7 @@ struct ClassRow {
 };
 
 constexpr ClassRow classes[] = {
-    // ISO 898-1: nominal strengths, proof stress ratios of its table 3.
+    // ISO 898-1: nominal strengths up to 6.8, minimum strengths from 8.8 on; proof stress ratios of table 3.
     {"4.6",    240,  400,  240,  400, 0.94, 0.22, false},
     {"4.8",    320,  400,  320,  400, 0.91, 0.14, false},
     {"5.6",    300,  500,  300,  500, 0.93, 0.20, false},

@@ -90,7 +90,8 @@ struct ThreadSize {
     ScrewThread thread;
 };
 
-// "M16" (coarse) or "M16x1.5" (a pitch of ISO 261 for that size). The error names the nearest valid name.
+// "M16" (coarse) or "M16x1.5" (a pitch of ISO 261 for that size). The error for an unknown pitch lists the
+// pitches of the size; the error for an unknown size names the nearest valid name.
 Result<ThreadSize> parse_thread(std::string_view text);
 
 // The name that parse_thread() reads.
@@ -110,7 +111,9 @@ struct PropertyClass {
     double proof_ratio = 0.0;  // elastic limit / R_p0.2: S_p/R_p0.2 of ISO 898-1; for stainless our estimate
     double fracture_strain = 0;  // elongation after fracture A
     double E = 0.0;              // Young's modulus
-    double kappa = 0.0;  // torsion: 3/2 fully plastic (VDI 2230), 2 elastic (published stainless tables)
+    // Factor of the torsion in the equivalent stress: 3/2 if the section yields fully (VDI 2230), 2 if it is
+    // elastic (published stainless tables).
+    double kappa = 0.0;
 };
 
 // The class at nominal diameter `d`, m; the strengths of 8.8 change above M16. The error names the nearest

@@ -89,7 +89,8 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
 // remaining error.
 //
 // With CounterHold::second_wrench, nut and bolt turn together (resistance_together) if the face under the
-// head resists less than the thread. Then the clamp force does not change.
+// held part and NutDrive::held_part_torque together resist less than the thread. Then the clamp force does
+// not change.
 //
 // Returns the step of the drive's click mechanism.
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
@@ -112,8 +113,8 @@ struct CurveOptions {
     double speed = to_radians(30.0);  // rad/s
     double dt = 0.001;                // s, one sample per step
     // Tightening ends `past_yield` after the yield stage has begun, or when the joint breaks or strips.
-    // Loosening starts from a joint that was tightened to `torque` (N·m) and rested for 10 s, and ends when
-    // the nut has been free for a quarter turn.
+    // Loosening starts from a joint that was tightened to `torque` (N·m) and rested for 10 s. It ends when
+    // the nut has been free for a quarter turn or has reached angle 0.
     double past_yield = to_radians(90.0);
     double torque = 0.0;
 };

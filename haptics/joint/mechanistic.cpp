@@ -62,10 +62,11 @@ namespace {
 constexpr double gravity = 9.81;          // m/s²
 constexpr double steel_density = 7850.0;  // kg/m³
 
-// VDI 2230-1 table 5, shear-loaded joints, metres: thread; each of head and nut; each inner interface.
+// Numbers of loaded threads, of bearing faces under head and nut, and of interfaces between members.
 struct EmbeddingFaces {
     int threads = 1, bearings = 2, interfaces = 0;
 };
+// m, VDI 2230-1 table 5, for shear-loaded joints.
 double embedding_amount(double Rz, const EmbeddingFaces& faces) {
     struct EmbeddingRow {
         double thread, bearing, interface;
@@ -174,15 +175,15 @@ double balanced_closure(const SeatSpring& seat, double low, BalanceIterate at, c
 struct Capacity {
     double ratio = 1.0;            // equivalent over tensile stress
     PlasticCurve::LoadSlope bolt;  // equivalent load and its slope at the present plastic elongation
-    double strip = 0.0;            // N, of the nut's threads
+    double strip = 0.0;            // N, of the threads in the nut or hole
 
     [[nodiscard]] double force() const { return std::min(bolt.load / ratio, strip); }
 };
 
-// Plastic flow of the bolt or shearing of the nut's threads, whichever is weaker. Rate-independent plasticity
-// would kink the torque when a loaded joint starts to flow again, so the flow follows the rate-independent
-// solution with a short time constant (Duvaut and Lions 1972). The slope is then continuous on every path,
-// and dissipation is positive because the plastic elongation grows only while F > 0.
+// Plastic flow of the bolt, or shearing of the threads in the nut or hole, whichever is weaker.
+// Rate-independent plasticity would kink the torque when a loaded joint starts to flow again, so the flow
+// follows the rate-independent solution with a short time constant (Duvaut and Lions 1972). The slope is then
+// continuous on every path. Dissipation is positive, because the bolt elongates plastically only while F > 0.
 void flow(const MechanisticParameters& p, MechanisticState& s, double closure, const Capacity& capacity,
           double dt) {
     const double progress = -std::expm1(-dt / p.flow_time);
@@ -227,10 +228,10 @@ Stage stage_of(const MechanisticParameters& p, const MechanisticState& s, double
     return s.stiffness < 0.75 * linear ? Stage::transition : Stage::linearity;
 }
 
-// The insert fills the last third of the nut (ours): the bolt's end reaches it when it has passed the metal
-// thread, and is through it after three pitches. At angle 0 the nut is `start_gap` above its seat, so the
-// bolt's end is `start_gap` less deep in the nut than with the nut on its seat. The wear between two uses
-// follows from the smallest torques that ISO 2320 allows at the first and the fifth removal.
+// The insert fills the last third of the nut (ours), behind the metal thread. Its torque reaches the full
+// value three pitches after the bolt's end has reached the insert. At angle 0 the nut is `start_gap` above
+// its seat, so the bolt's end is `start_gap` less deep in the nut than with the nut on its seat. The wear
+// between two uses follows from the smallest torques that ISO 2320 allows at the first and the fifth removal.
 void derive_insert(const JointDesign& design, MechanisticParameters& p) {
     const LockingNut* const nut = design.locking_insert ? locking_nut(design.thread.size.name) : nullptr;
     if (!nut) return;

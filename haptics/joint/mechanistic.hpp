@@ -6,7 +6,7 @@
 //       θ is the nut's angle, P the pitch; the other terms are members of MechanisticState and
 //       MechanisticParameters
 //   F   clamp force, a function of x (seat_spring.hpp) with the compliance δ of VDI 2230 (design.hpp)
-//   T   torque: T = F P/2π ± r F (μ_G r_t/cos β + μ_K r_b) ± thread drag (design.hpp, Motosh)
+//   T   torque: T = F P/2π ± r (F (μ_G r_t/cos β + μ_K r_b) + thread drag)  (design.hpp, Motosh)
 //   r   breakaway factor on friction: r = 1 + (static ratio − 1) b. The breakaway state b, 0 … 1, rises to 1
 //       at rest and falls to 0 while the nut slides
 //   Y   yield: F q ≤ Y(plastic). q is the von Mises stress of tension and thread torque over the tensile
@@ -29,7 +29,7 @@ namespace bolt::joint {
 //
 //   Y(u) = L_e + (L_m − L_e) (1 − e^{−(u/u_c)^¾}) / (1 − e^{−(u_u/u_c)^¾})    up to u_u
 //
-// Voce hardening with an exponent below one, so that the slope is infinite at u = 0 and the torque curve
+// This is Voce hardening with an exponent below one. Its slope is infinite at u = 0, so the torque curve
 // bends into yield without a kink. The scale u_c is fitted so that the load at 0.2 % plastic strain is R_p0.2
 // A_s. The form (ours) is fitted to the three strengths of ISO 898-1, with half the elongation after
 // fracture as uniform elongation.
@@ -62,7 +62,7 @@ struct MechanisticParameters {
     double start_gap = 0.0;  // m, nut face to seat at angle 0
     SeatSpring seat;
     PlasticCurve bolt;
-    double strip_load = 0.0;      // N, axial load at which the nut's threads shear
+    double strip_load = 0.0;      // N, axial load at which the threads in the nut or hole shear
     double strip_length = 0.0;    // m of travel until the threads are sheared off completely
     double flow_time = 0.0;       // s, see flow() in mechanistic.cpp
     double embedding = 0.0;       // m, f_Z at the reference load and above
@@ -82,10 +82,9 @@ struct MechanisticParameters {
     double weight_lead = 0.0;    // N·m, weight of the nut along the lead; negative if it helps tightening
     double weight_friction = 0;  // N·m
     double ripple_phase[3] = {0.0, 0.0, 0.0};  // of the running drag over the angle
-    // CounterHold::second_wrench. The next two are 0 without it.
-    bool held_part_can_turn = false;
-    double held_lever = 0.0;  // m, μ r_b under the held part
-    double held_drag = 0.0;   // N·m, friction of the bolt's weight
+    bool held_part_can_turn = false;           // CounterHold::second_wrench; without it the next two are 0
+    double held_lever = 0.0;                   // m, μ r_b under the held part
+    double held_drag = 0.0;                    // N·m, friction of the bolt's weight
 };
 
 // `random` determines this bolt's friction and the ripple of its drag; equal seeds give equal bolts.
@@ -102,7 +101,7 @@ inline double prevailing_torque(const MechanisticParameters& p, double angle) {
 struct MechanisticState {
     double angle = 0.0;      // rad, of the nut; 0 where the hand starts it on its thread
     double plastic = 0.0;    // m, permanent elongation of the bolt, never falls
-    double stripped = 0.0;   // m, travel of sheared nut threads, never falls
+    double stripped = 0.0;   // m, travel of the sheared threads, never falls
     double embedding = 0.0;  // m, flattened roughness, never falls
     double uses = 0.0;       // tightenings of the faces to the reference load so far
     double breakaway = 1.0;  // 0…1, breakaway state
@@ -141,7 +140,7 @@ struct NutTurn {
 // embedding and yield continue at rest. No allocation; cannot fail.
 void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn& turn, double dt);
 
-// Free closure of the seat spring at this state and angle, m (negative: gap).
+// The closure x above, m, in this state at this angle.
 double free_closure(const MechanisticParameters& p, const MechanisticState& s, double angle);
 
 }  // namespace bolt::joint

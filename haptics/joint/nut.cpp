@@ -147,7 +147,7 @@ constexpr double wedge_angle = 2.0 * pi / 3.0;  // rad, between two flats
 
 struct Hardness {
     std::string_view bolts;  // the bolt class, or its beginning
-    double small, large;     // HV, up to M16 and above
+    double small, large;     // HV; `small` up to M16, `large` above
 };
 
 // The first matching row applies.

@@ -56,9 +56,10 @@ struct NutDrive {
     // rad, the angle of the nut when it was gripped, plus the hand's rotation since then. For step_nut() it
     // is the angle on the bolt; for step_group(), in which the bolt may turn as well, JointState::rotation.
     double angle = 0.0;
-    double half_play = 0.0;     // rad, backlash to either side
-    double stiffness = 0.0;     // N·m/rad
-    double torque_limit = 0.0;  // N·m at which the grip slips (fingers); 0: never
+    double half_play = 0.0;  // rad, backlash to either side
+    double stiffness = 0.0;  // N·m/rad
+    // N·m at which the drive slips: fingertips, the corners of a nut, the pawl of a ratchet; 0: never.
+    double torque_limit = 0.0;
     // N·m, external torque that the held part (CounterHold::second_wrench) can bear; infinite: it cannot
     // turn. Only step_group() uses it.
     double held_part_torque = std::numeric_limits<double>::infinity();
@@ -76,8 +77,8 @@ struct NutStep {
 
 // One step of a nut on its thread: the nut stands until the torque overcomes the resistance, then follows the
 // drive, without chatter at rest and without generating energy. Coulomb friction is set-valued at rest; one
-// implicit velocity step (Moreau's time stepping) resolves it in closed form: stand, turn on or turn off,
-// whichever is consistent.
+// implicit velocity step (Moreau's time stepping) resolves it in closed form. The nut rests, tightens or
+// loosens, whichever is consistent.
 //
 // `inertia` (kg·m² about the bolt) acts while the spring of the drive is wound; see drive_inertia().
 // Inside the play the nut's own inertia acts, which is much smaller.

@@ -2,8 +2,9 @@
 // mechanical assembly" (Int. J. Adv. Manuf. Technol., 2018), exactly as printed, with its Table 1 as
 // defaults.
 //
-// The parameters keep the paper's units (mm, N, GPa, rad, N·m), because tests compare with its printed
-// figures; the functions return SI. Values that the paper does not give are chosen here and marked (ours).
+// The parameters keep the paper's units (g, mm, GPa, rad, degrees, N·m), because tests compare with its
+// printed figures. The functions return N, N·m, m and degrees. Values that the paper does not give are chosen
+// here and marked (ours).
 #pragma once
 
 #include "engine/base/math.hpp"
@@ -48,10 +49,11 @@ double published_navigation_torque(const PublishedParameters& p, Direction direc
 double published_thread_torque(const PublishedParameters& p, double area_slope_mm2, Direction direction);
 double published_bearing_torque(const PublishedParameters& p, double area_slope_mm2, Direction direction);
 
-// Stage 3: lever arm of eq. 3, m (12.464 mm tightening; −ρ/2π instead of +ρ/2π loosening, ours), angle per
-// newton (8.684·10⁻⁴ °/N) and their quotient, the slope, N·m per degree (14.354).
+// Stage 3, lever arm of eq. 3, m; 12.464 mm tightening. For loosening, −ρ/2π replaces +ρ/2π (ours).
 double published_lever(const PublishedParameters& p, Direction direction);
+// Stage 3, angle per newton of clamp force; 8.684·10⁻⁴ °/N.
 double published_degrees_per_newton(const PublishedParameters& p);
+// Stage 3, slope of the tightening torque, the quotient of these two; 14.354 N·m per degree.
 double published_linear_slope(const PublishedParameters& p);
 
 // Stage 4, N·m, at the nut angle in degrees: T_max − κ1 (θ − θ_max)²; constant beyond θ_max (ours).
@@ -77,7 +79,7 @@ struct PublishedState {
 struct PublishedResponse {
     Stage stage = Stage::navigation;
     double torque = 0.0;  // N·m, with the paper's signs
-    double clamp = 0.0;   // N; F_c in the transition, F_b after
+    double clamp = 0.0;   // N; F_c in the transition, F_b in linearity and yield
 };
 
 // The law's response at this angle in this direction. Pure.

@@ -1,14 +1,15 @@
 // The internal thread of a tapped hole, and the force at which it or the bolt's thread strips.
 //
-// VDI 2230-1:2015 section 5.5.5, after E. M. Alexander, SAE 770420 (1977). Threads shear along cylinders of
-// the lengths in contact; m_eff is the engaged length that carries, D2 = d2 and D1 = d − 1.08253 P are those
-// of ISO 68-1:
+// VDI 2230-1:2015 section 5.5.5, after E. M. Alexander, SAE 770420 (1977). Threads shear along a cylinder, on
+// the part of its surface that they fill. m_eff is the engaged length that carries; D2 = d2 and
+// D1 = d − 1.08253 P are those of ISO 68-1:
 //
 //   internal, at the bolt's tips:  A = π d  (m_eff/P) (P/2 + (d − D2) tan 30°),    F = C1 C3 τ_M A
 //   external, at the hole's tips:  A = π D1 (m_eff/P) (P/2 + (d2 − D1) tan 30°),   F = C1 C2 τ_S A
 //
-// τ is the shear strength. C1 = 1 because the part around a tapped hole does not dilate as a nut does. C2 and
-// C3 account for the bending of the threads; they depend on R_S = τ_M A_internal / (τ_S A_external).
+// τ_M is the shear strength of the part with the hole, τ_S that of the bolt. C1 = 1 because the part around a
+// tapped hole does not dilate as a nut does. C2 and C3 account for the bending of the threads; they depend on
+// R_S = τ_M A_internal / (τ_S A_external).
 #pragma once
 
 #include <span>
@@ -28,8 +29,8 @@ struct TappedMaterial {
     double shear_ratio = 0.0;  // τ_M / R_m
 };
 
-// The built-in materials. Shear ratios are the lower bounds of VDI 2230-1:2015 table 6, and for castings and
-// aluminium those that Lork and Hanke publish for it; tensile strengths are the minima of EN 10025-2 (S235,
+// The built-in materials. Shear ratios are the lower bounds of VDI 2230-1:2015 table 6; for castings and
+// aluminium they are those of Lork and Hanke. Tensile strengths are the minima of EN 10025-2 (S235,
 // S355), EN 10083-2 (C45, quenched), EN 1561 (GJL), EN 1563 (GJS), EN 755-2 (6082-T6), EN 1706 (AlSi).
 std::span<const TappedMaterial> tapped_materials();
 
