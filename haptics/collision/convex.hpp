@@ -3,10 +3,10 @@
 //
 // Two convex solids are separated by s along n if a slab of width s, normal to n, lies between them. The
 // greatest s over all n equals the distance if the nearest features are face and corner or two edges. It is
-// less than the distance if the nearest features are two corners, and it is minus the penetration depth if
-// the solids overlap. The n of the greatest s is a normal of a face, or the cross product of two edges whose
-// arcs on the Gauss map cross, so only these directions are tried (Gottschalk, Lin, Manocha, SIGGRAPH 1996;
-// for the arcs: Gregorius, Game Developers Conference 2013).
+// less than the distance if the nearest features are two corners, or a corner and an edge. It is minus the
+// penetration depth if the solids overlap. The n of the greatest s is a normal of a face, or the cross
+// product of two edges whose arcs on the Gauss map cross, so only these directions are tried (Gottschalk,
+// Lin, Manocha, SIGGRAPH 1996; for the arcs: Gregorius, Game Developers Conference 2013).
 #pragma once
 
 #include <array>

@@ -15,8 +15,8 @@
 namespace bolt::collision {
 
 // An edge is sharp in three cases: the angle between the normals of its faces exceeds `sampled_edge_angle`;
-// the edge stands more than `edge_rise` above the smooth surface through its faces; the edge does not have
-// exactly two faces.
+// the edge stands more than `edge_rise` above the smooth surface through its faces; the edge is open or
+// forked (ContactMesh::open_edges, forked_edges).
 struct SharpEdge {
     std::array<std::uint32_t, 2> vertices;
     std::uint32_t triangle;            // one of its faces
@@ -77,7 +77,8 @@ inline constexpr double min_curvature = 10.0;
 inline double spacing_on_round(double curvature) { return std::sqrt(8.0 * round_rise / curvature); }
 
 // Three indices per triangle, counterclockwise seen from outside. Vertices at the same position are merged.
-// Fails if no triangle has an area, an index is out of range, or a coordinate is not finite or beyond 1 km.
+// Fails if the number of indices is not a multiple of three, an index is out of range, a coordinate is not
+// finite or beyond 1 km, or no triangle has an area.
 Result<ContactMesh> make_contact_mesh(std::span<const glm::vec3> vertices,
                                       std::span<const std::uint32_t> indices);
 

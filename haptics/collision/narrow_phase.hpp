@@ -88,8 +88,8 @@ inline constexpr double smooth_near = 0.16e-3, smooth_far = 0.36e-3;
 inline constexpr double max_smoothing_angle = 20.0 * pi / 180.0;
 
 // Sets `Contact::smooth` of contacts that `find_contacts` wrote for this world, tool and pose. Where a face
-// or blunt edge meets a crease, the face's normal is used; where two smooth surfaces meet, that of the
-// flatter one; where two creases meet, `smooth` stays zero.
+// or blunt edge meets a crease, the face's normal is used. Where two smooth surfaces meet, both normals are
+// averaged, and the flatter surface has the greater weight. Where two creases meet, `smooth` stays zero.
 void smooth_normals(const CollisionWorld& world, const ToolShape& tool, const Pose& pose,
                     std::span<Contact> contacts);
 

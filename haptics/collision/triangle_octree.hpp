@@ -1,7 +1,7 @@
-// An octree over the surroundings of a solid, built at load and refined near curved surfaces. A leaf stores
-// the signed distance of its centre and the triangles within `listing_distance` of any point in it. A query
-// returns distance bounds without visiting triangles; near the surface the listed triangles give exact
-// distances.
+// An octree over the surroundings of a solid, built at load and refined near curved surfaces. Each cell
+// stores the signed distance of its centre; a leaf also lists the triangles within `listing_distance` of any
+// point in it. A query returns distance bounds without visiting triangles; near the surface the listed
+// triangles give exact distances.
 #pragma once
 
 #include <optional>
