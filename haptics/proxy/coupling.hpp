@@ -48,8 +48,8 @@ Offset offset_between(const Pose& commanded_tool, const Pose& constrained_tool);
 force::OutputCommand coupling_force(const Coupling& coupling, const Offset& offset, const Offset& before,
                                     double dt);
 
-// J stored in the springs, for the passivity observer. A lower bound: exact in the linear range, too small
-// where the force saturates.
+// J stored in the springs, for the passivity observer. A lower bound: nearly exact for small offsets, too
+// small where the force saturates.
 double stored_energy(const Coupling& coupling, const Offset& offset);
 
 }  // namespace bolt::proxy

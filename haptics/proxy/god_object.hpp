@@ -58,8 +58,9 @@ struct GodObjectParameters {
     double stride = 0.4e-3;
     double max_band = 5e-3;        // m, widest band of a query
     double recovery_speed = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
-    // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The first
-    // query of a tick, at the pose where the last tick ended, is not charged if its band is one stride.
+    // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The cost of
+    // the first query of a tick, at the pose where the last tick ended, is not charged if its band is one
+    // stride.
     // `max_query_cost` applies after the first motion of the tick. Once the budget is spent, the tool moves
     // only as far as earlier queries proved free, and continues in the next tick.
     int max_queries = 5;
@@ -80,8 +81,8 @@ struct GodObjectState {
 
 // Result of a step.
 struct GodObjectStep {
-    double nearest = 0.0;      // m; lower bound of the distance at the pose of the last query
-    std::size_t contacts = 0;  // within the band at that pose
+    double nearest = 0.0;      // m; lower bound of the distance at the end of the step
+    std::size_t contacts = 0;  // within the band, in the last query at a pose of the tool
     int queries = 0;
     std::uint32_t query_cost = 0;
     int solves = 0;
