@@ -60,7 +60,7 @@ struct GuideTarget {
     int id = -1;                    // identifies the target; negative: none
     Vec3 point{0.0};                // m, at which the tool is to arrive
     Vec3 axis{0.0, 1.0, 0.0};       // unit, towards the accessible side
-    double approach_height = 0.08;  // m above the point at which the last segment begins
+    double approach_height = 0.08;  // m, height above `point` at which the last segment begins
     double bounding_radius = 0.03;  // m, of the ball that the target's nut and bolt fill; not an obstacle
     Hexagon hexagon;
 };

@@ -13,8 +13,8 @@ struct OutputCommand {
     Vec3 torque{0.0};  // N·m
 };
 
-// The defaults are the published values of a 6-DoF arm of the Virtuose class; speeds and jumps are chosen
-// above those of deliberate hand motion.
+// The defaults are the published values of a 6-DoF arm such as Haption's Virtuose; speeds and jumps are
+// chosen above those of deliberate hand motion.
 struct OutputLimits {
     double force = 20.0;              // N, magnitude
     double torque = 2.0;              // N·m, magnitude; 0: no torque output

@@ -1,4 +1,4 @@
-// The output stage through which all forces pass; nothing else writes to a device. Its parts, in order:
+// The output stage: every force passes through it before a device renders it. Its parts, in order:
 // watchdog (permits or blocks the output), passivity observer and controller, limiter (ramp, slew rate,
 // clamp, release).
 #pragma once
@@ -26,7 +26,7 @@ enum class Fault : std::uint8_t {
 inline constexpr std::size_t fault_kinds = 7;
 const char* message_for(Fault fault);
 
-// The state of the device in this tick, at the device's energy port.
+// The state of the device in this tick.
 struct DeviceInput {
     Pose pose;                 // of the point of application of the force, in the force's frame
     bool valid = true;         // the sample is a pose
@@ -119,7 +119,8 @@ OutputCommand control_passivity(const OutputLimits& limits, PassivityState& stat
 // Call after each tick with the command that was sent.
 void record_sent(PassivityState& state, const OutputCommand& sent);
 
-// The limiter, the last step. Its output is finite, within the device's limits, and within the slew rates.
+// The limiter, the last step. Its output is finite, within the device's limits and, except while it is
+// released, within the slew rates.
 
 struct LimiterState {
     Vec3 force{0.0};    // N, last output
