@@ -14,7 +14,7 @@ struct Fingertips {
 };
 
 struct FingertipContact {
-    // m, signed, from pad to tool; infinite_distance beyond contact_query_range.
+    // m, signed, from pad to tool; infinite_distance if the tool is beyond the range of the query.
     double distance = collision::infinite_distance;
     Vec3 point{0.0};   // m, on the tool's surface, tool frame
     Vec3 normal{0.0};  // unit, outward, at `point`

@@ -63,7 +63,7 @@ const char* name_of(Sensor sensor);
 
 // A frame is a letter ('S' when streaming, 'G' when polled), one byte 1 … 255 per sensor, five bytes of time
 // and one of status if enabled, 'e' and a letter if the glove reports an error, and a zero. In frames
-// without the time only the last byte is zero, so incomplete frames are detected and the reader
+// without time and status only the last byte is zero, so incomplete frames are detected and the reader
 // resynchronises at the next zero.
 
 struct GloveFrameLayout {
@@ -110,7 +110,8 @@ struct GloveHandshakeOptions {
     double quiet_time = 0.06;    // s without a byte until streaming counts as stopped
     double reply_timeout = 0.3;  // s until a reply times out
     int tries = 3;               // attempts per step
-    double quiet_timeout = 1.0;  // s until stop is repeated on a line that keeps sending, up to `tries` times
+    // s until the command to stop is repeated on a line that keeps sending; it is sent at most `tries` times.
+    double quiet_timeout = 1.0;
 };
 
 // The handshake with a glove: reads its identity and configures the stream.
@@ -156,7 +157,7 @@ class GloveHandshake {
     bool started_ = false;
     double since_ = 0.0, last_byte_ = 0.0;
     int attempts_ = 0;
-    std::uint8_t samples_ = 0;  // sampling mode that the glove reports
+    std::uint8_t samples_ = 0;  // values in a frame, as the glove reports
 };
 
 enum class GloveState : std::uint8_t {

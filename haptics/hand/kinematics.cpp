@@ -55,7 +55,7 @@ constexpr std::array<Bones, 4> bones{{
     {little_metacarpal, {18.5, -0.5, -27.0}, {53.69, 32.74, 18.11, 15.96}, 3.73},
 }};
 
-// Angles at rest in degrees: yaw to the little finger, pitch to the palm, roll to the little finger, flexion.
+// Angles at rest, degrees. A turn and a roll are positive to the little finger, a drop to the palm.
 struct Rest {
     double metacarpal_turn, metacarpal_drop, turn, roll;
     std::array<double, 3> flexion;

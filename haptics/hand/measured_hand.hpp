@@ -12,9 +12,9 @@ namespace bolt::hand {
 // The 1€ filter: a low-pass whose corner frequency rises with speed, which reduces noise at rest and lag in
 // motion. Source: G. Casiez, N. Roussel, D. Vogel, 1€ filter: a simple speed-based low-pass filter for noisy
 // input in interactive systems, CHI 2012. At constant speed v the lag is below 1/(2π (rest_cutoff +
-// cutoff_per_speed |v|)) s: with these values 9.6 ms at 1 rad/s, a slow deliberate motion. At 80 frames a
-// second the lag is 6.5 ms there, because the speed is measured from the filter's lagging value and so
-// overestimated.
+// cutoff_per_speed |v|)) s: with these values 9.6 ms at 1 rad/s, a slow deliberate motion. At 1 rad/s and 80
+// frames a second the lag is 6.5 ms, because the filter measures the speed from its own lagging value and so
+// overestimates it.
 struct OneEuroOptions {
     double rest_cutoff = 1.5;        // Hz, corner frequency at rest
     double cutoff_per_speed = 15.0;  // Hz per rad/s
