@@ -12,7 +12,8 @@ namespace {
 constexpr double max_radial_offset = 1.5e-3;  // m, up to which a jaw slides onto the nut
 constexpr double min_engage_cosine = 0.9976;  // cos 4°, of the angle between the jaw's normal and the axis
 constexpr double finger_reach = 0.012;        // m from fingertips to nut centre
-constexpr double min_held_cosine = 0.866;  // cos 30°, of the same angle; a jaw tilted more releases the nut
+// cos 30°, of the angle between the jaw's normal and the axis; a jaw that is tilted more releases the nut.
+constexpr double min_held_cosine = 0.866;
 constexpr double max_handle_axis_cosine = 0.8;  // above it the azimuth of the handle is ill-conditioned
 constexpr double max_turn_per_tick = 0.35;      // rad in a tick, faster than any hand
 constexpr double offset_decay_time = 0.05;      // s, of Engagement::offset_at_engagement

@@ -59,8 +59,8 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
                             const ToolPose& tool, Grip grip, Engagement& engagement);
 
 // A tool with a ratchet (Ratchet in setup.hpp) takes three steps in a tick: turn_tool() with the hand, the
-// joint's step with a drive that limit_to_pawl() limits, and settle_ratchet(). Without a ratchet the last two
-// do nothing.
+// joint's step with a drive that limit_to_pawl() limits, and settle_ratchet(). Without a ratchet
+// limit_to_pawl() and settle_ratchet() do nothing.
 
 // Turns the engaged tool by `turned`, rad since the last tick, tightening positive. The handle of a ratchet
 // first takes up Engagement::ratchet_slack.

@@ -50,7 +50,7 @@ struct TickInput {
     // held or the tool is within 12 cm of a nut.
     std::uint8_t checkpoint_action = 0;
     // N·m on the scale of a click-type torque wrench; 0: it does not click. Ignored from the click until the
-    // wrench leaves the nut.
+    // mechanism has swung back.
     float set_torque = 0.0F;
     // Index in Setup::tools of the tool that the hand gets when it next takes one. change_tool() (tick.hpp)
     // puts this tool into use while the hand holds neither a tool nor a nut.
@@ -61,14 +61,15 @@ struct TickInput {
 };
 
 struct Output {
-    // Device output after scaling and the limits of the output stage, at the tool's origin: N and N·m.
+    // Device output after scaling and the limits of the output stage, N and N·m. It acts at the tool's origin
+    // or, on a device without torque output, at the end of the wrench's handle.
     Vec3 force{0.0};
     Vec3 torque{0.0};
 
     force::Fault fault = force::Fault::none;  // reason for which the output is zero
 
     Pose constrained_tool;       // pose that contacts permit, in the assembly's frame
-    std::uint16_t contacts = 0;  // contacts that the tick's last contact query has found
+    std::uint16_t contacts = 0;  // within the band, in the last query at a pose of the tool
     // The obstacle in contact at the pose of the tick's last contact query. That pose can differ
     // from `constrained_tool`.
     collision::ObstacleId touched;

@@ -130,8 +130,7 @@ struct HostAssessment {
 // 1 / rate after its deadline counts as missed.
 HostAssessment assess_host(const Timing& timing, double rate, const HostRequirements& requirements = {});
 
-// A table: one row per histogram (median, p99 and p99.9 in µs, greatest in ms), then ticks and missed
-// deadlines.
+// A table: one row per histogram (median, p99, p99.9 and greatest, µs), then ticks and missed deadlines.
 std::string describe(const Timing& timing);
 
 struct Deadline {

@@ -52,7 +52,7 @@ struct Ratchet {
     double tooth_angle = 0.0;       // rad; 0: no ratchet
     double drag = 0.0;              // N·m, at the top of a tooth
     double least_drag_share = 0.4;  // of `drag`, at the foot of a tooth: the pawl's spring is preloaded
-    bool loosens = false;  // the lever's position: the direction in which the head turns with the handle
+    bool loosens = false;           // the lever's position; true: the head turns with a handle that loosens
 };
 
 // The unit vector about which a right-handed rotation loosens the nut.

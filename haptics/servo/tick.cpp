@@ -43,7 +43,7 @@ joint::NutDrive drive_without_click(const Setup& setup, const State& state) {
 }
 
 // The external torque, N·m, that the held part of the engaged joint can bear. While the fingers of one hand
-// turn a nut, those of the other hand hold the head.
+// turn a nut or head, those of the other hand hold the held part.
 double held_part_torque(const Setup& setup, const Engagement& e, int second_wrench) {
     if (e.joint < 0 || second_wrench == e.joint) return std::numeric_limits<double>::infinity();
     if (e.grip != Grip::fingers) return 0.0;
@@ -138,8 +138,8 @@ double relative_work(const force::OutputCommand& guiding, const PoseStep& comman
                         turn_between(constrained.before.orientation, constrained.now.orientation));
 }
 
-// For a device without torque: the aligning torque as a force at the end of the wrench: a wrench near a
-// bolt turns with the end of its handle.
+// Converts the aligning torque to a force at the end of the handle, for a device without torque: near a bolt
+// the wrench turns with the end of its handle.
 force::OutputCommand as_force_at_lever_end(const Setup& setup, const force::OutputCommand& guiding,
                                            const ToolPose& tool) {
     if (setup.wrench.handle_length <= 0.0) return guiding;

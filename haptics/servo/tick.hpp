@@ -37,7 +37,7 @@ struct State {
     std::uint64_t tick = 0;
     std::vector<joint::JointState> joints;
     std::vector<double> rounded;  // by joint: m that slipping jaws removed (joint::CornerGrip::rounded)
-    double bent = 0.0;            // rad by which tools were bent for good; undo does not restore them
+    double bent = 0.0;            // rad by which tools were bent for good; undo does not reduce it
     Engagement engagement;
     Vec3 hold_target{0.0};  // m, point to which the hold spring pulls an engaged tool
     ReleaseFade release_fade;

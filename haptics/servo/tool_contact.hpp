@@ -71,7 +71,8 @@ struct ToolContact {
     collision::ObstacleId touched;  // the nearest obstacle in contact, see Output::touched
 };
 
-// Builds the collision structures; the only function here that allocates. Fails if a mesh is not closed.
+// Builds the collision structures. Only this function and turned_part_samples() allocate. Fails if the mesh
+// of a tool is not closed.
 Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescription& description);
 
 // Makes tool `to` the one in use instead of `from`. The hand must not hold a tool. Does not allocate.
