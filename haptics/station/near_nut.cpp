@@ -12,8 +12,9 @@ namespace {
 
 using force::Pivot;
 
-// m. The wrench pivots about a bolt while its jaw is within pivot_radius of the axis and between pivot_below
-// under and pivot_above over the nut's range of travel; pivoting ends at 1.5 times these distances. Further
+// m. The wrench pivots about a bolt while its jaw is within pivot_radius of the axis, at most pivot_below
+// below the nut's range of travel and at most pivot_above above it. Pivoting ends at 1.5 times these
+// distances. Further
 // down the jaw is beside the workpiece, and a rotation would push it under the workpiece's edge. The guiding
 // force aligns the jaw from the same distance (GuidingParameters::alignment_distance).
 constexpr double pivot_radius = 0.08, pivot_above = 0.06, pivot_below = 0.002;

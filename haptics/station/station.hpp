@@ -1,5 +1,5 @@
-// A running station: the threads of the devices, of the glove and of the servo between them. Other threads
-// read its state and send controls and commands; none of these calls delays a tick.
+// A running station: the threads of its devices, its glove and its servo. Other threads read its state and
+// send controls and commands; none of these calls delays a tick.
 #pragma once
 
 #include <algorithm>

@@ -36,8 +36,8 @@ struct StiffnessTrial {
     int level = 0;                            // the present level, 0 … stiffness_levels − 1
     double stable = 0.0;                      // N/m, largest stiffness that has passed; 0: none
 
-    // s from the first command of a step until the handle has moved visibly, one for each level. Includes the
-    // inertia of arm and hand.
+    // s from the first command of a step until the handle has moved visibly, one for each level at which it
+    // has moved. Includes the inertia of arm and hand.
     std::vector<double> responses;
 
     // The present level:
