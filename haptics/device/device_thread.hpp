@@ -36,7 +36,7 @@ enum class DeviceState : std::uint8_t {
 
 struct DeviceStatus {
     DeviceState state = DeviceState::absent;
-    std::string fault_message;                        // plain text with a remedy; empty: none
+    std::string fault_message;                        // plain text; empty: none
     Preparation preparation;                          // action needed before the device can be opened
     DeviceHealth health;                              // while open
     std::shared_ptr<const Description> description;   // from the last opening; null: never opened
@@ -87,8 +87,8 @@ class DeviceSupervisor {
     std::uint64_t command_number_ = 0;           // of the newest command
     double command_time_ = 0.0;                  // when that command was first seen
     bool rendering_ = false;                     // the last write was not zero
-    // True until a zero command is written after opening or after a rendered force: until then the device may
-    // still hold a force.
+    // The device may still hold a force: no zero command has been written since the opening, or since the
+    // last rendered force.
     bool may_hold_force_ = false;
 };
 

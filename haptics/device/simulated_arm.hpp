@@ -54,8 +54,8 @@ struct HandMotion {
     // m and rad that the intention may be ahead of the arm: this limits how hard the hand pushes
     // against a wall.
     double max_deflection = 0.06, max_angular_deflection = 0.6;
-    // 1/s, rate at which the intended pose moves to the arm's pose, as a relaxed hand lets the arm move it.
-    // 0: firm.
+    // 1/s, rate at which the intended position moves to the arm's position, as a relaxed hand lets the arm
+    // move it. 0: firm.
     double compliance_rate = 0.0;
     std::uint32_t buttons = 0;
     // The pose of the hand in the device frame, if it is measured; it replaces `moved` and `turned`. The

@@ -24,7 +24,7 @@ struct SixAxisState {
     std::uint32_t buttons = 0;  // bit i: button i is pressed
 };
 
-// Fails if the device does not have six such axes.
+// Fails if the device lacks one of the six axes.
 Result<SixAxisLayout> six_axis_layout(const ReportDescriptor& descriptor);
 
 // Decodes an input report from hidapi (numbered reports begin with their id) into `state`. Returns false if

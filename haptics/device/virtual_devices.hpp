@@ -8,7 +8,7 @@
 
 namespace bolt::device {
 
-// Deflection, −1 … 1 of full speed along and about the axes of the device frame.
+// Deflection, −1 … 1, along and about the axes of the device frame.
 struct PuckInput {
     Vec3 along{0.0};
     Vec3 about{0.0};
@@ -68,7 +68,7 @@ struct FaultInterval {
 
 // The hand that holds a scripted device, for tests: a mass, pulled by a spring and damper to the intended
 // pose and pushed by the device's force. The arm that a user can select has HandAndArmParameters instead
-// (simulated_arm.hpp). Defaults: a relaxed grip, the middle of the ranges in tests/support/random_arm.hpp.
+// (simulated_arm.hpp). Defaults: a relaxed grip, within the ranges of tests/support/random_arm.hpp.
 struct HandImpedance {
     double mass = 0.3, stiffness = 300.0, damping = 10.0;          // kg, N/m, N·s/m
     double inertia = 2e-3, torsion = 2.0, angular_damping = 0.05;  // kg·m², N·m/rad, N·m·s/rad

@@ -64,7 +64,7 @@ namespace bolt::device {
 
 // The fields of a wheel's input report.
 struct WheelAxis {
-    ReportField axis;                  // usage Steering, or X of a joystick
+    ReportField axis;                  // usage Steering, X or Wheel, the first that the device has
     std::vector<ReportField> buttons;  // sorted by button number
     bool numbered = false;
 };

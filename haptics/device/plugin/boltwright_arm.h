@@ -50,10 +50,10 @@
    most.
 
    VERSIONS
-   Each structure begins with its size in bytes. Later versions of this header only append members. The
-   sizes of bw_arm_info_v1 and bw_arm_state_v1 are set by Boltwright, which also sets all other members to
-   zero, but for the orientation of a state (1, 0, 0, 0) and its gripper (1): write no member that lies beyond
-   this size. The size of bw_arm_v1 is set by the plug-in; Boltwright uses no member beyond it. A change that
+   Each structure begins with its size in bytes. Later versions of this header only append members.
+   Boltwright sets the sizes of bw_arm_info_v1 and bw_arm_state_v1: write no member that lies beyond this
+   size. It sets all other members to zero, except the orientation (1, 0, 0, 0) and the gripper (1) of a
+   state. The size of bw_arm_v1 is set by the plug-in; Boltwright uses no member beyond it. A change that
    cannot be made by appending raises BW_ARM_ABI. */
 #ifndef BOLTWRIGHT_ARM_H
 #define BOLTWRIGHT_ARM_H
@@ -109,7 +109,7 @@ struct bw_arm_info_v1 {
     double max_torsion;   /* N.m/rad, likewise [40]; 0 without axes of torque */
     double max_damping;   /* N.s/m, that it renders without oscillation [20]; 0: none */
     double max_angular_damping; /* N.m.s/rad, likewise [0.1]; 0: none */
-    double half_workspace[3];   /* m, half the workspace along each axis [1] */
+    double half_workspace[3];   /* m, half the workspace along each axis, above 0 [1] */
 };
 
 /* A force and a torque on the hand at the origin of the handle, along the axes of the frame above. */
