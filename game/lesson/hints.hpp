@@ -55,7 +55,7 @@ struct Hint {
 // arrow.
 Hint make_hint(Situation situation, Situation underlying, int level, const ObservedLesson& work);
 
-// The control for each motion as text ("hold F and drag"). motion_text() selects the texts of its choices.
+// The control for each motion as text ("hold F and drag"); motion_text() replaces its placeholders.
 using ControlNames = std::array<std::string, motion_count>;
 
 std::string hint_text(const words::Words& words, const Hint& hint);
@@ -92,11 +92,12 @@ ControlNames tracked_controls(const words::Words& words);
 // Hints become more explicit the longer the work makes no progress, and do not flicker.
 //
 //   guided:     text at once, then outline and arrow, then a ghost, then the animated motion
-//   practice:   the same after a long time, or one level more for each request
+//   practice:   the same after a long time
 //   assessment: none, also on request
 //
-// A hint stays for at least 1.5 s. It is replaced earlier if the step changes, if the trainee has to stop, or
-// if the trainee has done what the hint requests.
+// Except in an assessment, each request raises the level by one. A hint stays for at least 1.5 s. It is
+// replaced earlier if the step changes, if the trainee has to stop or turns the wrong nut or the wrong way,
+// or if the trainee has done what the hint requests.
 
 // Time without progress after which each level is reached, s.
 struct HintTimes {

@@ -8,8 +8,8 @@
 
 namespace bolt::lesson {
 
-// How apply_law() adapts an assembly: as now, or as programs did before format 6 of session files, whose
-// replays and reports need it.
+// Selects how apply_law() adapts an assembly: as now, or as programs did before format 6 of session files.
+// Replays and reports of such files need the latter.
 enum class LawAdaptation : std::uint8_t { yield_end, before_format_6 };
 
 // Returns the assembly with `law` in force and its specifications adapted to it. The specifications of joint
@@ -22,8 +22,9 @@ enum class LawAdaptation : std::uint8_t { yield_end, before_format_6 };
 // A torque wrench is set so low that it clicks before the end of the yield stage, whatever its deviation. If
 // that lowers the target torque, the lower torque limit stays below the lowest torque at which the wrench can
 // click. The target clamp force follows from the target torque. Without θ_max in the file, θ_max is computed
-// for a nut that starts at design.start_gap. `before_format_6`: without own targets, torques above 98 % of
-// T_max are lowered to 98 %; no angle is judged; θ_max and the torque wrench are not adapted. Idempotent.
+// for a nut that starts at design.start_gap. `before_format_6`: without own targets, the target torque is at
+// most 98 % of T_max, and the lower limit at most 95 % of the target; no angle is judged; θ_max and the
+// torque wrench are not adapted. Idempotent.
 content::Assembly apply_law(content::Assembly assembly, joint::Law law,
                             LawAdaptation adaptation = LawAdaptation::yield_end);
 

@@ -168,10 +168,11 @@ void begin_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& wor
     report_out_of_turn(lesson, joint, world);
 }
 
-// Updates the torque that turned the nut, in a step of any kind. `step_torque`: torque of the wrench in the
-// direction of the task, N·m. Divides by the breakaway factor (r in mechanistic.hpp), because a nut that is
-// turned in small increments breaks away each time. The factor applies to friction only and the whole torque
-// is divided by it, so the result is slightly too low. A nut that leaves its seat resets the torque.
+// Updates the highest torque that turned the nut, in all steps of a tightening lesson. `step_torque`: torque
+// of the wrench in the direction of the task, N·m. It is divided by the breakaway factor (r in
+// mechanistic.hpp), because a nut that is turned in small increments breaks away each time. The factor
+// applies to friction only, but the whole torque is divided by it, so the result is slightly too low. A nut
+// off its seat has no mark, torque or angle, and a later excess is reported again.
 void update_turned_torque(Lesson& lesson, std::size_t index, const world::Joint& joint, double step_torque) {
     JointTrack& track = lesson.joints[index];
     if (lesson.task != Task::tighten) return;
@@ -374,7 +375,7 @@ void observe(Lesson& lesson, const world::ReadHaptics& world) {
                                 fastener_name(lesson.assembly->joints[joint].design)));
     }
     end_assessment(lesson, world);
-    // The step of a broken bolt cannot be done; the lesson continues with the next one.
+    // The step of a broken or stripped joint cannot be done; the lesson continues with the next one.
     const LessonStep* due = lesson.due();
     if (due != nullptr && lesson.held_joint < 0 &&
         lesson.joints[due->joint].result.condition != joint::JointCondition::intact)

@@ -29,7 +29,7 @@ struct JointTrack {
     double turned_torque = 0.0;  // N·m, highest at which the nut turned, since it was last off its seat
     double begin_angle = 0.0;    // rad, nut angle when the step began
     bool yielded = false;        // the yield stage was reached
-    bool clicked = false;        // the torque wrench clicked in the due step
+    bool clicked = false;        // the torque wrench clicked since the last step of this joint began
     bool worked = false;         // the hand has loaded or turned the nut in this hold
     double furthest = 0.0;       // rad, extreme nut angle of this hold: highest if tightening, else lowest
     bool seated = false;         // the nut was on its seat at `furthest`
@@ -62,7 +62,7 @@ struct Lesson {
     std::size_t current = 0;  // index of the due step
     std::vector<JointTrack> joints;
     std::vector<ToolFault> tool_faults;               // by joint; replays of old sessions have none
-    ToolFault reported_tool_fault = ToolFault::none;  // once a lesson: the tool is chosen once
+    ToolFault reported_tool_fault = ToolFault::none;  // reported once a lesson, because a tool is chosen once
     int held_joint = -1;                              // in the hand at the last tick; −1: none
     servo::Grip grip = servo::Grip::none;
     int last_held_joint = -1;                          // the joint that was released last

@@ -21,7 +21,7 @@ constexpr std::string_view name(StepKind kind) { return step_kind_names.of(kind)
 struct LessonStep {
     StepKind kind = StepKind::tighten;
     std::size_t joint = 0;
-    // N·m. Steps `tighten` and `recheck` end there. In a step `turn` it is only shown.
+    // N·m. Steps `tighten` and `recheck` end there; other steps do not.
     double torque = 0.0;
     double fraction = 1.0;  // of the joint's target
     int pass = 0;
@@ -30,8 +30,8 @@ struct LessonStep {
     double angle = 0.0;
 };
 
-// The passes of a loosening lesson: the file's, else one that loosens every joint, in the reverse order of
-// the last pass.
+// The passes of a loosening lesson: the file's, else one that loosens the joints of the last pass, in its
+// reverse order.
 std::vector<content::Pass> loosening_passes(const content::Assembly& assembly);
 
 // The steps of a lesson, from the passes in their order.
@@ -46,7 +46,7 @@ bool turns_by_angle(const content::Assembly& assembly);
 bool uses_fingers(const content::Assembly& assembly, const servo::Setup& setup, const LessonStep& step,
                   double nut_angle);
 
-// The angle window of a step of kind `turn`, rad from the mark: the joint's window, scaled like the torque's.
+// The angle window of a step of kind `turn`, rad from the mark: the joint's window times the step's fraction.
 content::ToleranceWindow angle_window(const content::Assembly& assembly, const LessonStep& step);
 
 }  // namespace bolt::lesson

@@ -9,7 +9,7 @@
 
 namespace bolt::lesson {
 
-// The torque window of a step: the joint's window, scaled by the fraction of the pass.
+// The torque window of a step: the joint's window, scaled so that its target is LessonStep::torque.
 content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& step);
 
 // The angle, rad, by which the nut has been turned from the mark, or 0 without a mark.
@@ -18,7 +18,7 @@ double angle_from_mark(const Lesson& lesson, const world::ReadJoints& world, std
 // True if the step tightens to the whole target with strategy `yield`.
 bool requires_yield(const Lesson& lesson, const LessonStep& step);
 
-// True if a second wrench must hold the other part of the joint while a tool turns it.
+// True if a second wrench must keep the held part of the joint from turning; never under the published law.
 bool needs_second_wrench(const content::Assembly& assembly, std::size_t joint);
 bool needs_second_wrench(const content::Assembly& assembly);  // any of its joints
 
@@ -28,7 +28,7 @@ bool needs_second_wrench(const content::Assembly& assembly);  // any of its join
 bool requires_click(const Lesson& lesson, const LessonStep& step);
 
 // Set torque of the torque wrench for the due step, N·m on its scale (content::adaptor_ratio); 0 for other
-// tools and for steps without a torque.
+// tools and for steps that do not end at a torque.
 double wrench_set_torque(const Lesson& lesson);
 
 }  // namespace bolt::lesson
