@@ -21,10 +21,12 @@ struct HexagonPose {
     double low = 0.0;                     // m, height of the bearing face above the seat
 };
 
-// Takes the outermost points of the mesh for the six corners; of a head with a socket, the points above its
-// bearing face at the distance of the socket's corners from the axis. A head that is drawn without its socket
-// is not rotated. The bearing face of a nut is at its lowest points, that of a head at the seat. `points`: in
-// the assembly's frame.
+// Finds the six corners of the hexagon among the points of the mesh:
+//   nut, hexagon head   the points furthest from the axis
+//   socket head         the points above the bearing face, at the distance of the socket's corners from the
+//                       axis. A head that is drawn without its socket is not rotated
+// The bearing face of a nut is at its lowest points, that of a head at the seat. `points`: in the assembly's
+// frame.
 HexagonPose find_hexagon(const servo::NutGeometry& nut, std::span<const glm::dvec3> points);
 
 // Transforms from the assembly's frame to the nut's own; servo::nut_pose transforms back.
@@ -34,7 +36,7 @@ inline Vec3 to_nut_frame(const servo::NutGeometry& nut, const HexagonPose& hexag
     return hexagon.straighten * (local - Vec3(0, 0, hexagon.low));
 }
 
-// The obstacles of a lesson's wrench, and their description in the session file.
+// The contact models of a lesson's obstacles and tools, and their description in the session file.
 struct ContactModels {
     servo::ToolContact tool_contact;
     std::vector<ObstacleName> names;  // node names, by obstacle id
@@ -45,11 +47,11 @@ struct ContactModels {
 // is generated (game/tool_models).
 std::optional<Error> missing_contact_model(const content::Assembly& assembly);
 
-// None if the contact model is missing (missing_contact_model). A joint's turned part is the first node for
-// which content::is_turned_node() is true; all other nodes are fixed. The wrench is `NAME.contact.glb`
-// beside its `NAME.glb` if that file exists, else `NAME.glb`; without a file it is generated. Fails, and
-// names the file, if a model cannot be read, has no triangles, or has an open surface where a closed one is
-// required.
+// None if the contact model is missing (missing_contact_model). A joint's turned part is the node for which
+// content::is_turned_node() is true; all other nodes are fixed. A tool is `NAME.contact.glb` beside its
+// `NAME.glb` if that file exists, else `NAME.glb`; without a file it is generated. Fails, and names the file,
+// if a model cannot be read, has no triangles, has more parts than a session can number, or has an open
+// surface where a closed one is required.
 Result<std::optional<ContactModels>> load_contact_models(const content::Assembly& assembly,
                                                          const servo::Setup& setup);
 

@@ -28,9 +28,9 @@ struct CsvOptions {
 };
 
 // Writes a session's ticks to `out` as comma-separated values (RFC 4180) and flushes it; the caller closes
-// it. A header row with units in the names comes first, then one row for each exported tick. Numbers are the
-// shortest that read back as the same single-precision value. If `out` may be a pipe, ignore SIGPIPE to get
-// the error instead of the signal.
+// it. A header row with units in the names comes first, then one row for each exported tick. Times have six
+// decimals; other numbers are the shortest that read back as the same single-precision value. If `out` may be
+// a pipe, ignore SIGPIPE to get the error instead of the signal.
 Status export_csv(const SessionReader& session, std::FILE* out, const CsvOptions& options = {});
 
 }  // namespace bolt::session

@@ -85,8 +85,8 @@ std::string servo_text(double rate);
 //   none of these                     unrecorded
 TraineeKind trainee_kind(const Header& header);
 
-// The person's code, in sessions of older programs the typed name; empty if neither is recorded. A simulated
-// trainee has the text of --trainee.
+// The person's code, or in sessions of older programs the typed name; empty if neither is recorded. Of a
+// simulated trainee: the text of --trainee.
 std::string trainee_name(const Header& header);
 
 // Keys of table meta.

@@ -71,7 +71,6 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
         const double target = assembly.joints[i].spec.torque.target;
         joint::JointState& joint = state.joints[i];
         int steps = 0;
-        // With strategy `yield`, tighten to the beginning of the yield stage instead of a torque.
         const bool into_yield = assembly.joints[i].spec.strategy == content::Strategy::yield;
         const auto tightened = [&] {
             return joint.torque >= target || (into_yield && joint.stage == joint::Stage::yield);
@@ -135,7 +134,8 @@ Result<std::optional<ContactModels>> obstacles_of(const content::Assembly& assem
     return models;
 }
 
-// Compares all bits of the outputs, also those that the session file does not store.
+// Compares the outputs bit by bit, also the members that the session file does not store. Forces, torques,
+// nut angle and clamp force are compared in the single precision of the file.
 bool same_tick(const servo::TickInput& input, const servo::Output& a, const servo::Output& b) {
     return same_output(make_record(input, a), make_record(input, b)) &&
            std::memcmp(&a.constrained_tool, &b.constrained_tool, sizeof a.constrained_tool) == 0 &&

@@ -29,8 +29,9 @@ namespace bolt::session {
 servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const force::OutputLimits& limits,
                         std::uint64_t seed, double dt);
 
-// Tightens every joint to its target without the hand, in the order of the last pass, and lets it settle for
-// 10 s: the initial state of a loosening lesson. Fails if a joint does not reach its target.
+// Makes the initial state of a loosening lesson: tightens each joint without the hand, in the order of the
+// last pass, then lets all joints settle for 10 s. Tightening ends at the target torque or, with strategy
+// `yield`, at the beginning of the yield stage if that comes first. Fails if a joint does not get there.
 Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, servo::State& state);
 
 // `if_any`: obstacles if the assembly has contact models.
@@ -162,7 +163,8 @@ class LessonSession {
 
     // In the next tick, returns the nuts and the lesson to the start of the due step (0) or of the step
     // `steps` steps earlier; possible after the last step too. Ignored in an assessment, beyond the oldest
-    // checkpoint, and while a nut is held or the tool is beside one (servo::TickInput::checkpoint_action).
+    // checkpoint, while a nut is held or the tool is beside one (servo::TickInput::checkpoint_action), and in
+    // a tick that saves a checkpoint.
     void request_undo(std::size_t steps) { requested_undo_ = steps; }
 
     // Events of the last tick.
@@ -198,7 +200,7 @@ class LessonSession {
 
     SessionSetup session_setup_;  // its state advances with each tick
     LessonTracker tracker_;
-    std::uint32_t checkpoints_saved_ = 0;  // since the start; undo does not reduce it
+    std::uint32_t checkpoints_saved_ = 0;
     std::optional<std::size_t> requested_undo_;
     std::vector<lesson::LessonEvent> events_;
     std::optional<SessionWriter> writer_;

@@ -55,8 +55,9 @@ servo::TickInput input_of(const TickRecord& record);
 // True if the outputs are equal bit by bit; NaNs with equal bits count as equal.
 bool same_output(const TickRecord& a, const TickRecord& b);
 
-// True if each enumeration and index is in its range. Other records are neither written nor returned, so a
-// reader may use a stage as an index without a check.
+// True if each enumeration has one of its values and no index is less than −1. Other records are neither
+// written nor returned, so a reader may use a stage as an index without a check. The number of joints is not
+// known here, so the index of a joint may be too large.
 bool is_valid(const TickRecord& record);
 
 // A chunk encodes consecutive ticks as bytes. It is a header (version u8, count u32, first tick u64,
