@@ -260,8 +260,8 @@ void retreat_if_caught(TraineeState& t, const Pose& intended, const Pose& wrench
     t.caught_time = 0.0;
     ++t.consecutive_catches;
     t.from = wrench;
-    // Alternates between up and back, and sideways away from the obstacle: a corner that is hooked in a
-    // thread does not come out along the bolt.
+    // An odd retreat goes up and back, an even one sideways away from the obstacle, because a corner that is
+    // hooked in a thread does not come out along the bolt.
     const Vec3 up = way_off_nut(t, wrench.position), back = t.rest.position - wrench.position;
     Vec3 aside = wrench.position - intended.position;
     aside -= up * glm::dot(up, aside);

@@ -146,7 +146,8 @@ bool start_next_waypoint(TraineeState& t, Phase phase);
 
 void start_lift(TraineeState& t, const Pose& pose, double seconds);
 
-// Called when the jaw slides onto the nut: the wrench's pose becomes the hand's intended pose.
+// Called when the tool engages the nut: the hand's actual pose becomes its intended pose, except along the
+// bolt.
 void adopt_wrench_pose(TraineeState& t);
 
 // Moves a wrench that is caught on an obstacle away from it. The next path is higher.

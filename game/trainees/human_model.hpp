@@ -58,8 +58,8 @@ struct Percept {
     bool clicked = false;      // the torque wrench is swinging at its click
 };
 
-// Delays perception by a reaction time, and detects yielding from the slope of torque over the nut's angle. A
-// trainee has no other access to the joint.
+// Delays perception by a reaction time, and detects yielding from the slope of torque over the nut's angle.
+// What the trainee sees of the joint, such as the nut's angle, has no delay.
 class DelayedPerception {
   public:
     // `reaction`, `dt`: s. `stiffness`: wrench and wrist in series, N·m/rad; their deflection is subtracted

@@ -19,13 +19,13 @@ struct StepPlan {
     bool fingers = false;         // runs the nut down by hand
     bool loosening = false;
     bool wrong_joint = false;   // `joint` is not the due one
-    bool until_seated = false;  // stops when the nut is seated
+    bool until_seated = false;  // a step that runs the nut down: sets the goal torque of a wrench
     bool only_checks = false;   // re-check: stops as soon as the nut begins to move
     bool until_yield = false;   // stops when the bolt begins to yield
     bool until_click = false;   // stops at the click of the torque wrench
     double goal_torque = 0.0;   // N·m at which it stops
-    // Nut angle, rad, at which it stops whatever the torque: from the mark, or when loosening from the start
-    // of the step, turned back; 0: it goes by the torque.
+    // rad, rotation of the nut at which the trainee stops, whatever the torque: from the mark; when
+    // loosening, turned back from the start of the step. 0: the torque decides.
     double goal_angle = 0.0;
     double min_torque = 0.0;  // N·m, known lower limit: below it, yielding does not stop the pull
     bool forgets_second_wrench = false;

@@ -57,7 +57,7 @@ class SimulatedTrainee {
 };
 
 struct TrainOptions {
-    session::LessonOptions lesson;  // trainee_profile is taken from the trainee
+    session::LessonOptions lesson;  // train() sets trainee_profile and view_help
     TraineeProfile trainee;
     motion::ViewHelper view_help;  // none: the trainee only moves its head
     double time_limit = 14400.0;   // s of virtual time after which the lesson is aborted
