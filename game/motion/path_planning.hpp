@@ -73,8 +73,8 @@ HandleAngle choose_handle_angle(const servo::Setup& setup, const servo::ToolCont
                                 std::size_t joint, const joint::JointState& state, double preferred,
                                 double sign, double stroke);
 
-// Height above the nut, m, at which a wrench waits before it is lowered: `max_height`, or less if an obstacle
-// is above the nut.
+// Height above the nut, m, at which a wrench waits before it is lowered: `max_height`, or down to 15 mm if an
+// obstacle is above the nut. If no height is free, also `max_height`.
 double hover_height(const servo::Setup& setup, const servo::ToolContact& contact, std::size_t joint,
                     double nut_angle, const HandleAngle& handle, double max_height);
 

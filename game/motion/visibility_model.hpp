@@ -54,7 +54,7 @@ struct ViewRequest {
     const servo::ToolContact& contact;
     std::size_t joint = 0;
     Vec3 nut{0.0};  // m, centre
-    Pose wrench;    // its pose on the nut
+    Pose wrench;    // its pose above the nut, from which it is lowered
     Vec3 eye{0.0};  // m, present position
 };
 
