@@ -44,7 +44,7 @@ struct ConstrainedTool {
     Pose pose;
 };
 
-// How far a torque wrench has come in the due step: below the step's window, in it or above it.
+// The reading of a torque wrench in the due step: below the step's window, in it or above it.
 enum class TargetState : std::uint8_t { below, reached, exceeded };
 
 // The tool in the hand: its contact with nuts and obstacles, and its state. A joint is −1 if there is none.
