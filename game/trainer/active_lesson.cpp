@@ -51,7 +51,8 @@ double handle_turn(const ActiveLesson& active, const Projection& projection, con
     return nut.sense * drag_angle(lever, drag);
 }
 
-// −1 … 1 of the fastest twist of the fingers, tightening positive. A drag to the right turns clockwise.
+// Share of the fastest twist of the fingers, tightening positive; not limited to ±1. A drag to the right
+// turns clockwise.
 double finger_twist(const ActiveLesson& active, double drag) {
     const auto& nut = hand_of(active).nut;
     const double sense = nut ? active.session->setup().nuts[*nut].sense : 1.0;

@@ -104,14 +104,16 @@ struct ActiveLesson {
     std::vector<lesson::LessonEvent> events;  // not logged yet
 };
 
-// Components of the hand and the tool after the last tick. write_hand() replaces the first once a frame.
+// The component of the hand. After the ticks of a frame, write_hand() replaces it by the hand of the mouse or
+// of the station.
 inline const world::WorkingHand& hand_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::WorkingHand>();
 }
-// At the tool in use.
+// The postures of the hand at the tool in use.
 inline const scene::Postures& postures_of(const ActiveLesson& active) {
     return active.postures[active.session->setup().tool];
 }
+// Components of the tool after the last tick.
 inline const world::ConstrainedTool& tool_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::ConstrainedTool>();
 }

@@ -183,7 +183,8 @@ Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
     return {};
 }
 
-// Shows an error of a start in the menu; without a menu it is returned.
+// Shows an error of a start in the menu or on the page of the study. Returns it if there is neither, or if
+// the GPU is lost.
 Status App::report_start(Status begun) {
     if (begun) return {};
     if (study_ && !begun.error().lost) {

@@ -26,7 +26,7 @@ struct AssemblyEntry {
     std::map<std::string, std::string> title;  // by language
     std::vector<VariantEntry> variants;        // at least one, the default one first
     joint::Law law = joint::Law::mechanistic;
-    bool contact_model = false;  // the assembly and its first tool have one
+    bool contact_model = false;  // the assembly has one
     std::optional<Error> error;  // why no lesson can start
 };
 

@@ -34,7 +34,7 @@ enum class Action : std::uint8_t {
     close_up,       // shows and hides the close-up
     second_wrench,  // puts the second wrench on the held or due joint, or takes it away
     place_again,    // in a room: places panel and workpiece in front of the user
-    turn_left,      // in a room, by a step: the workpiece
+    turn_left,      // in a room: this and the next three move the workpiece by a step
     turn_right,
     raise,
     lower,

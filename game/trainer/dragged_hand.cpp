@@ -22,8 +22,9 @@ constexpr double key_turn_speed = 1.5;           // rad/s
 // pinching.
 constexpr double finger_rate = 6.0;
 
-// 1/s, HandMotion::compliance_rate in the air: the largest guiding force, 2.4 N, moves the hand at 2.7 cm/s.
-// On a bolt it is 0, because the hand holds what it has pulled.
+// 1/s, HandMotion::compliance_rate in the air: the largest guiding force, 2.4 N, deflects the hand's spring
+// of 300 N/m by 8 mm and so moves the hand at 2.4 cm/s. On a bolt it is 0, because the hand holds what it has
+// pulled.
 constexpr double air_compliance = 3.0;
 
 // m, HandMotion::max_deflection in the air. The hand's spring of 300 N/m then pulls with less than the 12 N

@@ -82,8 +82,8 @@ void reach(HelpedHand& hand, const Pose& to, HelpedHand::OnArrival on_arrival, c
 void choose_side(HelpedHand& hand, const servo::Setup& setup, const servo::State& state) {
     const double sign = hand.loosens ? -1.0 : 1.0;
     const servo::NutGeometry& nut = nut_of(hand, setup);
-    // The handle points towards the trainee in the middle of the pull; each second miss turns it by a further
-    // 60°.
+    // The handle points towards the trainee in the middle of the pull. From the second miss on it is turned
+    // to either side in turn, by 60° more at each second miss.
     const Vec3 to_trainee = hand.rest.position - nut.seat;
     const double aside = (hand.misses % 2 == 1 ? 1.0 : -1.0) * to_radians(60.0) * (hand.misses / 2);
     const double wanted = servo::angle_of(nut, to_trainee) - 0.5 * sign * preferred_stroke + aside;

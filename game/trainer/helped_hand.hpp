@@ -64,7 +64,8 @@ struct HelpedHand {
     } on_arrival = OnArrival::rest;
     std::optional<std::size_t> queued_nut;  // pressed while the hand was busy
     bool missed = false;                    // the last attempt did not engage the nut, or lost it
-    int misses = 0;  // consecutive; each one makes the next attempt approach higher and from another side
+    // Consecutive. Up to five make the next approach higher; from the second on it is from another side.
+    int misses = 0;
 };
 
 // A resting hand beside the wrench at `rest`, which must be the resting place for that side
@@ -81,7 +82,8 @@ void apply_command(HelpedHand& hand, const MouseCommand& command, const servo::S
 Pose wrench_pose_on_nut(const Pose& rest, const servo::Setup& setup, const servo::State& state,
                         std::size_t joint, bool loosens);
 
-// Advances the hand by one tick and returns the servo's input, except `guide`, which the lesson sets.
+// Advances the hand by one tick and returns the servo's input, except `guide` and `second_wrench`, which the
+// caller sets, and the members that LessonSession::tick() sets.
 servo::TickInput step_hand(HelpedHand& hand, const servo::Setup& setup, const servo::State& state);
 
 }  // namespace bolt::trainer

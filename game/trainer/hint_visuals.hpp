@@ -23,9 +23,11 @@ struct MotionGeometry {
     bool loosens = false;  // the step loosens the nut
 };
 
-// The arrow of a motion; none for HintMotion::none. A turn gets a round arrow about the bolt, clockwise from
-// above to tighten a right-hand thread; an approach or a lift a straight one along the bolt, the second
-// wrench one from the other side; taking or laying down the wrench a straight one down to its resting place.
+// The arrow of a motion; none for HintMotion::none:
+//   turn                    round, about the bolt; clockwise from above to tighten a right-hand thread
+//   approach, lift, let go  straight, along the bolt
+//   second wrench           straight, along the bolt to the held part
+//   take, put away          straight, down to the resting place of the wrench
 std::optional<scene::MotionArrow> arrow_of(lesson::HintMotion motion, const MotionGeometry& geometry);
 
 // The ghosts of an animated motion (level 3 of a hint). They move for `ghost_motion_time`, rest at the end of

@@ -106,8 +106,9 @@ class LessonStartThread {
 // height of the picture.
 void place_trainee(ActiveLesson& active, const LessonContext& context, float aspect);
 
-// Prepares the cues of the lesson's sounds and, if `audible`, opens the sound output. Fails if there is no
-// output; the lesson then runs without sound.
+// Prepares the cues of the lesson's sounds and, if `audible`, starts the thread that plays them. Fails if
+// that thread cannot be started; the lesson then runs without sound. A missing sound device is no failure
+// (LiveSound::start).
 Status start_sound(ActiveLesson& active, bool audible);
 
 }  // namespace bolt::trainer

@@ -317,7 +317,7 @@ void label_system(scene::SceneWorld& world, LessonFrame& frame) {
     if (!active.clock.finished)
         if (auto figure = scene::work_label(frame.words, session.lesson(), setup, world, active.palette))
             active.scene.labels.push_back(*figure);
-    // In a window it is part of the interface (draw_effort).
+    // In a window the interface shows the pull (draw_effort).
     if (!active.clock.finished && active.view.head)
         if (auto pull = scene::pull_label(frame.words, setup, world)) active.scene.labels.push_back(*pull);
     const auto add_name = [&](std::size_t joint, bool is_due) {

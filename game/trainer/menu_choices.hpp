@@ -1,5 +1,5 @@
-// The choices of the menu for a lesson: task, mode, variant, tool, law, device and trainee. Each is a row of
-// buttons, of which one is chosen.
+// The choices of the menu for a lesson: task, mode, variant, tool, law, device and trainee. The trainee is a
+// text field; each other choice is a row of buttons, of which one is chosen.
 #pragma once
 
 #include <span>

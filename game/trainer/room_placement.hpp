@@ -30,7 +30,7 @@ struct ReplacedObjects {
 };
 
 // True if the head is that of a person who wears the headset: tracked, attentive, and 0.9 m above the floor
-// or higher. A headset that lies on a table is lower.
+// or higher, if the floor is known. A headset that lies on a table is lower.
 bool is_worn(const view::ImmersiveFrame& immersive);
 
 // True if panel and workpiece can be placed for the head of this frame. After 3 s of an attentive head that

@@ -34,7 +34,7 @@ enum class ScreenAction : std::uint8_t {
     cancel_start,
     end_touch_check,  // skips it, or starts the lesson after its result
     place_again,      // panel and workpiece of a room, in front of the user
-    turn_left,        // the workpiece of a room, by a step
+    turn_left,        // this and the next three move the workpiece of a room by a step
     turn_right,
     raise,
     lower,
@@ -64,7 +64,7 @@ struct ScreenContext {
     std::optional<std::string>& selected_language;  // receives the language that the user selects
 };
 
-// How a lesson is paused.
+// Optional parts of the screen of a pause.
 struct PauseOptions {
     bool headset_lost = false;  // says so, and that the mouse can go on
     bool in_room = false;  // offers to place panel and workpiece again, and to turn and raise the workpiece

@@ -37,8 +37,9 @@ class KeyboardPuck {
     std::bitset<256> down_;
 };
 
-// The lesson's side of a station. The station's servo thread steps the ticks and serves the devices. The
-// lesson repeats every tick with its own servo, and sends its controls with every frame.
+// The lesson's side of a station. The station steps the ticks and serves the devices, on threads of its own
+// or in LessonStation::step(). The lesson repeats every tick with its own servo, and sends its controls with
+// every frame.
 //
 // The hand closes by a device's button or gripper, the space bar or a glove. If it closes beside the wrench,
 // it takes the wrench; if it closes beside a nut, it holds the nut with the fingers. If both are
@@ -114,8 +115,8 @@ void give_hand_to_mouse(StationClient& client);
 // Lets the headset track the hand again, which moves to where the real one is.
 void give_hand_to_headset(StationClient& client, xr::Side side);
 
-// Returns true if a device renders forces, which then requires a dead-man switch: a button, or the tool in a
-// gloved hand.
+// Returns true if a device renders forces or torques, which then requires a dead-man switch: a button, the
+// space bar, or a closed gloved hand.
 bool needs_dead_man(const station::DeviceLayout& layout);
 
 // m between thumb tip and index fingertip below which a gloved hand pinches.

@@ -24,7 +24,7 @@ const lesson::LessonStep* due(const StepUndo& undo, const lesson::Lesson& lesson
 void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t steps);
 
 // True if an undo can repair the mistake. False if nut and bolt turned together, which changes no clamp
-// force, and for a bent tool, which an undo does not straighten.
+// force; for a bent tool, which an undo does not straighten; and for a wrong choice of a tool.
 bool undo_repairs(lesson::MistakeKind mistake);
 
 // Call with every event of the lesson. In a guided lesson a mistake that an undo repairs requests an undo.

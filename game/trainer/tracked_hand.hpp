@@ -29,7 +29,7 @@ struct TrackedHandInput {
     bool engaged = false;   // the tool holds a nut
 };
 
-// How far the hand is closed, 0 (open) … 1, from a button of the controller or from the fingers.
+// The closure of the hand, 0 (open) … 1, from a button of the controller or from the fingers.
 double closed_share(const xr::HandInput& hand);
 
 // The pose of the palm in the room; none: not tracked. It is the controller's grip pose, or made from the
