@@ -114,9 +114,8 @@ MotionArrow round_arrow(const ArrowArc& arc, const glm::vec4& color) {
 }
 
 std::optional<MotionArrow> force_arrow(const Vec3& at, const Vec3& force) {
-    // Violet: neither the colours of motions nor those of verdicts.
     constexpr double slenderness = 0.4;
-    constexpr glm::vec4 color{0.78F, 0.45F, 1.0F, 1.0F};
+    constexpr glm::vec4 color{0.78F, 0.45F, 1.0F, 1.0F};  // violet, unlike motions and verdicts
     if (glm::length(force) < min_arrow_force) return std::nullopt;
     MotionArrow arrow = straight_arrow(at, at + force_arrow_length * force, color);
     arrow.world = glm::scale(arrow.world, Vec3(slenderness, slenderness, 1.0));
@@ -154,7 +153,7 @@ void add_verdict(render::Label& label, const content::ToleranceWindow& window, d
                              label.text);
 }
 
-// The nut angle from which the displayed angle counts, rad; none if the joint is neither snug nor due.
+// The nut angle from which the displayed angle counts, rad; none if the joint has no mark and is not due.
 std::optional<double> angle_origin(const lesson::Lesson& lesson, std::size_t joint) {
     const lesson::JointTrack& track = lesson.joints[joint];
     if (track.mark) return *track.mark;

@@ -63,9 +63,8 @@ Vec3 label_position(const servo::Setup& setup, const ecs::Access<const world::Jo
 
 // The label at the engaged nut; none if no nut is engaged. With the fingers it shows the turns; with a wrench
 // the torque, the angle and the stage. Except in an assessment, the torque has the colour and symbol of its
-// verdict. The angle counts from when the joint was snug; before that, from the start of its step, and only
-// if the joint is due. In a step that turns the nut by an angle, the step's angle and the verdict on it are
-// shown.
+// verdict. The angle counts from the mark; without a mark, from the start of the step, and only if the joint
+// is due. In a step that turns the nut by an angle, the step's angle and the verdict on it are shown.
 std::optional<render::Label> work_label(const words::Words& words, const lesson::Lesson& lesson,
                                         const servo::Setup& setup, const WorkAccess& world,
                                         const view::Palette& palette = {});

@@ -32,11 +32,11 @@ void update_effort(Effort& effort, const servo::Setup& setup, const EffortAccess
 struct Postures {
     std::array<hand::Skeleton, 4> on_handle;
     hand::Skeleton on_nut, open;
-    // Without effort, with the fingers slightly opened; and at the greatest effort: the wrist bent over the
-    // handle, or the fingertips bent back on the nut.
+    // At the handle. `relaxed`: without effort, the fingers slightly opened. `strained`: at the greatest
+    // effort, the wrist bent over the handle.
     std::array<hand::Skeleton, 4> relaxed, strained;
-    hand::Skeleton on_nut_strained;
-    double grip_distance = 0.0;  // m, from the jaw's centre along the handle
+    hand::Skeleton on_nut_strained;  // at the greatest effort: the fingertips bent back
+    double grip_distance = 0.0;      // m, from the jaw's centre along the handle
 };
 
 // The posture at an effort of 0 … 1. `index`: in Postures::on_handle.

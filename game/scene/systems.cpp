@@ -45,9 +45,9 @@ std::shared_ptr<const render::Deformation> deform(const SkinnedHand& fingers,
 }
 
 // The frame of an empty hand. Away from nuts a measured hand is drawn where it is; at a nut its fingers are
-// around the nut, as those of any hand, and the wrist follows the measured roll. The two differ, because a
-// hand that turns a nut bends its fingers, and a hand that holds a controller does not. The fingers of a
-// measured hand with a glove are those of the glove.
+// around the nut, as those of any hand, and the wrist follows the measured roll. The two frames differ,
+// because a hand that turns a nut bends its fingers, and a hand that holds a controller does not. A measured
+// hand with a glove is drawn as measured at a nut too.
 Pose frame_of_empty_hand(SkinnedHand& fingers, const ToolAndHand& state, bool first) {
     constexpr double approach = 0.15;  // s, time constant
     if (!state.palm) return state.fingers;

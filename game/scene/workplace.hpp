@@ -149,8 +149,8 @@ struct ToolModel {
     Quat turn{1.0, 0.0, 0.0, 0.0};
 };
 
-// The models of a lesson on the CPU. All but the workpiece are optional: a model that cannot be read is empty
-// and listed in `missing`. A wrench without a file is generated (game/tool_models).
+// The models of a lesson on the CPU. Workshop, hand, light and pictures are optional: one that cannot be read
+// is empty and listed in `missing`. A tool without a file is generated (game/tool_models).
 struct LessonModels {
     view::LoadedModel workpiece;
     assets::Model workshop, hand;
