@@ -142,7 +142,7 @@ struct SocketSize {
     double lead;                   // leg of the chamfer at the mouth
 };
 
-// ⌀ 1.25 s + 3 mm on a drive of 12.5 mm (memory of catalogues); the step is larger on larger drives.
+// ⌀ 1.25 s + 3 mm on a drive of 12.5 mm (our estimate; no source). The 3 mm grow with the drive.
 SocketSize socket_size(double s, double opening, double drive) {
     const double grip = nut_engagement * s, shoulder = 0.5 * grip + 1.0, floor = shoulder + 0.35 * s;
     const double neck = std::max(0.9 * drive, 0.5 * opening + 1.0);

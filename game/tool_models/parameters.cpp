@@ -281,7 +281,7 @@ TestTorque test_torque(ModelKind kind, double size) {
             return {};
         case ModelKind::hex_key:
         case ModelKind::hex_bit:
-            return {};  // no table of ISO 2936 or ISO 2351 was to be had
+            return {};  // we have no table of ISO 2936 or ISO 2351
         default: {
             // Beyond the table the power law of open ends exceeds that of rings, which is impossible.
             TestTorque torque = interpolated_torque(s, &TorqueRow::open_end);

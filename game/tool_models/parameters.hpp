@@ -101,7 +101,7 @@ inline constexpr double standard_play = 0.2e-3;
 inline constexpr double longest_tool = 2.5;  // m
 inline constexpr std::array ratchet_teeth = {24, 72, 90};
 
-// Replaces zeros by standard values. Fails if a value is impossible; the error gives the nearest valid one.
+// Replaces zeros by standard values. Fails if a value is impossible; the error gives the valid ones.
 Result<ToolParameters> completed(ToolParameters parameters);
 
 // The dimensions in words and numbers: equal texts mean equal tools.

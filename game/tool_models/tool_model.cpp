@@ -206,7 +206,8 @@ ToolParameters open_end_parameters(const content::WrenchDesign& design) {
     ToolParameters p;
     p.kind = torque_wrench_model(design.kind).value_or(ModelKind::open_end_wrench);
     p.opening = design.jaw;
-    // The nominal size is the greatest whole or half millimetre that the jaw fits with play.
+    // The nominal size: the greatest whole millimetre if it is at most 0.61 mm below the jaw's width, else
+    // the greatest half millimetre that leaves play.
     p.size = std::floor(2.0 * (design.jaw / mm - 0.05)) / 2.0 * mm;
     if (std::floor(design.jaw / mm + 1e-6) >= design.jaw / mm - 0.61)
         p.size = std::floor(design.jaw / mm + 1e-6) * mm;

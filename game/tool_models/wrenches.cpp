@@ -265,7 +265,7 @@ namespace {
 
 constexpr double ring_tilt = to_radians(15.0);
 
-// A ring whose middle is at `at`, tilted so that the direction to the handle falls by `tilt`.
+// A ring whose middle is at (`x`, 0, `z`), tilted so that its +X falls by `tilt` rad.
 Shell placed_ring(const RingHead& ring, double x, double z, double tilt, Detail detail) {
     const double c = std::cos(tilt), s = std::sin(tilt);
     return moved(ring_shell(ring, detail),
