@@ -133,7 +133,7 @@ struct Synth {
 
 Synth make_synth(const servo::Setup& setup, int rate, std::uint64_t seed = 1);
 
-// Sets the cues for the following samples. Clamps each value to its range and ignores non-finite ones.
+// Sets the cues for the following samples. Clamps each value to its range; a non-finite one counts as 0.
 void apply_cues(Synth& synth, const SoundCues& cues);
 
 // Lets all sounds fade out; for when no more ticks arrive.
