@@ -30,8 +30,8 @@ struct LessonStep {
     double angle = 0.0;
 };
 
-// The passes of a loosening lesson: the file's, else one that loosens the joints of the last pass, in its
-// reverse order.
+// The passes of a loosening lesson: the file's, else one that loosens every joint, in the reverse order of
+// the last pass.
 std::vector<content::Pass> loosening_passes(const content::Assembly& assembly);
 
 // The steps of a lesson, from the passes in their order.
