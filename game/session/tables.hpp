@@ -1,4 +1,4 @@
-// The tables of a session file and their checksums, shared by the writer and the reader only. The keys of
+// The tables of a session file and their checksums, shared by the sources of game/session only. The keys of
 // table meta are in header.hpp.
 #pragma once
 
