@@ -35,7 +35,8 @@ struct SoundCues {
 
     float run_speed = 0.0F;    // rad/s of the unloaded nut on its thread, absolute
     float creep_speed = 0.0F;  // rad/s of the nut under load, absolute
-    float load = 0.0F;         // 0 … 1.5: clamp force over 90 % of the force at which the bolt yields
+    // 0 … 1.5: clamp force over 90 % of the force at which the bolt yields. Published law: torque over T_max.
+    float load = 0.0F;
 
     float slip = 0.0F;     // 0 … 1.5: strength with which the jaw slips over the nut's corners in this tick
     bool click = false;    // the torque wrench clicks
