@@ -66,7 +66,7 @@ struct LessonSound {
     std::unique_ptr<sound::LiveSound> live;  // null: no sound
     bool muted = false;
     double volume = 1.0;               // 0 … 1, from the trainee's settings
-    sound::EventDetector detector;     // for the captions
+    sound::EventDetector detector;     // for the captions and the vibration
     std::optional<Captions> captions;  // none: disabled
 };
 
@@ -78,7 +78,7 @@ struct LessonVibration {
 
 struct ActiveLesson {
     std::unique_ptr<session::LessonSession> session;
-    std::optional<StationClient> station;  // none: the helped hand plays
+    std::optional<StationClient> station;  // none: the helped hand moves the tool
     HelpedHand helped_hand;
     scene::Workplace workplace;  // contains the world
     render::Scene scene;

@@ -46,7 +46,7 @@ struct AppOptions {
 
 enum class ShownScreen : std::uint8_t {
     menu,
-    starting,  // a lesson with devices is being started
+    starting,  // a lesson with devices, or one that is continued, is being started
     lesson,
     result,
     study,  // the page of the due step
@@ -81,8 +81,8 @@ class App : public view::WindowContent {
         return end_lesson();
     }
 
-    // True if the plan of a study names another display. The caller opens it, or the window if that fails,
-    // calls enter_display() with the result, and runs the app again.
+    // True if a study has requested another display: that of the due step, or the window. The caller opens
+    // it, or the window if that fails, calls enter_display() with the result, and runs the app again.
     [[nodiscard]] bool wants_other_display() const override { return wanted_display_.has_value(); }
     [[nodiscard]] const LessonDisplay& wanted_display() const { return *wanted_display_; }
     void enter_display(const Status& opened);
@@ -128,8 +128,9 @@ class App : public view::WindowContent {
         std::unique_ptr<ui::Ui> ui;
         std::unique_ptr<scene::GpuLessonModels> models;
         std::optional<text::Fonts> fonts;
-        std::unique_ptr<RoomHandModels> room_hands;  // null before the first frame that tracks hands
-        std::optional<render::PanelPicture> panel;   // none before the first immersive frame
+        std::unique_ptr<RoomHandModels>
+            room_hands;  // null before the first frame with tracked hands or a wand
+        std::optional<render::PanelPicture> panel;  // none before the interface is first drawn in a room
         // The window's picture, if the scene was drawn with fewer pixels.
         std::optional<render::PanelPicture> enlarged;
         bool shows_enlarged = false;
@@ -215,7 +216,7 @@ class App : public view::WindowContent {
     bool start_requested_ = false, end_requested_ = false;
     bool tour_requested_ = false;  // the next lesson is the tour
 
-    std::unique_ptr<LessonStartThread> start_thread_;  // of a lesson with devices, while it starts
+    std::unique_ptr<LessonStartThread> start_thread_;  // in ShownScreen::starting
     std::unique_ptr<LessonStartThread> given_up_;      // an earlier one, which may still hold the devices
     ArmScreen arm_screen_;
     std::optional<LessonContext> context_;  // of the last lesson that started
@@ -229,7 +230,7 @@ class App : public view::WindowContent {
     std::optional<RoomState> room_;        // none until a display has surrounded the user
     // A headset tracks the hand of the lesson, but is lost, was taken off, or does not show pictures yet.
     struct MissingHeadset {
-        bool noticed = false;      // since the last frame with it
+        bool noticed = false;      // it was missing in the last frame
         bool paused = false;       // the lesson was paused for that reason
         bool mouse_plays = false;  // the user goes on without it
     };

@@ -258,7 +258,8 @@ Status App::end_lesson() {
     return {};
 }
 
-// Records the measures of the lesson that has ended, and shows the next page of the study.
+// Records the measures of the lesson that has ended. Shows the next page of the study, or the result first if
+// the study shows results.
 void App::count_study_lesson() {
     screen_ = ShownScreen::study;
     const Status stored =

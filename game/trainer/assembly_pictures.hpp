@@ -1,5 +1,5 @@
 // Pictures of the menu: the selected assembly behind it, and a thumbnail of every assembly. Models are loaded
-// in the background, one after the other, the selected one first; each picture is drawn once.
+// in the background, one after the other, the selected one first; each picture is drawn once for a size.
 #pragma once
 
 #include <future>

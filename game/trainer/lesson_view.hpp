@@ -32,7 +32,7 @@ struct LessonView {
     view::CameraGlide camera;
     motion::VisibilityModel visibility;
     bool help = true;          // the program finds a view of the due joint
-    double out_of_view = 0.0;  // s since the due joint was last visible
+    double out_of_view = 0.0;  // s since the joint at work, else the due one, was last visible
     CloseUp close_up;
     bool clamp_map = false;                   // show the clamp force of every joint
     std::vector<render::Rectangle> occupied;  // px, areas of the interface in the previous picture

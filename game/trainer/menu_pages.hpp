@@ -29,7 +29,7 @@ class ComputerCheck {
     void start(GatherFacts gather_facts, const computer::FactsRequest& request);
     // Call it every frame of the page.
     void update();
-    // Those of the check so far; empty at first.
+    // The findings of the check so far; empty at first.
     [[nodiscard]] const std::vector<computer::Finding>& findings() const { return findings_; }
     [[nodiscard]] bool running() const { return running_.valid(); }
 
