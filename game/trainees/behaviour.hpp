@@ -54,7 +54,7 @@ struct TraineeState {
     double stroke_turn = 0.0;          // rad by which the last stroke turned the nut; negative: loosened it
     int fruitless_strokes = 0;         // consecutive strokes that neither turned nor tightened the nut
 
-    double nut_angle_at_start = 0.0;  // rad, nut angle at the start of the step
+    double nut_angle_at_start = 0.0;  // rad, angle of the due nut when the plan was made
     double free_turn = 0.0;           // rad turned without resistance while loosening
     bool nut_follows_back = false;    // in this step a ratchet that swung back took the nut along
     Vec3 placement_error{0.0};        // m, offset of the placed tool from the nut's centre
