@@ -136,10 +136,10 @@ struct Snapshot {
     const servo::Output& output;
 };
 
-// Writes every component from the snapshot. The first system after each servo tick, in every program
-// (session::tick_systems). Takes the hand's pose from the input and its nut from the engaged joint, and
-// leaves WorkingHand::rest unchanged. A program with more data about the hand (its goal, a glove) writes that
-// afterwards.
+// Writes the components from the snapshot. It is the first system after each servo tick, in every program
+// (session::tick_systems). WorkingHand gets its pose from the input and its nut from the engaged joint; its
+// members rest, palm, closed_share, twisted and free_swing stay as they are. A program with more data about
+// the hand (its goal, a glove) writes that afterwards.
 void write_haptics(const WriteHaptics& world, const Snapshot& servo);
 
 // Turns the head of a ratchet (ToolState::head_turn): on a nut it keeps the nut's angle while the handle
