@@ -128,9 +128,8 @@ class App : public view::WindowContent {
         std::unique_ptr<ui::Ui> ui;
         std::unique_ptr<scene::GpuLessonModels> models;
         std::optional<text::Fonts> fonts;
-        std::unique_ptr<RoomHandModels>
-            room_hands;  // null before the first frame with tracked hands or a wand
-        std::optional<render::PanelPicture> panel;  // none before the interface is first drawn in a room
+        std::unique_ptr<RoomHandModels> room_hands;  // null before the first tracked hands or wand
+        std::optional<render::PanelPicture> panel;   // none before the interface is first drawn in a room
         // The window's picture, if the scene was drawn with fewer pixels.
         std::optional<render::PanelPicture> enlarged;
         bool shows_enlarged = false;
