@@ -62,11 +62,12 @@ struct WavWriter::State {
         std::error_code ignored;
         if (!not_regular) std::filesystem::remove(part, ignored);
     }
-    Status fail_writing(const std::string& why) {
+    Status fail_writing(const std::string& why,
+                        const std::string& expected = "a path that this user may write to, and free space") {
         Error error;
         error.file = path.string();
         error.what = "cannot be written: " + why;
-        error.expected = "a path that this user may write to, and free space";
+        error.expected = expected;
         first_error = error;
         remove_part();
         return fail(error);
@@ -101,7 +102,7 @@ Status WavWriter::write(std::span<const float> samples) {
     State& s = *state_;
     if (s.first_error) return fail(*s.first_error);
     if (!s.not_regular && s.samples + samples.size() > max_wav_samples)
-        return s.fail_writing("a WAV file cannot be larger than 4 GiB");
+        return s.fail_writing("a WAV file cannot be larger than 4 GiB", "a shorter recording");
     s.samples += samples.size();
     s.bytes.clear();
     for (const float sample : samples) put(s.bytes, static_cast<std::uint16_t>(to_pcm16(sample)), 2);

@@ -47,8 +47,11 @@ Result<std::string> read_file(const std::filesystem::path& path, std::size_t lim
     std::size_t count = 0;
     while ((count = std::fread(block, 1, sizeof block, file.get())) > 0) {
         text.append(block, count);
+        const bool in_mib = limit >= std::size_t{1} << 20U;
         if (text.size() > limit)
-            return file_error(path, code, "is larger than " + std::to_string(limit >> 20U) + " MiB",
+            return file_error(path, code,
+                              "is larger than " + std::to_string(limit >> (in_mib ? 20U : 10U)) +
+                                  (in_mib ? " MiB" : " KiB"),
                               "a smaller file");
     }
     if (std::ferror(file.get()) != 0) return file_error(path, code, "cannot be read", readable_file);

@@ -15,6 +15,7 @@ namespace {
 constexpr double millisecond = 1e-3;   // s
 constexpr double contact_gap = 0.1;    // s; contacts with a shorter gap are one contact
 constexpr double near_nut = 0.04;      // m from the seat to the tool
+constexpr double most_unknown = 0.1;   // share of the time near the nut whose visibility may be unknown
 constexpr double min_jump_gap = 0.05;  // s between two separate force jumps
 constexpr std::size_t max_force_jumps = 5;
 constexpr double recent = 0.01;      // s
@@ -79,14 +80,15 @@ void HapticMetricsBuilder::update_grip(double time, const session::TickRecord& t
         glm::length(vector_of(tick.commanded_tool.position) - seats_[due]) < near_nut) {
         near_nut_ += dt_;
         if (visibility_.joint != due_)
-            nut_visible_ = nan;
+            visibility_unknown_ += dt_;
         else if (visibility_.share >= visible_fraction)
             nut_visible_ += dt_;
     }
     if (tick.joint != due_) return;
     arrived_ = true;
     const bool wrench = static_cast<servo::Grip>(tick.grip) == servo::Grip::wrench;
-    metrics_.arrivals.push_back({due_, wrench, time - step_begun_, near_nut_, nut_visible_});
+    const bool known = visibility_unknown_ <= most_unknown * near_nut_;
+    metrics_.arrivals.push_back({due_, wrench, time - step_begun_, near_nut_, known ? nut_visible_ : nan});
 }
 
 void HapticMetricsBuilder::update_touch(double time, const session::TickRecord& tick) {
@@ -162,7 +164,7 @@ void HapticMetricsBuilder::add_tick(std::uint64_t number, const session::TickRec
         due_ = steps_[next_step_++].joint;
         arrived_ = false;
         step_begun_ = time;
-        near_nut_ = nut_visible_ = 0.0;
+        near_nut_ = nut_visible_ = visibility_unknown_ = 0.0;
     }
     while (next_visibility_ < visibilities_.size() && visibilities_[next_visibility_].tick <= number)
         visibility_ = visibilities_[next_visibility_++];

@@ -112,6 +112,7 @@ class HapticMetricsBuilder {
     int due_ = -1;
     bool arrived_ = true;
     double step_begun_ = 0.0, near_nut_ = 0.0, nut_visible_ = 0.0;
+    double visibility_unknown_ = 0.0;  // s near the nut without a value for it
     std::optional<session::TickRecord> previous_;
     ForceJump latest_;  // last joint and last obstacle so far
     // s, session time of the last events

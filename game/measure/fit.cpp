@@ -232,6 +232,7 @@ void add_form(const joint::JointDesign& d, nlohmann::ordered_json& type) {
     if (d.locking_insert) type["locking_insert"] = true;
     if (!d.is_tapped()) {
         if (d.turned == joint::TurnedPart::head) type["turned"] = "head";
+        if (d.counter_hold != joint::CounterHold::fixed) type["counter_hold"] = name(d.counter_hold);
         return;
     }
     type["form"] = name(d.form);
@@ -267,6 +268,7 @@ std::string joint_type_json(const JointFit& fit, const std::string& name, double
     type["washer_under_nut"] = d.washer_under_nut;
     type["friction_thread"] = rounded_to(d.friction.thread, 4);
     type["friction_bearing"] = rounded_to(d.friction.bearing, 4);
+    if (d.friction.held_bearing) type["friction_held_bearing"] = rounded_to(*d.friction.held_bearing, 4);
     type["friction_static_ratio"] = rounded_to(d.friction.static_ratio, 4);
     type["friction_scatter_percent"] = rounded_to(100.0 * d.friction.scatter, 3);
     constexpr const char* lubrications[] = {"as_received", "dry", "oiled", "mos2"};
@@ -278,6 +280,8 @@ std::string joint_type_json(const JointFit& fit, const std::string& name, double
     if (d.prevailing_torque > 0.0 || d.locking_insert)
         type["prevailing_torque_Nm"] = rounded_to(d.prevailing_torque, 4);
     type["running_torque_Nm"] = rounded_to(d.running_drag, 4);
+    type["start_gap_mm"] = rounded_to(d.start_gap * 1e3, 4);
+    if (d.nut_mass > 0.0) type["nut_mass_g"] = rounded_to(d.nut_mass * 1e3, 4);
     type["spec"] = {{"strategy", "torque"}, {"target_torque_Nm", rounded_to(target_torque, 3)}};
     const ordered_json fragment = {{"materials", materials}, {"joint_types", {{name, type}}}};
     return fragment.dump(2) + "\n";

@@ -48,7 +48,7 @@ struct MeshNode {
     std::vector<glm::dvec3> points;  // three for each triangle, in the model's frame
 };
 
-Error content_error(const std::filesystem::path& file, std::string what, std::string expected = {}) {
+Error content_error(const std::filesystem::path& file, std::string what, std::string expected) {
     Error error;
     error.code = ErrorCode::bad_content;
     error.what = std::move(what);
@@ -104,7 +104,8 @@ Result<collision::ContactMesh> mesh_of(const MeshNode& mesh_node, const std::fil
     }
     Result<collision::ContactMesh> mesh = collision::make_contact_mesh(vertices, indices);
     if (!mesh)
-        return fail(content_error(file, fmt::format("node \"{}\": {}", mesh_node.node, mesh.error().what)));
+        return fail(content_error(file, fmt::format("node \"{}\": {}", mesh_node.node, mesh.error().what),
+                                  mesh.error().expected));
     return mesh;
 }
 
@@ -197,7 +198,7 @@ Result<WrenchModel> read_wrench(const content::WrenchDesign& design) {
             meshes.push_back(std::move(mesh));
         }
         const Result<collision::Solid> solid = collision::make_solid(meshes);
-        if (!solid) return fail(content_error(file, solid.error().what));
+        if (!solid) return fail(content_error(file, solid.error().what, solid.error().expected));
         if (side < 0.0 || design.head != content::ToolHead::open_end ||
             mouth_clearance(*solid, design.head_angle, design.jaw) >=
                 mouth_clearance(*solid, -design.head_angle, design.jaw))
@@ -254,6 +255,12 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
                         mesh_of(mesh_node, file,
                                 is_nut ? to_nut(setup.nuts[joint], mesh_node)
                                        : std::function<Vec3(const Vec3&)>([](const Vec3& p) { return p; })));
+        if (is_nut && !nuts[joint].vertices.empty())
+            return fail(content_error(
+                file,
+                fmt::format("node \"{}\": joint {} has a second mesh of the part that is turned",
+                            mesh_node.node, assembly.joints[joint].design.id),
+                "one node with the mesh of its nut or screw"));
         const auto id =
             is_nut ? collision::ObstacleId::nut(joint) : collision::ObstacleId::fixed(fixed.size());
         if (!file_number(id))
@@ -267,7 +274,7 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
             fixed.push_back(std::move(mesh));
     }
     Result<servo::ToolContact> contact = servo::make_tool_contact(setup, {fixed, nuts, tools});
-    if (!contact) return fail(content_error(file, contact.error().what));
+    if (!contact) return fail(content_error(file, contact.error().what, contact.error().expected));
     models.tool_contact = std::move(*contact);
     return std::optional<ContactModels>(std::move(models));
 }
@@ -275,7 +282,8 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
 Result<collision::ToolShape> load_wrench(const content::Assembly& assembly) {
     BOLT_TRY_ASSIGN(const auto parts, read_wrench(assembly.wrench));
     Result<collision::ToolShape> tool = collision::make_tool(parts.meshes);
-    if (!tool) return fail(content_error(wrench_name(assembly.wrench), tool.error().what));
+    if (!tool)
+        return fail(content_error(wrench_name(assembly.wrench), tool.error().what, tool.error().expected));
     return tool;
 }
 

@@ -140,7 +140,7 @@ void put_tests(std::string& out, const Results& results) {
     const auto related = [](const ComparisonResult& r) { return r.signed_rank.has_value(); };
     if (any(related))
         tests.emplace_back(
-            "two related samples were compared by Wilcoxon's signed rank test (exact below 100 values, zero "
+            "two related samples were compared by Wilcoxon's signed rank test (exact, zero "
             "differences dropped, midranks for ties)");
     if (any([](const ComparisonResult& r) { return !r.planned->interaction.empty(); }))
         tests.emplace_back(

@@ -36,7 +36,12 @@ std::string declined_text(const content::Study& study, const ParticipantState& s
 }
 
 std::string waiting_text(const content::Study& study, const ParticipantState& state, std::int64_t now) {
-    if (state.problem) return state.problem->message();
+    if (state.problem)
+        return study.design.blind  // the message can name a condition
+                   ? "the journal does not fit the plan, or is damaged; expected a look at it by a person "
+                     "who "
+                     "may know the conditions"
+                   : state.problem->message();
     if (state.withdrawn) return {};
     const std::string declined = declined_text(study, state);
     const double ahead = static_cast<double>(state.progress.latest - now);

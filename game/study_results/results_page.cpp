@@ -278,8 +278,9 @@ std::string comparisons_table(const Results& results) {
     return out +
            "</tbody></table></div>\n<p class=\"note\">Difference: Hodges and Lehmann's estimate, first group "
            "minus second, with the interval of the exact distribution where there are enough participants. "
-           "r: rank-biserial correlation, −1 to 1. p: two-sided; exact below 100 participants for Wilcoxon "
-           "and rank sum, χ² distribution for Friedman. Interaction: the signed rank test of the differences "
+           "r: rank-biserial correlation, −1 to 1. p: two-sided; exact for Wilcoxon, and below 100 "
+           "participants for the rank sum; χ² distribution for Friedman. Interaction: the signed rank test "
+           "of the differences "
            "of the differences. Holm's correction is for all rows. With five "
            "participants or fewer no signed rank test can fall below 0.05.</p>\n";
 }

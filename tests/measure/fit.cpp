@@ -106,9 +106,13 @@ TEST_CASE("Fit: loosening gives the preload at the design's friction only") {
 TEST_CASE("Fit: the joint type that it writes can be pasted into an assembly") {
     const content::LoadedAssembly loaded = content::load_assembly("cover-m8");
     REQUIRE(loaded.ok());
-    const auto fit =
+    auto fit =
         measure::fit_joint(cover_bolt(), std::vector{run_of(cover_bolt(), 0.0)}, joint::Direction::tighten);
     REQUIRE(fit);
+    fit->design.counter_hold = joint::CounterHold::second_wrench;
+    fit->design.friction.held_bearing = 0.2;
+    fit->design.start_gap = 7e-3;
+    fit->design.nut_mass = 0.012;
     const nlohmann::json fragment = nlohmann::json::parse(measure::joint_type_json(*fit, "measured", 20.0));
     nlohmann::json assembly = nlohmann::json::parse(loaded.assembly.text);
     assembly["materials"] = fragment["materials"];
@@ -119,7 +123,12 @@ TEST_CASE("Fit: the joint type that it writes can be pasted into an assembly") {
     REQUIRE(pasted.ok());
     CHECK(joint_compliance(pasted.assembly.joints[0].design) ==
           doctest::Approx(fit->compliance).epsilon(1e-3));
-    CHECK(pasted.assembly.joints[0].design.friction.thread == doctest::Approx(fit->friction).epsilon(1e-3));
+    const joint::JointDesign& design = pasted.assembly.joints[0].design;
+    CHECK(design.friction.thread == doctest::Approx(fit->friction).epsilon(1e-3));
+    CHECK(design.counter_hold == joint::CounterHold::second_wrench);
+    CHECK(design.friction.held_bearing.value_or(0.0) == doctest::Approx(0.2));
+    CHECK(design.start_gap == doctest::Approx(7e-3));
+    CHECK(design.nut_mass == doctest::Approx(0.012));
 }
 
 }  // namespace fit_test

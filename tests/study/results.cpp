@@ -230,6 +230,15 @@ TEST_CASE("Study results: the progress of a blind study names no condition") {
         CHECK(has(text, "P01"));
         CHECK(has(text, "break-1"));
     }
+    // A plan that lost the condition that the participant was given.
+    folder.edit(R"("id": "secret-a")", R"("id": "other")");
+    study = folder.load();
+    const auto damaged = required(list_participants(study, folder.path()));
+    REQUIRE(damaged.at(0).problem);
+    CHECK(has(progress_text(study, damaged, folder.now), "secret-a"));
+    study.design.blind = true;
+    CHECK_FALSE(has(progress_text(study, damaged, folder.now), "secret-a"));
+    CHECK(has(progress_text(study, damaged, folder.now), "the journal does not fit the plan"));
 }
 
 TEST_CASE("Study results: every objective measure has a definition, a value, and its name in the schema") {
