@@ -18,13 +18,13 @@ struct AddedVertex {
 struct LevelOfDetail {
     std::vector<std::uint32_t> indices;  // indices of the mesh's vertices, then of `added`
     std::vector<AddedVertex> added;
-    float error = 0.0F;  // m: largest distance from the finest level
+    float error = 0.0F;  // m: estimated largest distance from the finest level, summed over the levels
 };
 
 struct LevelOptions {
     std::size_t levels = 6;         // maximum number of levels
     std::size_t min_indices = 600;  // meshes with fewer indices are not simplified
-    float max_error = 0.1F;         // fraction of the mesh's size
+    float max_error = 0.1F;         // from one level to the next, as a fraction of the mesh's size
     float max_ratio = 0.75F;        // a level has at most this fraction of the previous level's indices
     float crease = 1.05F;           // rad; a larger angle between faces is a hard edge
     bool weld = true;               // merge vertices at one position, whatever their other attributes

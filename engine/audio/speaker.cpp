@@ -71,7 +71,7 @@ namespace {
 
 // Half a block, so that the sink is polled twice per block.
 constexpr auto feed_interval = std::chrono::milliseconds(5);
-// Without a sink there is nothing to feed: the thread only retries the opening when that is due.
+// Without a sink the thread only checks whether the next attempt to open one is due.
 constexpr auto retry_interval = std::chrono::milliseconds(200);
 
 // Returns whether to publish the status. A new block count alone is published ten times per second.

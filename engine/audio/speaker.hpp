@@ -67,7 +67,8 @@ class Speaker {
     // Returns the most recent status. Only one thread may call status() and status_change().
     const PlaybackStatus& status();
 
-    // Returns a line for the user, once after every change: the device that plays, or why there is no sound.
+    // Returns a line for the user, at the start and whenever the sound begins or ends: the device that plays,
+    // or why there is no sound.
     std::optional<std::string> status_change();
 
   private:

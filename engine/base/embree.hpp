@@ -21,7 +21,7 @@ inline void intersect(RTCScene scene, RTCRayHit& ray) {
 #endif
 }
 
-// True if anything lies on the ray between its origin and tfar.
+// True if anything lies on the ray between tnear and tfar.
 inline bool occluded(RTCScene scene, RTCRay& ray) {
 #if BOLT_EMBREE >= 4
     rtcOccluded1(scene, &ray);

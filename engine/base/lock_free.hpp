@@ -75,7 +75,8 @@ class TripleBuffer {
     TripleBuffer(const TripleBuffer&) = delete;
     TripleBuffer& operator=(const TripleBuffer&) = delete;
 
-    // Writer only. slot() holds an older value until it is filled; the reader receives it after publish().
+    // Writer only. slot() returns the slot to fill, which holds an older value. publish() gives the slot to
+    // the reader.
     T& slot() { return slots_[writer_slot_].value; }
     void publish() {
         writer_slot_ = middle_.exchange(writer_slot_ | unseen_bit, std::memory_order_acq_rel) & index_mask;

@@ -33,7 +33,7 @@ class ChildStdin {
     ChildStdin& operator=(ChildStdin&& other) noexcept;
     ~ChildStdin();  // calls finish()
 
-    // Fails if the program no longer reads its input. The process must ignore SIGPIPE.
+    // Fails if the program no longer reads its input. Our own process must ignore SIGPIPE.
     Status write(std::span<const std::uint8_t> bytes);
 
     // Closes the input and waits for the program to exit. Returns its exit code; -1 if a signal ended it or
@@ -65,8 +65,8 @@ class ChildSocket {
     // Never waits. Fails if the program has ended, or if its queue is full because it does not read.
     Status send(std::span<const std::byte> packet);
 
-    // Waits at most `timeout` s for a packet and returns its length, which is greater than that of `packet`
-    // if it did not fit; nullopt on timeout. Fails if the program has ended.
+    // Waits at most `timeout` s for a packet and returns its length; nullopt on timeout. A length above the
+    // size of `packet` means that the end of the packet was lost. Fails if the program has ended.
     Result<std::optional<std::size_t>> receive(std::span<std::byte> packet, double timeout);
 
     // Closes the program's input, waits at most `patience` s for it to exit, and then kills it. Later calls

@@ -1,6 +1,6 @@
-// A small seeded random number generator, and random rotations. Its sequence is the same on every platform
-// and with every standard library (std::normal_distribution does not guarantee this). PCG32: M. E. O'Neill,
-// HMC-CS-2014-0905.
+// A small seeded random number generator, and random rotations. The sequences of bits() and uniform() are the
+// same on every platform. normal() depends on the C library's log and cos only, while the algorithm of
+// std::normal_distribution depends on the standard library. PCG32: M. E. O'Neill, HMC-CS-2014-0905.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class Random {
     std::uint64_t increment_;
 };
 
-// A uniformly distributed rotation, and direction.
+// A rotation and a direction, uniformly distributed but for the clamping in normal().
 inline Quat random_turn(Random& random) {
     return glm::normalize(Quat(random.normal(), random.normal(), random.normal(), random.normal()));
 }

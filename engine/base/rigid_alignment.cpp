@@ -87,7 +87,7 @@ Spread spread_of(std::span<const PointPair> points, Vec3 PointPair::*side) {
     return {ratio(values[1]), ratio(values[2])};
 }
 
-// Horn's matrix of the products of coordinates. The pose's quaternion (w, x, y, z) maximises the quadratic
+// Horn's matrix of the products of coordinates. The pose's quaternion (w, x, y, z) maximises its quadratic
 // form.
 Matrix<4> horn_matrix(std::span<const PointPair> centred) {
     double s[3][3] = {};
@@ -148,10 +148,11 @@ CentredPairs centred(std::span<const PointPair> pairs) {
     return result;
 }
 
-// With the singular values s1 ≥ s2 ≥ s3 of the cross-covariance, and the sign d of its determinant, the best
-// rotation has the trace s1 + s2 + d·s3, the largest eigenvalue of Horn's matrix, and the best reflection has
-// s1 + s2 − d·s3, the negative of the least one. A set counts as mirrored if the reflection leaves less than
-// a quarter of the squared residuals.
+// Let s1 ≥ s2 ≥ s3 be the singular values of the cross-covariance, and d the sign of its determinant. The
+// traces of the products of the cross-covariance with
+//   the best rotation:    s1 + s2 + d·s3, the largest eigenvalue of Horn's matrix,
+//   the best reflection:  s1 + s2 − d·s3, the negative of the least eigenvalue.
+// A set counts as mirrored if the reflection leaves less than a quarter of the rotation's squared residuals.
 bool is_mirrored(const CentredPairs& sets, const EigenSystem<4>& horn, double thickness_ratio) {
     constexpr double min_thickness = 0.01;  // in a plane a reflection is a rotation too
     const double squares = sets.from_square + sets.to_square;

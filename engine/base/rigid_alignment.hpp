@@ -56,10 +56,10 @@ struct RigidAlignment {
 
 // The rigid pose with the least sum of squared residuals, in closed form: the quaternion is the eigenvector
 // of the largest eigenvalue of a symmetric matrix (B. K. P. Horn, J. Opt. Soc. Am. A 4 (1987) 629). The scale
-// is that of S. Umeyama (IEEE Trans. PAMI 13 (1991) 376, eq. 42). Noise of standard deviation s on each axis
-// of one set changes the scale by about s / (√n · spread): 2 mm of noise on the eight corners of a box of
-// 0.25 m by 0.35 %. Noise in `from` also lowers the scale by a factor of 1 + 3 s²/spread². Fails with an
-// AlignmentFaultDetail.
+// is that of S. Umeyama (IEEE Trans. PAMI 13 (1991) 376, eq. 42). Let r be the rms distance of the points
+// from their centroid. Noise of standard deviation s on each axis of one set changes the scale by about
+// s / (√n · r): 2 mm of noise on the eight corners of a box of 0.25 × 0.2 × 0.25 m change it by 0.35 %. Noise
+// in `from` also divides the scale by 1 + 3 s²/r². Fails with an AlignmentFaultDetail.
 Result<RigidAlignment> align_points(std::span<const PointPair> pairs, const AlignmentLimits& limits = {});
 
 // Returns for each point the distance, m, between its measured position in `to` and the position that an
@@ -72,10 +72,10 @@ struct PivotFit {
     Vec3 tip{0.0};     // m, in the frame of the tool
     Vec3 pivot{0.0};   // m, the point, in the frame of the poses
     double rms = 0.0;  // m, of the distances between the tip and the point
-    // Measure of how much the orientations differ: for each unit vector fixed to the tool, its standard
-    // deviation over the poses; this is the least of them. Noise of standard deviation s on each axis of n
-    // poses gives an error of the tip below s / (√n · orientation_spread) on each axis. 0: all turns have one
-    // axis, and the tip may be anywhere along it.
+    // How much the orientations differ: the standard deviation, over the poses, of that unit vector fixed to
+    // the tool which varies least. Noise of standard deviation s on each axis of n poses gives an error of
+    // the tip below s / (√n · orientation_spread) on each axis. 0: all turns have one axis, and the tip may
+    // be anywhere along it.
     double orientation_spread = 0.0;
 };
 // PivotFit::orientation_spread of turns that are spread evenly from −15° to 15° about each of two axes.

@@ -13,8 +13,8 @@ namespace bolt {
 // A serial port or a pseudo-terminal: 115200 baud, 8N1, raw, no flow control.
 class SerialPort {
   public:
-    // Fails if there is no such port, access is not permitted (the error names the group), the port is in
-    // use, or it is not a serial port.
+    // Fails if there is no such port, access is not permitted, the port is in use, or it is not a serial
+    // port.
     static Result<SerialPort> open(const std::filesystem::path& path);
 
     SerialPort(SerialPort&& other) noexcept;
@@ -34,8 +34,8 @@ class SerialPort {
 // Ports of USB adapters, under their persistent names if available, sorted.
 std::vector<std::filesystem::path> serial_ports();
 
-// Checks that the port can be opened, without opening it, because some devices reset when their port opens.
-// The error names the group that the user must join.
+// Checks that the port exists and that the user may access it. Does not open it, because some devices reset
+// when their port opens; so a port that is in use passes. The error names the group that the user must join.
 Status check_port_access(const std::filesystem::path& port);
 
 // Time in ms for which the adapter buffers bytes (FTDI default: 16); nullopt if it has no such timer.

@@ -66,7 +66,7 @@ class Access {
     std::tuple<PoolOf<Components>*...> pools_;
 };
 
-// A free function over the world and a context. A frame is an array of systems, which run in order:
+// A free function over the world and a context. run() runs an array of systems in order:
 //
 //   constexpr ecs::System<World, Frame> frame[] = {{"haptics", haptic_system}, {"lesson", lesson_system}};
 //   ecs::run(frame, world, context);

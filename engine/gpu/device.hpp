@@ -14,8 +14,8 @@
 
 namespace bolt::gpu {
 
-// All warnings and errors of the validation layers since the instance was created. A correct program causes
-// none.
+// All warnings and errors of the validation layers for the instances that use this log. A correct program
+// causes none.
 struct ValidationLog {
     std::vector<std::string> messages;
 };

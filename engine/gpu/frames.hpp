@@ -60,7 +60,8 @@ class FrameContext {
     // Destroys the resource when the GPU has completed this frame.
     void retire(RetiredResources::Resource resource) { retired_.add(std::move(resource)); }
 
-    // Measure the GPU time of the commands recorded in between. They do nothing on GPUs without timestamps.
+    // Measure the GPU time of the commands recorded in between. They do nothing on GPUs without timestamps,
+    // and after 64 timings in a frame.
     void begin_timing(std::string name);
     void end_timing();
 
@@ -104,7 +105,7 @@ class Frames {
     // Waits until the GPU has completed all frames, destroys their retired resources and reads their timings.
     Status finish();
 
-    // Timings of the last completed frame.
+    // Timings of the last completed frame that has any, as of the last begin() or finish().
     [[nodiscard]] const std::vector<PassTiming>& timings() const { return timings_; }
 
   private:

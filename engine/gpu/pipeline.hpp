@@ -86,7 +86,8 @@ class PipelineCache {
   public:
     // Empty `file`: the cache exists in memory only.
     static Result<PipelineCache> open(const Device& device, std::filesystem::path file);
-    // Writes the cache to its file if its size has changed. The caller may ignore an error.
+    // Writes the cache to its file, unless open() restored it and its size is still the same. The caller may
+    // ignore an error.
     Status save() const;
     [[nodiscard]] VkPipelineCache get() const { return cache_.get(); }
     [[nodiscard]] bool restored() const { return restored_; }  // open() used the file's contents

@@ -97,7 +97,7 @@ struct SamplerInfo {
     std::optional<VkSamplerMipmapMode> mips;
     std::optional<VkSamplerAddressMode> address_v;
     bool compares = false;    // for shadow maps: returns whether reference ≤ depth
-    float anisotropy = 1.0F;  // a value above 1 is used if the GPU supports it
+    float anisotropy = 1.0F;  // a value above 1 is used on GPUs that support it, but not in software
 };
 Result<Sampler> make_sampler(const Device& device, const SamplerInfo& info);
 
@@ -155,8 +155,8 @@ Status submit_and_wait(Device& device, const std::function<void(VkCommandBuffer)
 Result<Buffer> upload_buffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
 
 // Fills mip 0 of every layer from `texels` (layers one after the other), generates the other mips by halving,
-// and leaves the image in ResourceUse::sampled. The image needs both transfer usages; if it has mips, its
-// format must support linear blits.
+// and leaves the image in ResourceUse::sampled. The image needs VK_IMAGE_USAGE_TRANSFER_DST_BIT. With several
+// mips it also needs VK_IMAGE_USAGE_TRANSFER_SRC_BIT and a format that supports linear blits.
 Status upload_image(Device& device, Image& image, std::span<const std::byte> texels);
 
 // Reads the texels of one mip of one layer. The image is in the use `from` before and afterwards.

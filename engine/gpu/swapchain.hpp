@@ -25,7 +25,7 @@ VkResult query_surface(VkPhysicalDevice gpu, VkSurfaceKHR surface, SurfaceSuppor
 
 struct SwapchainRequest {
     VkExtent2D window{};          // pixels; used if the surface does not determine the size
-    std::uint32_t in_flight = 2;  // frames that are drawn while others are presented
+    std::uint32_t in_flight = 2;  // number of frames in flight
 };
 
 struct SwapchainPlan {

@@ -237,8 +237,8 @@ Window::~Window() = default;
 
 namespace {
 
-// Limits the window to the monitor's area without the panels of the desktop. GLFW's scaling by the monitor's
-// scale may make it larger.
+// Limits the window to the primary monitor's area without the panels of the desktop. The window may be
+// larger, because GLFW multiplies its size by the monitor's scale.
 void fit_into_work_area(GLFWwindow* window) {
     GLFWmonitor* monitor = glfwGetPrimaryMonitor();
     if (monitor == nullptr) return;

@@ -56,7 +56,7 @@ std::vector<Monitor> monitors(const Desktop& desktop);
 struct WindowOptions {
     std::string title = "Boltwright";
     // Size at a content scale of 1. On X11 the window gets this many pixels times content_scale(), but no
-    // more than the monitor's work area.
+    // more than the primary monitor's work area.
     std::uint32_t width = 1280, height = 720;
     bool full_screen = false;
     bool hidden = false;  // to query the display without showing a window
@@ -80,7 +80,7 @@ class Window {
     [[nodiscard]] Result<gpu::Surface> make_surface(const gpu::Instance& instance) const;
 
     // Return the events since the last call: poll_events() at once, wait_for_events() after waiting at most
-    // `seconds` for the first one.
+    // `seconds` for the first one. Only poll_events() reads game controllers.
     std::vector<InputEvent> poll_events();
     std::vector<InputEvent> wait_for_events(double seconds);
 

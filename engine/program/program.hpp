@@ -11,8 +11,8 @@ namespace bolt {
 // `PROGRAM --man-page` and `PROGRAM --bash-completion` print the texts below; packages are made with them.
 int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code);
 
-// The manual page of a program in the language of man(7): its subcommands and options, exit codes,
-// environment and files.
+// The manual page of a program in the language of man(7): its subcommands and options, exit codes and
+// environment variables.
 std::string man_page(const CLI::App& app);
 
 // A script for bash that completes subcommands, options, and the values of options that accept one of a list;

@@ -22,7 +22,7 @@ struct Item {
     float distance = 0.0F;  // m, see drawing_distance()
 };
 
-// Features whose values vary over a part, unlike the material's constants.
+// Features by which a part's values differ from the material's constants.
 constexpr std::uint32_t varying_features =
     SCENE_BASE_MAP | SCENE_METALLIC_ROUGHNESS_MAP | SCENE_OCCLUSION_MAP | SCENE_VERTEX_COLORS | SCENE_TINTED;
 
@@ -96,8 +96,10 @@ auto draw_of(const Item& item) {
     return std::tie(item.kind, item.model, item.part, item.level, item.outlined);
 }
 
-// The order of drawing: opaque parts from near to far, so that few of their pixels are drawn over; then
-// blended parts from far to near.
+// The order of drawing:
+// 1. opaque parts in the geometry buffer, from near to far, so that few of their pixels are drawn over
+// 2. other opaque parts, from near to far
+// 3. blended parts, from far to near
 bool is_drawn_before(const Item& a, const Item& b) {
     if (a.kind.blends != b.kind.blends) return b.kind.blends;
     if (a.kind.forward != b.kind.forward) return b.kind.forward;

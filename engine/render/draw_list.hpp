@@ -45,11 +45,11 @@ inline constexpr std::size_t max_materials = 32768;
 
 struct DrawList {
     std::vector<shared::Instance> instances;
-    std::vector<shared::Material> materials;  // of all models, at most max_materials
-    std::vector<Draw> draws;            // opaque ones from near to far, then blended ones from far to near
-    std::uint32_t features = 0;         // SCENE_… bits that parts in the geometry buffer need
-    std::vector<BoundingBox> forward;   // in world space, of parts that are shaded while drawn
-    std::vector<BoundingBox> outlined;  // in world space, of outlined parts
+    std::vector<shared::Material> materials;  // of all models
+    std::vector<Draw> draws;                  // in drawing order, see draw_list.cpp
+    std::uint32_t features = 0;               // SCENE_… bits that parts in the geometry buffer need
+    std::vector<BoundingBox> forward;         // in world space, of parts that are shaded while drawn
+    std::vector<BoundingBox> outlined;        // in world space, of outlined parts
     std::uint64_t triangles = 0;
 };
 

@@ -37,7 +37,7 @@ BoundingBox transformed(const BoundingBox& box, const glm::mat4& transform) {
 namespace {
 
 // Adds the box of each joint. The weights of a vertex sum to one, so its position is a mean of the positions
-// that each of its joints alone would give. So the union of the moved boxes contains all vertices.
+// that each of its joints alone would give. So a box around all moved boxes contains all vertices.
 void add_joint_boxes(const assets::Primitive& p, std::span<const std::uint32_t> sources,
                      std::span<const Influences> influences, Deformable& part) {
     for (std::size_t i = 0; i < influences.size(); ++i)

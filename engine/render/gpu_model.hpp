@@ -57,8 +57,8 @@ struct Deformable {
     std::uint32_t first_delta = 0;      // index into the model's deltas, in floats; target by target
     std::uint32_t delta_floats = 0;     // per vertex: 3 position, 6 with normal, 9 with tangent
     bool own_normals = true;            // false: flat normals of triangles without shared vertices
-    std::vector<BoundingBox> joints;    // bind pose: the vertices that each joint moves; boxes may be empty
-    std::vector<BoundingBox> targets;   // the displacements by each morph target at weight 1
+    std::vector<BoundingBox> joints;    // of the vertices that each joint moves, in bind pose; may be empty
+    std::vector<BoundingBox> targets;   // of the displacements by each morph target at weight 1
 };
 
 // The deformation data of all parts of a model, as uploaded to the GPU.
@@ -86,7 +86,7 @@ bool mirrors(const Deformation* deformation);
 // The triangles of a part at one level of detail.
 struct LevelRange {
     std::uint32_t first_index = 0, index_count = 0;
-    float error = 0.0F;  // m in the mesh's frame: largest distance from the finest level
+    float error = 0.0F;  // m in the mesh's frame: assets::LevelOfDetail::error
 };
 
 // The unit of a draw call: a primitive of a mesh.

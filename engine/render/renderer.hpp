@@ -14,7 +14,8 @@
 // as insets.
 //
 // Lighting is deferred, because a part's triangles are often smaller than the blocks that a rasteriser
-// shades: with forward lighting the same picture of the reducer took nearly three times as long on lavapipe.
+// shades: with forward lighting the same picture of the assembly zq350 took nearly three times as long on
+// lavapipe.
 //
 // Each pass is a class in passes/ with its pipelines. A batch has the views that one draw call
 // renders, one layer each: with multiview, all views of one size. If the driver's multiview is wrong
@@ -51,7 +52,7 @@ struct RendererOptions {
     float margin = 0.0F;
 };
 
-// Counts of the last frame.
+// Counts of the last call of Renderer::render.
 struct Statistics {
     std::uint64_t triangles = 0;
     std::uint32_t draws = 0, instances = 0;
@@ -86,7 +87,7 @@ class Renderer {
         return options_.keep_depth ? groups_.at(group).depth(view) : ImageLayer{};
     }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
-    // Returns the pass with the deformed vertices of the last frame, for tests.
+    // Returns the pass with the deformed vertices of the last render(), for tests.
     [[nodiscard]] const DeformPass& deformed() const { return deform_; }
     // Writes compiled pipelines to the cache file for the next start.
     [[nodiscard]] Status save_pipelines() const { return cache_.save(); }
@@ -124,7 +125,7 @@ struct Inset {
     Eye eye;
     Rectangle place;  // in whole pixels; the view is rendered at this size
     float border_px = 2.0F;
-    glm::vec4 border{0.92F, 0.94F, 0.96F, 1.0F};  // colour, encoded as overlay colours
+    glm::vec4 border{0.92F, 0.94F, 0.96F, 1.0F};  // sRGB, straight alpha
 };
 
 // Returns a rectangle in the lower right corner: `share` of the picture's width, with the picture's aspect

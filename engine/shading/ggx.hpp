@@ -75,7 +75,8 @@ inline float half_density(const glm::vec3& out, const glm::vec3& half, const glm
 
 // The directional albedo E = x + y of a GGX layer, split into the parts that scale with F0 and F90:
 // x = ∫ D V (1 − (1 − V·H)⁵) cos, y = ∫ D V (1 − V·H)⁵ cos. With single scattering, a specular layer reflects
-// the fraction F0 x + F90 y. `cosine` is N·V. Interpolated in a table; accurate within 0.002 everywhere.
+// the fraction F0 x + F90 y. `cosine` is N·V. Interpolated in a table; accurate within 0.006 if the cosine is
+// at least 0.05.
 glm::vec2 directional_albedo(float alpha, float cosine);
 
 // The same by numerical integration over `count` directions; used to build the table.

@@ -58,7 +58,8 @@ struct FontFile {
 // Returns the fonts in which all text is drawn, in order of priority.
 const std::vector<FontFile>& font_files();
 
-// Returns the folders with fonts: the one in the environment variable BOLTWRIGHT_FONTS, or the system's.
+// Returns the folders with fonts: the one in the environment variable BOLTWRIGHT_FONTS, or those of the
+// system and of the user.
 std::vector<std::filesystem::path> font_folders();
 
 // Searches the folders recursively. The error names the package that contains the font.

@@ -36,7 +36,7 @@ struct DtrackBody {
 
 struct DtrackFlystick {
     int id = 0;
-    std::optional<Pose> pose;             // in the tracker's frame, m; none: the cameras do not see it
+    std::optional<Pose> pose;             // in the tracker's frame, m; none: not seen, or invalid
     std::uint32_t buttons = 0;            // the first 32; the first is bit 0
     double stick_x = 0.0, stick_y = 0.0;  // −1 … 1, of the first two controllers; 0 without them
 };

@@ -13,7 +13,7 @@ struct DtrackCounts {
     std::uint64_t good_packets = 0;       // late packets included
     std::uint64_t malformed_packets = 0;  // damaged or too long, or of other programs
     std::uint64_t late_packets = 0;       // good packets that arrived after a newer one, or twice
-    std::uint64_t invalid_bodies = 0;     // bodies whose values are no pose
+    std::uint64_t invalid_bodies = 0;     // bodies and flysticks whose values are no pose
 };
 
 class DtrackReceiver {

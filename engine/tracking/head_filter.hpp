@@ -47,14 +47,14 @@ struct FilteredHead {
 struct HeadFilterState {
     std::optional<HeadSample> accepted;              // the newest accepted sample
     std::optional<HeadSample> jump_start, jump_end;  // first and newest sample after a jump, not yet accepted
-    std::optional<HeadSample> return_from;           // the pose that was shown when the tracker came back
+    std::optional<HeadSample> return_from;           // end of a dropout or a jump, and the pose shown then
     std::optional<FilteredHead> shown;               // the last result
 };
 
 // The head at the time `now`, which never decreases from call to call. `samples`: those since the last call,
 // oldest first; samples that are not finite or not newer than the newest one are ignored. The result depends
-// on the arguments alone. Dropouts, jumps and returns cause no step of the pose; while the head is tracked,
-// the pose is that of the newest sample, without smoothing.
+// on the arguments alone. Dropouts, jumps and returns cause no step of the pose. While the head is tracked
+// and no return is in progress, the pose is that of the newest accepted sample, without smoothing.
 FilteredHead filter_head(HeadFilterState& state, const HeadFilterSettings& settings,
                          std::span<const HeadSample> samples, double now);
 

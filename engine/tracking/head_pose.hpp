@@ -1,4 +1,4 @@
-// From the pose of a tracked body in the tracker's frame to the pose of the head in the room.
+// Converts the pose of a tracked body in the tracker's frame to the pose of the head in the room.
 #pragma once
 
 #include "engine/base/math.hpp"

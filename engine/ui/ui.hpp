@@ -27,7 +27,8 @@ class Ui {
     Ui& operator=(const Ui&) = delete;
     ~Ui();
 
-    // Adds characters beyond the European ones to the font. Characters that were not added are drawn as "?".
+    // Adds characters beyond the European ones to the font. Characters that were not added are drawn as
+    // U+FFFD.
     void add_characters(std::string_view utf8);
 
     // Starts the interface's frame. `frame`: the GPU frame that will draw it.

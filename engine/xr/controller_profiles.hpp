@@ -1,5 +1,5 @@
 // The controllers that the program knows, as OpenXR interaction profiles, for the hands of a lesson
-// (input.hpp) and for a controller that is the tracker of the head (pose_tracker.hpp).
+// (input.hpp) and for a controller that tracks the head or measures points (pose_tracker.hpp).
 #pragma once
 
 #include <array>

@@ -42,7 +42,7 @@ class FrameWaiter {
         return answer_;
     }
 
-    // Discards the answer to the last request. Returns false if there is none after `timeout` s.
+    // Discards the answer to the last request. Returns false if a request is unanswered after `timeout` s.
     bool discard_answer(double timeout) {
         (void)take(timeout);
         const std::lock_guard lock(mutex_);

@@ -15,9 +15,9 @@ struct PinchState {
 };
 
 // Sets `aim` and `select` of a hand that has joints and no aim pose; call it once a frame. The ray begins at
-// the knuckle of the index finger, which a pinch hardly moves, and points away from the estimated shoulder:
-// arm's length steadies it, while the direction of a finger changes with every pinch. `head`: in the frame of
-// the joints.
+// the knuckle of the index finger, which a pinch hardly moves, and points away from the estimated shoulder.
+// The long distance between shoulder and knuckle steadies the ray; the direction of a finger would change
+// with every pinch. `head`: in the frame of the joints.
 void add_gestures(HandInput& hand, Side side, const Pose& head, PinchState& pinch);
 
 }  // namespace bolt::xr

@@ -42,13 +42,12 @@ class Headset {
     ~Headset() { end(); }
 
     // Searches for a headset if there is none, at most once a second, and less often if its session could not
-    // be started. Returns true if one was found. Then destroy all Vulkan objects, create them with creator(),
-    // and call begin().
+    // be started. Waits at most 10 s for the runtime. Returns true if one was found. Then destroy all Vulkan
+    // objects, create them with creator(), and call begin().
     bool find(double now);
-    // As find(), but the search runs on a thread of its own: returns true some calls later. It never waits
-    // for the runtime.
+    // As find(), but never waits for the runtime: returns true some calls later.
     bool find_in_background(double now);
-    // The reason why there is no headset; none: there is one.
+    // The reason why there is no headset; none: there is one, or no search has ended yet.
     [[nodiscard]] const std::optional<Error>& absence() const { return absence_; }
     // Creates Vulkan's instance and device for the headset; null: none was found.
     [[nodiscard]] gpu::VulkanCreator* creator() const { return runtime_.get(); }
@@ -64,17 +63,18 @@ class Headset {
     void end();
 
     [[nodiscard]] bool connected() const { return session_ != nullptr; }
-    // True if the session shows pictures. Call begin_frame() then; it determines the frame rate.
+    // True if the session shows pictures. begin_frame() then determines the frame rate.
     [[nodiscard]] bool running() const { return session_ && session_->running(); }
     // The user has ended the program in the headset's own menu.
     [[nodiscard]] bool exit_requested() const { return exit_requested_; }
 
-    // Polls the runtime's events, and begins a frame if one is due; waits at most `timeout` s for that.
+    // Polls the runtime's events, and begins a frame if one is due; waits at most `timeout` s for that. Call
+    // it also while the session is not running, because an event starts the session.
     std::optional<HeadsetFrame> begin_frame(double timeout);
     // Updates `frame.view` to the latest prediction of the head pose: the later the call, the smaller its
     // error. Not between record() and end_frame().
     void locate(HeadsetFrame& frame);
-    // Copies the pictures of the eyes, which were drawn for `frame.view`, into the headset's.
+    // Copies the pictures of the eyes, drawn for HeadsetFrame::view, into images of the headset.
     void record(VkCommandBuffer commands, std::span<const EyePicture> pictures);
     // Ends the frame, after its commands were submitted. `drawn`: record() was called.
     void end_frame(const HeadsetFrame& frame, bool drawn, const DepthRange& depth);

@@ -112,7 +112,7 @@ class XrInput {
     bool roles_outdated_ = true;
     std::vector<std::string> profiles_;
     std::array<const ControllerProfile*, 2> controllers_{};  // by Side; null: HandInput::controller
-    std::uint32_t reads_ = 0;                                // number of calls of read()
+    std::uint32_t reads_ = 0;                                // number of calls of read() with focus
 };
 
 }  // namespace bolt::xr

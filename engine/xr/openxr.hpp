@@ -1,5 +1,5 @@
-// OpenXR's headers, its results as errors, and its poses. Everything here runs on the thread that draws,
-// unless a comment says otherwise.
+// OpenXR's headers, its results as errors, and its poses. Call the functions of this folder from one thread,
+// in programs with pictures from the thread that draws, unless a comment says otherwise.
 //
 // Source of the rules in this folder: The OpenXR Specification 1.0, Khronos, and XR_KHR_vulkan_enable2.
 #pragma once

@@ -32,7 +32,8 @@ class PoseTracker {
     // destroyed.
     Result<std::optional<Pose>> read();
 
-    // The reason for which the last read() returned no pose of a Vive tracker; empty for other devices.
+    // The reason for which the last read() returned no pose of a Vive tracker; empty for other devices, and
+    // before the runtime has begun the session.
     [[nodiscard]] const std::string& fault() const;
 
     // True if the trigger of the controller, or its button that selects, was pressed at the last read(). A

@@ -220,7 +220,7 @@ Status Runtime::choose_views() {
                       return xrEnumerateViewConfigurations(instance_.get(), system_, capacity, count, values);
                   }),
         "xrEnumerateViewConfigurations"));
-    // The runtime lists its preferred types first. All types other than these two have more than two views.
+    // The runtime lists its preferred types first. All other primary types have more than two views.
     const auto wanted = std::find_if(types.begin(), types.end(), [](XrViewConfigurationType type) {
         return type == XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO ||
                type == XR_VIEW_CONFIGURATION_TYPE_PRIMARY_MONO;

@@ -7,8 +7,8 @@
 //   (submit the command buffer)
 //   end_frame()
 //
-// xrWaitFrame blocks for up to a frame of the headset, so it runs on a thread of its own: neither the lesson
-// nor the window ever waits for the headset.
+// xrWaitFrame blocks for up to a frame of the headset, so it runs on a thread of its own. The lesson and the
+// window wait in begin_frame() at most for its timeout, and in record() at most 20 ms for each image.
 #pragma once
 
 #include <array>
@@ -88,7 +88,7 @@ struct SessionOptions {
     bool separate_eyes = false;  // a swapchain for each eye even if one with two layers can be created
 };
 
-// The events of the session, in the order in which poll() reports them.
+// The events of the session. poll() appends them in the order in which the runtime reports them.
 struct StateChanged {
     XrSessionState state = XR_SESSION_STATE_UNKNOWN;
 };
@@ -150,7 +150,8 @@ class Session {
     [[nodiscard]] XrSessionState state() const { return state_; }
     [[nodiscard]] bool running() const { return running_; }
     // True if the user wears the headset and sees the picture. If false, pause the lesson and end all forces.
-    // A headset on a table keeps its focus with some runtimes; those with XR_EXT_user_presence report it.
+    // With some runtimes a headset on a table keeps its focus. Only runtimes with XR_EXT_user_presence report
+    // that it is not worn.
     [[nodiscard]] bool focused() const { return state_ == XR_SESSION_STATE_FOCUSED && worn_; }
     [[nodiscard]] bool ended() const { return ended_; }  // by the runtime; do not create another one
 
@@ -192,7 +193,7 @@ class Session {
     // the thread has not returned from the runtime after `timeout` s; call it again later, or abandon().
     bool stop(double timeout);
     // Leaves the session's objects and the runtime to the operating system, because the thread never
-    // returned. The session's XrInput must be left too.
+    // returned. Do not destroy the session's XrInput either.
     void abandon();
 
   private:

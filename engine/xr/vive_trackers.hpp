@@ -1,5 +1,6 @@
-// Vive trackers, found by the role that the user has given them (XR_HTCX_vive_tracker_interaction), for the
-// wrist of a gloved hand in a lesson (input.hpp) and in a registration (pose_tracker.hpp).
+// Vive trackers, found by the role that the user has given them (XR_HTCX_vive_tracker_interaction). One
+// tracks the wrist of a gloved hand in a lesson (input.hpp), or measures points in a registration
+// (pose_tracker.hpp).
 #pragma once
 
 #include <array>

@@ -24,7 +24,7 @@ struct Document {
     std::span<const std::uint8_t> chunk;                 // the binary chunk of a .glb
     std::vector<std::span<const std::uint8_t>> buffers;  // each as long as its byteLength
     std::vector<std::vector<std::uint8_t>> images;       // encoded
-    std::vector<std::vector<std::uint8_t>> loaded;       // the external files that `buffers` refers to
+    std::vector<std::vector<std::uint8_t>> loaded;       // files and data URIs to which `buffers` refers
     tinygltf::Model gltf;
     std::size_t unpack_budget = std::size_t{64} << 20U;  // bytes left for unpacking; grows with the buffers
 };
@@ -40,7 +40,8 @@ Status parse_document(Document& document);
 // extensions.
 Status check_schema(Document& document);
 
-// Load the bytes of the buffers and of the images. Images may be stored in buffers: load those first.
+// Load the bytes of the buffers and of the images. Images may be stored in buffers: call load_buffers and
+// check_views first.
 Status load_buffers(Document& document);
 Status load_images(Document& document);
 

@@ -125,7 +125,8 @@ Status load_images(Document& document) {
 namespace {
 
 // Accessors may share bytes, and sparse accessors may expand to many zeros. A model may expand to this
-// multiple of its buffers' size. A larger one is refused, because a small file could exhaust the memory.
+// multiple of its buffers' size, plus 64 MiB. A larger one is refused, because a small file could exhaust the
+// memory.
 constexpr std::size_t unpacking_factor = 32;
 
 // Lets tinygltf parse the part of the JSON that it handles correctly. Buffers and images are removed before,

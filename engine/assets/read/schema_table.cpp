@@ -219,7 +219,8 @@ const ObjectSchema& scene() {
 
 }  // namespace
 
-// A section comes before the sections that refer to it, so that the first error reported is the cause.
+// A section comes before the sections that refer to it, so that the first error reported is the cause. Nodes
+// and skins refer to each other.
 const ObjectSchema& root_schema() {
     static const ObjectSchema schema = {object("asset", asset(), true),
                                         {.name = "extensionsUsed", .type = PropertyType::strings},

@@ -223,7 +223,7 @@ Result<LabelBatch> LabelPass::batch(const Scene& scene, const Eye& eye) {
     }
     atlas_ = std::make_unique<text::Atlas>(atlas_size);  // a smaller one may suffice for the next picture
     return fail(ErrorCode::failed, "the labels of one picture have too many different glyphs",
-                "fewer labels, or smaller ones");
+                "labels with fewer different characters");
 }
 
 Status LabelPass::upload(PassContext& context) {

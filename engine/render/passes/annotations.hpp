@@ -13,8 +13,7 @@
 namespace bolt::render {
 
 // Draws outlines of objects, visible through occluders. First draws the objects' shapes in one colour (the
-// marks), then searches for marks on rings around every pixel. Works only in the area that the outlines may
-// cover.
+// marks), then searches for marks on rings around each pixel of the area that the outlines may cover.
 class OutlinePass {
   public:
     static Result<OutlinePass> create(const PassSetup& setup, std::uint32_t views);
@@ -29,7 +28,8 @@ class OutlinePass {
     gpu::Sampler clamped_;
 };
 
-// Labels prepared for the GPU: one quad per glyph, the farthest label first.
+// Labels prepared for the GPU, the farthest label first. The quads of a label: its background, the outlines
+// of its glyphs, its glyphs.
 struct LabelBatch {
     std::vector<shared::LabelFrame> labels;
     std::vector<shared::LabelQuad> quads;
@@ -44,7 +44,7 @@ class LabelPass {
   public:
     static Result<LabelPass> create(const PassSetup& setup);
 
-    // Call it once per frame, before any view is drawn. Loads the fonts when the first label appears.
+    // Call it once per group of views, before they are drawn. Loads the fonts when the first label appears.
     Status prepare(PassContext& context, std::span<const Eye> eyes);
 
     // Draws onto `targets.picture`, a colour target before and after; `targets.depth` is in
@@ -66,7 +66,7 @@ class LabelPass {
     gpu::Image image_;   // the glyph atlas
     bool fresh_ = true;  // the image has no contents yet
     gpu::TransientRange labels_, quads_;
-    std::uint32_t count_ = 0;  // quads in this frame
+    std::uint32_t count_ = 0;  // quads since the last prepare()
 };
 
 }  // namespace bolt::render

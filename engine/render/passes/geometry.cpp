@@ -140,8 +140,7 @@ Result<const gpu::Pipeline*> SurfacePass::pipeline(gpu::Device& device, const Pi
     const auto known = pipelines_.find(key);
     if (known != pipelines_.end()) return &known->second;
     gpu::GraphicsInfo info = part_pipeline(*shaders_, key.kind, views);
-    // Parts whose material does not vary over the part do not write the material buffer, which saves GPU
-    // time.
+    // Parts whose values are the material's constants do not write the material buffer, which saves GPU time.
     const bool writes_material = (kind.features & SCENE_PER_PIXEL_MATERIAL) != 0;
     info.fragment = &shaders_->at(writes_material ? "surface_material.frag" : "surface.frag");
     info.colors = color_formats(per_pixel_material);
@@ -213,7 +212,7 @@ Status SurfacePass::draw(PassContext& context, RenderTargets& targets, const Dra
     for (const gpu::Image* image : buffers) {
         gpu::image_barrier_discarding(commands, image->get(), ResourceUse::sampled,
                                       ResourceUse::color_target);
-        // Pixels without a covered sample are never read.
+        // The values of samples without geometry are never used.
         colors.push_back(attachment(image->view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                     VK_ATTACHMENT_LOAD_OP_DONT_CARE, VK_ATTACHMENT_STORE_OP_STORE));
     }

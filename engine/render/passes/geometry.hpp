@@ -5,8 +5,8 @@
 
 namespace bolt::render {
 
-// Skinning and morphing. A compute shader writes the deformed vertices once a frame; all other passes draw
-// them like static ones.
+// Skinning and morphing. A compute shader writes the deformed vertices once for each group of views; all
+// other passes draw them like static ones.
 class DeformPass {
   public:
     DeformPass() = default;
@@ -33,8 +33,9 @@ class DeformPass {
 };
 
 // Draws depth and a geometry buffer of normal, material and grain (the brushing direction of a metal), four
-// samples per pixel. Base colour, metallic, roughness and occlusion that vary over a part are written to a
-// second buffer, the material buffer, which exists only if needed.
+// samples per pixel. Base colour, metallic, roughness and occlusion that are not the material's constants
+// (maps, vertex colours, tints) are written to a second buffer, the material buffer, which exists only if
+// needed.
 class SurfacePass {
   public:
     static Result<SurfacePass> create(const PassSetup& setup) { return SurfacePass(setup); }

@@ -18,7 +18,7 @@ class ShadowPass {
     Status draw(PassContext& context);
     // Returns the map for shaders, in ResourceUse::depth_read.
     [[nodiscard]] const gpu::Image& map() const { return moving_ ? combined_map_ : static_map_; }
-    // Returns whether the static map was redrawn in the last frame.
+    // Returns whether the last draw() redrew the static map.
     [[nodiscard]] bool static_map_redrawn() const { return static_map_redrawn_; }
 
   private:
@@ -33,7 +33,7 @@ class ShadowPass {
 };
 
 // Ambient occlusion at half size: halves the depth buffer, integrates the unoccluded angle between the
-// horizons of one slice per pixel, and smooths the result. Pixels without geometry are not computed.
+// horizons of one slice per pixel, and smooths the result. Pixels without geometry get the value 1.
 class OcclusionPass {
   public:
     static Result<OcclusionPass> create(const PassSetup& setup, std::uint32_t views);
