@@ -8,7 +8,7 @@ float cut_fade(vec3 at) {
     const float off = length(p - t * to_focus);
     const float radius = frame.cut.w * max(t, 0.0);
     const float beside = 1.0 - smoothstep(0.6 * radius, radius, off);
-    // Everything is removed up to one radius in front of the focus; the focus itself stays visible.
+    // Removes all that is more than one radius in front of the focus; the focus itself stays visible.
     const float margin = frame.cut.w * inversesqrt(distance2);
     const float before = smoothstep(0.6 * margin, margin, 1.0 - t);
     return t > 0.0 ? frame.cut_strength * beside * before : 0.0;

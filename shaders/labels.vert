@@ -11,9 +11,9 @@ layout(set = 0, binding = 1, std430) readonly buffer Labels { LabelFrame labels[
 layout(set = 0, binding = 2, std430) readonly buffer Quads { LabelQuad quads[]; };
 
 layout(location = 0) out vec2 em;
-layout(location = 1) out vec2 uv_or_half_size;  // of a glyph in the atlas; em, of a plate
+layout(location = 1) out vec2 uv_or_half_size;  // glyph: uv in the atlas; plate: half width and height, em
 layout(location = 2) flat out vec4 color;
-layout(location = 3) flat out float growth_or_radius;  // em: beyond a glyph's edge; of a plate's corners
+layout(location = 3) flat out float growth_or_radius;  // em; glyph: beyond its edge; plate: corner radius
 layout(location = 4) flat out float hidden_opacity;    // 0 … 1, factor on the opacity behind parts
 layout(location = 5) flat out float is_plate;          // 1: a background; 0: a glyph
 layout(location = 6) flat out vec2 middle;

@@ -53,7 +53,7 @@ float specular_visibility(float nv, float ao, float roughness) {
     return clamp(pow(nv + ao, exp2(-16.0 * roughness - 1.0)) - 1.0 + ao, 0.0, 1.0);
 }
 
-// Derives roughness alphas and reflectances from base colour, metallic and roughness.
+// Derives the alphas from roughness and anisotropy, and sets reflectances and coat from the material.
 void finish_surface(inout Surface s, Material m) {
     const float alpha = max(s.roughness * s.roughness, 1e-3);
     s.alpha = vec2(alpha);

@@ -1,5 +1,6 @@
-// Structures that CPU and GPU share. They are compiled as GLSL (std430 and std140 agree, because every member
-// is a vec4, a mat4 or four scalars) and as C++ (offsets asserted in engine/render/gpu_model.cpp).
+// Structures that CPU and GPU share. They are compiled as GLSL and as C++ (sizes and offsets are asserted in
+// engine/render/gpu_model.cpp). std430 and std140 agree: members are vec4, mat4 or scalars in groups of four;
+// DeformPart has only scalars.
 #ifndef BOLT_SHADERS_SHARED_H
 #define BOLT_SHADERS_SHARED_H
 
@@ -110,7 +111,7 @@ struct DeformPart {
 #define SCENE_TINTED 2048u               // tinted, translucent or unlit
 #define SCENE_SHADOW 4096u               // light 0 casts a shadow
 #define SCENE_OCCLUSION 8192u            // ambient occlusion is on
-#define SCENE_PER_PIXEL_MATERIAL 16384u  // values that vary over the part and need the material buffer
+#define SCENE_PER_PIXEL_MATERIAL 16384u  // values from the material buffer, not the material's constants
 #define SCENE_CUT 32768u                 // fades where it hides the cut-away's focus
 #define SCENE_CUT_FADING 1048576u   // draws only the fading region; the opaque region is drawn as a surface
 #define SCENE_LIGHTS_SHIFT 16u      // the number of lights, four bits

@@ -1,6 +1,6 @@
-// Writes the geometry buffer: normal, material and grain. With MATERIAL_OUTPUTS, values that vary over a part
-// (maps, vertex colours) go to the material buffer. A shader must not write to targets that a frame does not
-// have.
+// Writes the geometry buffer: normal, material and grain. With MATERIAL_OUTPUTS, values that are not the
+// material's constants (maps, vertex colours, tints) go to the material buffer. A shader must not write to
+// targets that a frame does not have.
 #include "shaders/frame.glsl"
 #include "shaders/material.glsl"
 #include "shaders/surface.glsl"
