@@ -26,7 +26,8 @@ LAYERS = {
 USERS_ONLY = {"game/trainees": {"game/cli", "tools"}}
 
 # Types that mean the same in each file that defines them.
-SAME_SENSE = {"BoundingBox", "CloseFile", "Finish", "ModelLimits", "ProfilePoint", "UniqueHandle"}
+SAME_SENSE = {"BoundingBox", "Clock", "CloseFile", "DisplayFindings", "ErrorOfBoost", "Finish", "Json", "ModelLimits", "ProfilePoint", "TriangleIndices",
+              "UniqueHandle"}
 # C types of a maker's library, which its emulation must define under their names.
 FOREIGN_NAMES = {"Error"}
 
@@ -97,14 +98,14 @@ def layer_allows(layer, unit):
 
 
 def names_twice(root):
-    """A fault for each type name that two files define. A header and its .cpp count as one: a class may keep parts in it."""
+    """A fault for each name of a type or an alias that two files define. A header and its .cpp count as one: a class may keep parts in it."""
     files = {}
     for layer in LAYERS:
         for folder, _, names in os.walk(os.path.join(root, layer)):
             for name in sorted(n for n in names if n.endswith((".hpp", ".cpp"))):
                 path = os.path.relpath(os.path.join(folder, name), root)
                 with open(os.path.join(root, path), encoding="utf-8") as file:
-                    for found in re.findall(r"(?m)^(?:struct|class|enum class) ([A-Z]\w*) *(?:final *)?[:{][^:]", file.read()):
+                    for found in re.findall(r"(?m)^(?:struct|class|enum class|using) ([A-Z]\w*) *(?:final *)?[:={][^:]", file.read()):
                         files.setdefault(found, {}).setdefault(os.path.splitext(path)[0], path)
     return [f"{name}: defined in {' and '.join(sorted(f.values()))}; expected two names for two meanings"
             for name, f in sorted(files.items()) if len(f) > 1 and name not in SAME_SENSE | FOREIGN_NAMES]

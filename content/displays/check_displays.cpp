@@ -12,13 +12,13 @@ namespace bolt::content {
 
 namespace {
 
-using Findings = std::vector<DisplayFinding>;
+using DisplayFindings = std::vector<DisplayFinding>;
 
 std::string in_m(const Vec3& point) {
     return fmt::format("({:.3g}, {:.3g}, {:.3g}) m", point.x, point.y, point.z);
 }
 
-void check_names(const DisplayFile& displays, Findings& findings) {
+void check_names(const DisplayFile& displays, DisplayFindings& findings) {
     for (std::size_t i = 0; i < displays.walls.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (displays.walls[i].name == displays.walls[j].name)
@@ -29,7 +29,7 @@ void check_names(const DisplayFile& displays, Findings& findings) {
                      i});
 }
 
-void check_eyes(const DisplayFile& displays, Findings& findings) {
+void check_eyes(const DisplayFile& displays, DisplayFindings& findings) {
     const double separation = displays.eye_separation;
     const bool stereo = std::any_of(displays.walls.begin(), displays.walls.end(),
                                     [](const Wall& wall) { return wall.stereo != StereoMode::mono; });
@@ -44,7 +44,7 @@ void check_eyes(const DisplayFile& displays, Findings& findings) {
 }
 
 // Returns true if the corners make a rectangle of plausible size, so that other checks make sense.
-bool check_shape(const Wall& wall, Findings& findings) {
+bool check_shape(const Wall& wall, DisplayFindings& findings) {
     const std::string label = "wall " + in_quotes(wall.name);
     const double across = width(wall), upwards = height(wall);
     if (!(across >= min_wall_edge && upwards >= min_wall_edge)) {
@@ -70,7 +70,7 @@ bool check_shape(const Wall& wall, Findings& findings) {
     return false;
 }
 
-void check_viewer(const DisplayFile& displays, const Wall& wall, Findings& findings) {
+void check_viewer(const DisplayFile& displays, const Wall& wall, DisplayFindings& findings) {
     const WallAxes axes = axes_of(wall);
     const Vec3& eye = displays.head.fixed_head.position;
     const double distance = distance_in_front(axes, eye);
@@ -92,7 +92,7 @@ void check_viewer(const DisplayFile& displays, const Wall& wall, Findings& findi
                                 label)});
 }
 
-void check_pair(const Wall& wall, const Wall& other, Findings& findings) {
+void check_pair(const Wall& wall, const Wall& other, DisplayFindings& findings) {
     const WallAxes a = axes_of(wall), b = axes_of(other);
     const std::string label = fmt::format("walls {} and {}", in_quotes(wall.name), in_quotes(other.name));
     if (walls_cross(a, b, wall_tolerance)) {
@@ -125,7 +125,7 @@ void check_pair(const Wall& wall, const Wall& other, Findings& findings) {
 }  // namespace
 
 std::vector<DisplayFinding> check_walls(const DisplayFile& displays) {
-    Findings findings;
+    DisplayFindings findings;
     check_names(displays, findings);
     check_eyes(displays, findings);
     std::vector<std::size_t> shaped;
@@ -152,7 +152,7 @@ std::vector<DisplayFinding> check_walls(const DisplayFile& displays) {
 std::vector<DisplayFinding> check_viewing(const DisplayFile& displays) {
     constexpr double floor_tolerance = 0.05;  // m
     constexpr const char* hint = "is the origin at the viewer's eyes? (displays import --eye-height)";
-    Findings findings;
+    DisplayFindings findings;
     // Corners that are not in metres need one message only.
     if (std::any_of(displays.walls.begin(), displays.walls.end(),
                     [](const Wall& wall) { return std::max(width(wall), height(wall)) > max_wall_edge; }))
@@ -191,7 +191,7 @@ std::vector<DisplayFinding> check_viewing(const DisplayFile& displays) {
 }
 
 std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const DisplayHost& host) {
-    Findings findings = check_walls(displays);
+    DisplayFindings findings = check_walls(displays);
     if (std::none_of(findings.begin(), findings.end(),
                      [](const DisplayFinding& finding) { return finding.prevents_use; }))
         for (DisplayFinding& finding : check_viewing(displays)) findings.push_back(std::move(finding));

@@ -9,7 +9,7 @@ namespace bolt::content {
 
 namespace {
 
-using Findings = std::vector<DisplayFinding>;
+using DisplayFindings = std::vector<DisplayFinding>;
 
 struct PixelRect {
     int x = 0, y = 0, width = 0, height = 0;
@@ -98,12 +98,13 @@ std::string suggestion(const std::string& name, std::span<const HostMonitor> mon
     return (text.starts_with("did you mean") ? "" : "expected ") + text;
 }
 
-void report(Findings& findings, bool prevents_use, const PlacedOutput& placed, const std::string& text) {
+void report(DisplayFindings& findings, bool prevents_use, const PlacedOutput& placed,
+            const std::string& text) {
     findings.push_back({prevents_use, placed.label + ": " + text, placed.index});
 }
 
 // Finds the output's monitor, or reports why there is none.
-void assign_monitor(PlacedOutput& placed, std::span<const HostMonitor> monitors, Findings& findings) {
+void assign_monitor(PlacedOutput& placed, std::span<const HostMonitor> monitors, DisplayFindings& findings) {
     const DisplayOutput& output = *placed.output;
     if (placed.rect) {
         if (!is_covered(*placed.rect, monitors))
@@ -132,7 +133,7 @@ void assign_monitor(PlacedOutput& placed, std::span<const HostMonitor> monitors,
     placed.size = size;
 }
 
-void check_pixels(const PlacedOutput& placed, Findings& findings) {
+void check_pixels(const PlacedOutput& placed, DisplayFindings& findings) {
     if (!placed.size) return;
     const Wall& wall = *placed.wall;
     const auto [across, upwards] = *placed.size;
@@ -181,7 +182,7 @@ const HostMonitor* find_monitor(const DisplayOutput& output, std::span<const Hos
 bool is_same_display(std::string_view a, std::string_view b) { return x_screen(a) == x_screen(b); }
 
 std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const DisplayHost& host) {
-    Findings findings;
+    DisplayFindings findings;
     std::vector<PlacedOutput> outputs = outputs_of(displays);
     for (PlacedOutput& placed : outputs) {
         const DisplayOutput& output = *placed.output;

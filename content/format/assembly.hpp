@@ -110,11 +110,11 @@ constexpr bool is_torque_wrench(ToolKind kind) {
 }
 
 // The part of a ratchet or a torque wrench that grips; the other kinds have one of their own.
-enum class ToolHead : std::uint8_t { open_end, ring, socket, hex_key, hex_bit };
+enum class ToolHeadKind : std::uint8_t { open_end, ring, socket, hex_key, hex_bit };
 
 struct WrenchDesign {
     ToolKind kind = ToolKind::open_end_wrench;
-    ToolHead head = ToolHead::open_end;
+    ToolHeadKind head = ToolHeadKind::open_end;
     // m. `jaw`: opening of an open end. `size`: width across flats that any other tool is made for.
     double jaw = 0.0, size = 0.0;
     int teeth = 0;                // of a ratchet; 0: none
@@ -196,8 +196,9 @@ struct Assembly {
     std::string file;                          // path of assembly.json
     std::string text;                          // the file's exact bytes: stored in every session
     std::map<std::string, std::string> title;  // by language ("en", "de", "zh")
-    // By language, of the chosen variant or the file; the key is "lesson".
-    std::map<std::string, std::string> instructions;
+    // The menu's text about the lesson ("lesson" in the file), by language: the chosen variant's, or else the
+    // file's.
+    std::map<std::string, std::string> lesson_texts;
     std::string sources;  // source of the file's numbers; may be empty
     joint::Law law = joint::Law::mechanistic;
     std::string variant;                    // name of the chosen variant; empty: none
@@ -218,8 +219,8 @@ struct Assembly {
 // The paths of a model and of what the chosen variant adds to it; empty if there is none.
 std::vector<std::string> model_paths(const Assembly& assembly, ModelFile file);
 
-// An assembly without errors, or all errors of the file in the order of the file. Each error has
-// ErrorCode::bad_content, file, line, column and JSON pointer.
+// An assembly without errors, or the errors of the file, at most 200, in the order of the file. Each error
+// has ErrorCode::bad_content, file, line, column and JSON pointer.
 struct LoadedAssembly {
     Assembly assembly;
     std::vector<Error> errors;
@@ -239,9 +240,9 @@ LoadedAssembly load_assembly(const std::filesystem::path& where, std::string_vie
 // joint names as its own.
 std::vector<const Tool*> choosable_tools(const Assembly& assembly);
 
-// Indices in Assembly::tools of the tools that may turn a joint: its own tool, or each of those that a
-// trainee can choose, replaced by the tool that its `instead` names for this joint. The first index is the
-// tool of a lesson whose trainee has chosen none. No repetition.
+// Indices in Assembly::tools of the tools that may turn a joint: its own tool if it names one; otherwise each
+// tool that a trainee can choose or, if that tool has an `instead` for this joint, the tool named there. The
+// first index is the tool of a lesson whose trainee has chosen none. No repetition.
 std::vector<std::size_t> tools_of_joint(const Assembly& assembly, std::size_t joint);
 
 // Index in Assembly::tools of the tool that turns a joint if the trainee chooses the tool of this name: the

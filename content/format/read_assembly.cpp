@@ -164,7 +164,7 @@ Assembly read_assembly(JsonReader& reader, std::string_view variant, const Model
             read_added_models(reader, other.name, folders);
         }
     VariantJoints joints = read_variant_joints(reader, assembly.variant);
-    assembly.instructions = read_lesson(reader, assembly.variant);
+    assembly.lesson_texts = read_lesson(reader, assembly.variant);
     assembly.views = read_views(reader, variant_of(reader, assembly.variant));
     assembly.flange = read_flange(reader, assembly.variant, joints.joints);
     assembly.added_models = read_added_models(reader, assembly.variant, folders);

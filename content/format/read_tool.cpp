@@ -29,34 +29,34 @@ constexpr std::array ratchets{24.0, 72.0, 90.0};
 struct KindRow {
     std::string_view name;
     ToolKind kind;
-    ToolHead head;  // its own, or the default one of a tool with a choice
+    ToolHeadKind head;  // its own, or the default one of a tool with a choice
 };
 constexpr std::array kinds{
-    KindRow{"open_end_wrench", ToolKind::open_end_wrench, ToolHead::open_end},
-    KindRow{"ring_wrench", ToolKind::ring_wrench, ToolHead::ring},
-    KindRow{"hex_key", ToolKind::hex_key, ToolHead::hex_key},
-    KindRow{"ratchet", ToolKind::ratchet, ToolHead::socket},
-    KindRow{"click_torque_wrench", ToolKind::click_torque_wrench, ToolHead::open_end},
-    KindRow{"electronic_torque_wrench", ToolKind::electronic_torque_wrench, ToolHead::open_end},
+    KindRow{"open_end_wrench", ToolKind::open_end_wrench, ToolHeadKind::open_end},
+    KindRow{"ring_wrench", ToolKind::ring_wrench, ToolHeadKind::ring},
+    KindRow{"hex_key", ToolKind::hex_key, ToolHeadKind::hex_key},
+    KindRow{"ratchet", ToolKind::ratchet, ToolHeadKind::socket},
+    KindRow{"click_torque_wrench", ToolKind::click_torque_wrench, ToolHeadKind::open_end},
+    KindRow{"electronic_torque_wrench", ToolKind::electronic_torque_wrench, ToolHeadKind::open_end},
 };
 
 struct HeadRow {
     std::string_view name;  // in the file; empty: not a choice
-    ToolHead head;
+    ToolHeadKind head;
     std::string_view title;  // in messages
 };
 constexpr std::array heads{
-    HeadRow{"open_end", ToolHead::open_end, "an open end"}, HeadRow{"", ToolHead::ring, "a ring"},
-    HeadRow{"socket", ToolHead::socket, "a socket"}, HeadRow{"", ToolHead::hex_key, "a hexagon key"},
-    HeadRow{"hex_bit", ToolHead::hex_bit, "a hexagon bit"}};
+    HeadRow{"open_end", ToolHeadKind::open_end, "an open end"}, HeadRow{"", ToolHeadKind::ring, "a ring"},
+    HeadRow{"socket", ToolHeadKind::socket, "a socket"}, HeadRow{"", ToolHeadKind::hex_key, "a hexagon key"},
+    HeadRow{"hex_bit", ToolHeadKind::hex_bit, "a hexagon bit"}};
 
-std::string_view title_of(ToolHead head) {
+std::string_view title_of(ToolHeadKind head) {
     return std::find_if(heads.begin(), heads.end(), [&](const HeadRow& row) { return row.head == head; })
         ->title;
 }
 
 bool has_drive(const WrenchDesign& wrench) {
-    return wrench.head == ToolHead::socket || wrench.head == ToolHead::hex_bit;
+    return wrench.head == ToolHeadKind::socket || wrench.head == ToolHeadKind::hex_bit;
 }
 
 // Reports each of these members that the tool has.
@@ -84,7 +84,7 @@ void read_kind(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wren
     }
     for (const HeadRow& row : heads)
         if (*head == row.name) wrench.head = row.head;
-    if (!measures && wrench.head == ToolHead::open_end)
+    if (!measures && wrench.head == ToolHeadKind::open_end)
         reader.report(head.pointer, "a ratchet does not turn an open end", "\"socket\" or \"hex_bit\"");
 }
 
@@ -93,7 +93,7 @@ void read_adaptor(JsonReader& reader, const LayeredObject& tool, WrenchDesign& w
     const auto adaptor = tool.number("adaptor_mm");
     if (!adaptor) return;
     if (!tool.all_valid({"kind", "head"})) return;
-    if (!is_torque_wrench(wrench.kind) || wrench.head != ToolHead::open_end) {
+    if (!is_torque_wrench(wrench.kind) || wrench.head != ToolHeadKind::open_end) {
         reader.report(adaptor.pointer, "the adaptor lengthens only a torque wrench with an open end",
                       "the head \"open_end\", or no \"adaptor_mm\"");
         return;
@@ -137,12 +137,12 @@ void read_drive(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wre
 }
 
 bool grips_inside(const WrenchDesign& wrench) {
-    return wrench.head == ToolHead::hex_key || wrench.head == ToolHead::hex_bit;
+    return wrench.head == ToolHeadKind::hex_key || wrench.head == ToolHeadKind::hex_bit;
 }
 
 // m, by which the tool may be wider than the part.
 double most_play(const WrenchDesign& wrench) {
-    return wrench.head == ToolHead::open_end ? max_jaw_play : 0.0;
+    return wrench.head == ToolHeadKind::open_end ? max_jaw_play : 0.0;
 }
 
 // `width`: m, of the tool. `s`: m, across flats of the part.
@@ -163,7 +163,7 @@ void check_fit(JsonReader& reader, const Located<double>& given, const WrenchDes
     const double width = *given * mm;
     const double play = most_play(wrench);
     const std::string name =
-        wrench.head == ToolHead::open_end ? std::string("a jaw") : std::string(title_of(wrench.head));
+        wrench.head == ToolHeadKind::open_end ? std::string("a jaw") : std::string(title_of(wrench.head));
     for (const AssemblyJoint& joint : joints) {
         const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
         const double s = part.across_flats;
@@ -249,7 +249,7 @@ ParsedTool parse_tool(JsonReader& reader, std::string name, const JsonNode& node
     read_adaptor(reader, file, wrench);
     read_drive(reader, file, wrench);
     wrench.handle_length = file.number("handle_length_mm").value_or(0.0) * mm;
-    const bool open_end = wrench.head == ToolHead::open_end;
+    const bool open_end = wrench.head == ToolHeadKind::open_end;
     if (open_end)
         read_open_end(reader, file, wrench);
     else
@@ -275,7 +275,7 @@ void check_sizes(JsonReader& reader, const ParsedTool& parsed, const std::vector
     const std::string remedy = fits_another ? fmt::format(", or \"tool\": {} in the joint types of its size",
                                                           in_quotes(parsed.tool.name))
                                             : "";
-    if (wrench.head == ToolHead::open_end)
+    if (wrench.head == ToolHeadKind::open_end)
         check_jaw_room(reader, LayeredObject(reader, {parsed.node}), joints);
     if (parsed.size) check_fit(reader, parsed.size, wrench, joints, remedy);
 }
@@ -398,7 +398,7 @@ double adaptor_ratio(const WrenchDesign& wrench) {
 }
 
 double nominal_size(const WrenchDesign& wrench) {
-    return wrench.head == ToolHead::open_end ? wrench.jaw : wrench.size;
+    return wrench.head == ToolHeadKind::open_end ? wrench.jaw : wrench.size;
 }
 
 bool suits(const WrenchDesign& wrench, const joint::JointDesign& joint) {

@@ -319,7 +319,7 @@ Result<std::size_t> choose(const Instance& instance, const DeviceOptions& option
             !reason.empty())
             return fail(ErrorCode::no_device,
                         fmt::format("the headset's GPU, {}, {}", survey.candidates[index].name, reason),
-                        "a headset on the GPU of the window");
+                        "a GPU and a driver that have what is missing");
         return index;
     }
     if (survey.choice.index < 0)

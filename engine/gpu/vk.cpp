@@ -48,7 +48,7 @@ Status check(VkResult result, std::string_view what) {
     const bool no_memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
     error.expected = no_memory        ? "more free memory"
                      : device_missing ? "a working GPU and its driver"
-                                      : "success";
+                                      : "a driver of Vulkan that works (`boltwright doctor` lists the GPUs)";
     error.lost = result == VK_ERROR_DEVICE_LOST;
     return fail(std::move(error));
 }

@@ -10,10 +10,10 @@ namespace {
 constexpr int table_size = 48;
 constexpr unsigned directions = 256;
 
-using Table = std::array<glm::vec2, table_size * table_size>;
+using AlbedoTable = std::array<glm::vec2, table_size * table_size>;
 
-Table make_table() {
-    Table table;
+AlbedoTable make_table() {
+    AlbedoTable table;
     for (int r = 0; r < table_size; ++r) {
         for (int c = 0; c < table_size; ++c) {
             const float roughness = static_cast<float>(r) / (table_size - 1);
@@ -46,7 +46,7 @@ glm::vec2 integrate_albedo(float alpha, float cosine, unsigned count) {
 }
 
 glm::vec2 directional_albedo(float alpha, float cosine) {
-    static const Table table = make_table();
+    static const AlbedoTable table = make_table();
     const float x = std::sqrt(std::clamp(cosine, 0.0F, 1.0F)) * (table_size - 1);
     const float y = std::sqrt(std::clamp(alpha, 0.0F, 1.0F)) * (table_size - 1);
     const int column = std::min(static_cast<int>(x), table_size - 2);

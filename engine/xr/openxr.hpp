@@ -80,7 +80,7 @@ class UniqueHandle {
 using InstanceHandle = UniqueHandle<XrInstance, &xrDestroyInstance>;
 using SessionHandle = UniqueHandle<XrSession, &xrDestroySession>;
 using SpaceHandle = UniqueHandle<XrSpace, &xrDestroySpace>;
-using SwapchainHandle = UniqueHandle<XrSwapchain, &xrDestroySwapchain>;
+using XrSwapchainHandle = UniqueHandle<XrSwapchain, &xrDestroySwapchain>;
 using ActionSetHandle = UniqueHandle<XrActionSet, &xrDestroyActionSet>;
 
 // XR_EXT_user_presence, which is newer than the headers of Debian 12.

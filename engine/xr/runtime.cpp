@@ -29,7 +29,7 @@ Status check(XrResult result, std::string_view function) {
     Error error;
     error.code = lost || missing ? ErrorCode::no_device : ErrorCode::failed;
     error.what = fmt::format("OpenXR: {} returned {}", function, name(result));
-    error.expected = "XR_SUCCESS";
+    error.expected = "a running OpenXR runtime with a connected headset that permits this";
     error.lost = lost;
     return fail(std::move(error));
 }

@@ -141,7 +141,7 @@ Result<Session::Swapchain> Session::make_swapchain(VkFormat format, std::uint32_
     XrSwapchain raw = XR_NULL_HANDLE;
     BOLT_TRY(check(xrCreateSwapchain(session_.get(), &info, &raw), "xrCreateSwapchain"));
     Swapchain swapchain;
-    swapchain.handle = SwapchainHandle(raw);
+    swapchain.handle = XrSwapchainHandle(raw);
     swapchain.extent = extent_;
     swapchain.format = format;
     std::vector<XrSwapchainImageVulkan2KHR> images;

@@ -198,7 +198,7 @@ class Session {
 
   private:
     struct Swapchain {
-        SwapchainHandle handle;
+        XrSwapchainHandle handle;
         std::vector<VkImage> images;
         VkExtent2D extent{};
         VkFormat format = VK_FORMAT_UNDEFINED;

@@ -37,8 +37,8 @@ struct FreeSpace {
     // m along the tool's Z: the lower and the upper face of the head and of the handle. An open-end wrench,
     // which can be turned over, has the same faces either way up.
     std::array<double, 2> head{}, handle{};
-    // Points of the head that reach furthest in each direction, at its lower and its upper face. Under the
-    // handle of a socket the head is narrow.
+    // Points of the head that reach furthest in each direction, at its lower and its upper face. A socket is
+    // below its handle: the head has no points above it, and is narrower than the handle below.
     std::array<std::array<Vec3, 8>, 2> rims{};
 
     FreeSpace(const servo::Setup& s, const servo::ToolContact& t) : setup(s), contact(t) {
@@ -87,7 +87,7 @@ struct FreeSpace {
             const Vec3 off(0.0, 0.0, handle[face] + margin);
             const Vec3 middle = pose * (Vec3(0.5 * length, 0.0, 0.0) + off);
             for (const Vec3& side : rims[face]) {
-                if (side == Vec3(0.0)) continue;  // this face of the head is nowhere beyond the handle
+                if (side == Vec3(0.0)) continue;  // the head has no points on this side of the handle
                 const Vec3 point =
                     side * (1.0 + distance / glm::length(side)) + Vec3(0.0, 0.0, head[face] + margin);
                 if (blocked(before * point, pose * point) || blocked(middle, pose * point)) return false;

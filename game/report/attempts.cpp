@@ -40,7 +40,7 @@ std::string trainee_note(std::span<const Attempt> attempts) {
     return out;
 }
 
-std::string attempts_table(std::span<const Attempt> attempts, bool alone) {
+std::string attempts_table(std::span<const Attempt> attempts, bool overview_only) {
     std::string out =
         "<div class=\"scroll\"><table><thead><tr><th "
         "class=\"n\">#</th><th>assembly</th><th>task</th><th>variant</th><th>trainee</th><th>mode</"
@@ -49,7 +49,7 @@ std::string attempts_table(std::span<const Attempt> attempts, bool alone) {
     for (std::size_t i = 0; i < attempts.size(); ++i) {
         const Attempt& a = attempts[i];
         const std::string number_text =
-            alone ? fmt::format("{}", i + 1) : fmt::format("<a href=\"#session-{0}\">{0}</a>", i + 1);
+            overview_only ? fmt::format("{}", i + 1) : fmt::format("<a href=\"#session-{0}\">{0}</a>", i + 1);
         fmt::format_to(
             std::back_inserter(out),
             "<tr><td class=\"n\">{0}</td><td "
@@ -148,15 +148,16 @@ Attempt attempt_of(const analysis::SessionData& session, const TraineeNames& nam
     return a;
 }
 
-std::string attempts_section(std::span<const Attempt> attempts, bool alone) {
+std::string attempts_section(std::span<const Attempt> attempts, bool overview_only) {
     std::string out = fmt::format("<p class=\"over\">Boltwright training report</p>\n<h1>{} attempts</h1>\n",
                                   attempts.size());
     const std::string study = guiding_study(attempts) + view_study(attempts);
-    out += alone ? study + attempts_table(attempts, alone) : attempts_table(attempts, alone) + study;
-    if (alone && !study.empty()) return out;
+    out += overview_only ? study + attempts_table(attempts, overview_only)
+                         : attempts_table(attempts, overview_only) + study;
+    if (overview_only && !study.empty()) return out;
     bool compared = false;
     for (const std::vector<std::size_t>& group : attempt_groups(attempts)) {
-        const std::string curves = learning_curves_section(attempts, group, !alone);
+        const std::string curves = learning_curves_section(attempts, group, !overview_only);
         compared = compared || !curves.empty();
         out += curves;
     }

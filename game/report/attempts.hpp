@@ -13,8 +13,9 @@ namespace bolt::report {
 
 // The people that a page may name.
 struct TraineeNames {
-    std::vector<content::Person> people;  // names.json; sessions under a typed name belong to its code
-    bool show = false;                    // false: the page has codes only, so that it can be passed on
+    // Of names.json. A session with a typed name in place of a code belongs to the person of that name.
+    std::vector<content::Person> people;
+    bool show = false;  // false: the page has codes only, so that it can be passed on
 };
 
 // The values of a session that the overview needs, so that the session itself can be released.
@@ -51,9 +52,9 @@ Attempt attempt_of(const analysis::SessionData& session, const TraineeNames& nam
 std::vector<std::vector<std::size_t>> attempt_groups(std::span<const Attempt> attempts);
 
 // HTML: the table, the studies, and the learning curves of every group in which a trainee has at least two
-// attempts. `alone`: the page has no sections of single sessions, so the table has no links, and studies
-// replace learning curves.
-std::string attempts_section(std::span<const Attempt> attempts, bool alone = false);
+// attempts. `overview_only`: the page has no sections of single sessions. Then the table has no links, and
+// where there are studies there are no learning curves.
+std::string attempts_section(std::span<const Attempt> attempts, bool overview_only = false);
 
 // HTML: compares attempts with and without the guiding force that otherwise differ at most in the seed. One
 // part for each set of such attempts, in the order of their first attempts. Empty if no set has both kinds.

@@ -40,10 +40,10 @@ double drawn_angle(const JointPlotFrame& frame, double nut_angle, bool loosening
     return to_degrees(loosening ? frame.origin - nut_angle : nut_angle - frame.origin);
 }
 
-using CurveValue = double (*)(const analysis::CurvePoint&);
+using SampleValue = double (*)(const analysis::CurvePoint&);
 
 std::vector<plot::SvgPoint> visit_line(const analysis::Visit& visit, const JointPlotFrame& frame,
-                                       bool loosening, CurveValue value) {
+                                       bool loosening, SampleValue value) {
     std::vector<plot::SvgPoint> points;
     for (std::size_t i = 0; i < visit.points.size(); ++i) {
         const analysis::CurvePoint& p = visit.points[i];
@@ -97,7 +97,7 @@ bool is_in_frame(const JointPlotFrame& frame, double nut_angle, bool loosening) 
 }
 
 // The range of the drawn values of one joint; includes 0.
-plot::AxisRange value_range(const analysis::SessionData& session, std::size_t joint, CurveValue value) {
+plot::AxisRange value_range(const analysis::SessionData& session, std::size_t joint, SampleValue value) {
     const bool loosening = is_loosening(session);
     const JointPlotFrame frame = joint_plot_frame(session, joint);
     plot::AxisRange range{0.0, 0.0};
@@ -113,7 +113,7 @@ plot::AxisRange value_range(const analysis::SessionData& session, std::size_t jo
 
 // Loosened joints have no targets and are compared with each other, so their plots share the axes.
 plot::AxisRange shared_value_range(const analysis::SessionData& session, std::size_t joint,
-                                   CurveValue value) {
+                                   SampleValue value) {
     if (!is_loosening(session)) return value_range(session, joint, value);
     plot::AxisRange range{0.0, 0.0};
     for (std::size_t j = 0; j < session.curves.size(); ++j) {

@@ -33,9 +33,9 @@ std::string haptics_section(const analysis::SessionData& session);
 // `overview` omits the sections of the single sessions if there are several sessions.
 enum class ReportExtent : std::uint8_t { everything, overview };
 
-// Returns the page, a single file without external resources. Its head lists the people on it
-// (people::page_trainees). Fails without sessions, or if one cannot be read. Keeps the curves of only one
-// session in memory.
+// Returns the page, a single file without external resources. Its head lists the people on it,
+// so that people::page_trainees finds them. Fails without sessions, or if one cannot be read. Keeps the
+// curves of only one session in memory.
 Result<std::string> make_report(std::span<const session::SessionReader* const> sessions,
                                 ReportExtent extent = ReportExtent::everything,
                                 const TraineeNames& names = {});

@@ -61,7 +61,8 @@ struct HandSurroundings {
 
 // Advances the search by a frame of `seconds`. The first frame searches from all starting points and shows
 // the best result immediately; later frames do a bounded amount of work and move `shown` continuously.
-// Returns early if the search has settled and its inputs are unchanged.
+// Returns early if the search has settled and task, place and posture are unchanged; it does not notice a
+// moved obstacle.
 void advance(HandClearance& clearance, const HandSurroundings& around, const hand::Skeleton& posture,
              double seconds);
 

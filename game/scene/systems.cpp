@@ -44,10 +44,9 @@ std::shared_ptr<const render::Deformation> deform(const SkinnedHand& fingers,
     return std::make_shared<const render::Deformation>(std::move(deformation));
 }
 
-// The frame of an empty hand. Away from nuts a measured hand is drawn where it is; at a nut its fingers are
-// around the nut, as those of any hand, and the wrist follows the measured roll. The two frames differ,
-// because a hand that turns a nut bends its fingers, and a hand that holds a controller does not. A measured
-// hand with a glove is drawn as measured at a nut too.
+// The frame of an empty hand. Away from nuts a measured hand is drawn where it was measured. At a nut it
+// glides to `state.fingers`, the frame in which the fingers are around the nut, because the measured fingers
+// hold a controller and are not bent. With a glove the hand stays where it was measured.
 Pose frame_of_empty_hand(SkinnedHand& fingers, const ToolAndHand& state, bool first) {
     constexpr double approach = 0.15;  // s, time constant
     if (!state.palm) return state.fingers;
@@ -197,13 +196,14 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     held.closed_share = hand.closed_share;
     held.palm = hand.palm;
     held.at_nut = hand.nut.has_value();
-    // The wrist is on the palm's side of a straight hand, because at a nut the fingers are bent.
-    const Vec3 wrist =
+    // A point that the wrist is drawn towards. Of a measured hand: on the side of its palm, because at a nut
+    // the fingers are bent.
+    const Vec3 towards =
         held.palm ? hand.pose.position - held.palm->orientation * Vec3(0.0, 1.0, 0.0) : context.shoulder;
     const double sense = hand.nut ? context.setup.nuts[*hand.nut].sense : 1.0;
     held.fingers = glove != nullptr && !hand.palm
                        ? hand.rest
-                       : frame_towards(hand.pose, wrist, -sense * wrist_share * hand.twisted);
+                       : frame_towards(hand.pose, towards, -sense * wrist_share * hand.twisted);
     held.handle_posture_index = context.handle_posture_index;
     held.seconds = context.seconds;
     held.effort = context.effort;

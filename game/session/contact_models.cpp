@@ -199,7 +199,7 @@ Result<WrenchModel> read_wrench(const content::WrenchDesign& design) {
         }
         const Result<collision::Solid> solid = collision::make_solid(meshes);
         if (!solid) return fail(content_error(file, solid.error().what, solid.error().expected));
-        if (side < 0.0 || design.head != content::ToolHead::open_end ||
+        if (side < 0.0 || design.head != content::ToolHeadKind::open_end ||
             mouth_clearance(*solid, design.head_angle, design.jaw) >=
                 mouth_clearance(*solid, -design.head_angle, design.jaw))
             return WrenchModel{std::move(meshes),

@@ -193,7 +193,8 @@ servo::Setup make_lesson_setup(const content::Assembly& assembly, const LessonOp
 Status check_turned_parts(const content::Assembly& assembly) {
     for (const content::AssemblyJoint& joint : assembly.joints) {
         const auto head = content::tool_of(assembly, joint).head;
-        const bool turns_sockets = head == content::ToolHead::hex_key || head == content::ToolHead::hex_bit;
+        const bool turns_sockets =
+            head == content::ToolHeadKind::hex_key || head == content::ToolHeadKind::hex_bit;
         const joint::TurnedPartSize part = joint::turned_part_size(joint.design);
         if ((part.depth > 0.0) == turns_sockets) continue;
         Error error;

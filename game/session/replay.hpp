@@ -42,8 +42,8 @@ Result<ReplayResult> replay(const SessionReader& session, SessionSetup start, co
 // The recorded hand of a session as a device that repeats its motion (haptics/device/virtual_devices.hpp), in
 // the assembly's frame. For a station with an identity workspace mapping whose tool starts at `first`.
 struct RecordedHand {
-    device::Description description;  // with the limits of the recorded device
-    device::Recording recording;      // ticks without a fresh sample are gaps
+    device::Description description;    // with the limits of the recorded device
+    device::RecordedSamples recording;  // ticks without a fresh sample are gaps
     Pose first;
 };
 

@@ -24,7 +24,7 @@ std::int64_t system_time() {
         .count();
 }
 
-Participation::Participation(const content::Study& study, Journal journal, fs::path folder, Clock clock)
+Participation::Participation(const content::Study& study, Journal journal, fs::path folder, UnixClock clock)
     : study_(&study),
       journal_(std::move(journal)),
       folder_(std::move(folder)),
@@ -34,7 +34,7 @@ Participation::Participation(const content::Study& study, Journal journal, fs::p
 }
 
 Result<Participation> Participation::start(const content::Study& study, Journal journal, fs::path folder,
-                                           Clock clock) {
+                                           UnixClock clock) {
     Participation participation(study, std::move(journal), std::move(folder), std::move(clock));
     auto conditions = assigned_conditions(study, participation.progress_);
     if (!conditions) {
@@ -57,14 +57,15 @@ void Participation::update_progress() {
 }
 
 Result<Participation> Participation::enrol(const content::Study& study, const fs::path& folder,
-                                           const std::string& person, bool simulated, Clock clock) {
+                                           const std::string& person, bool simulated, UnixClock clock) {
     BOLT_TRY_ASSIGN(const auto own, add_participant(study, folder, {person, simulated, clock()}));
     BOLT_TRY_ASSIGN(auto journal, Journal::open(own / journal_file_name));
     return start(study, std::move(journal), own, std::move(clock));
 }
 
 Result<Participation> Participation::resume(const content::Study& study, const fs::path& folder,
-                                            const std::string& participant, bool accept_change, Clock clock) {
+                                            const std::string& participant, bool accept_change,
+                                            UnixClock clock) {
     BOLT_TRY_ASSIGN(const auto own, find_participant(folder, participant));
     auto journal = Journal::open(own / journal_file_name);
     if (!journal && journal.error().what == session::lock_is_taken)

@@ -19,7 +19,7 @@
 namespace bolt::study {
 
 // Returns the time in seconds since 1970-01-01 UTC.
-using Clock = std::function<std::int64_t()>;
+using UnixClock = std::function<std::int64_t()>;
 std::int64_t system_time();
 
 // The participation of one person. The study that it is made with must outlive it.
@@ -27,12 +27,13 @@ class Participation {
   public:
     // Enrols a person as the next participant; fails as add_participant().
     static Result<Participation> enrol(const content::Study& study, const std::filesystem::path& folder,
-                                       const std::string& person, bool simulated, Clock clock = system_time);
+                                       const std::string& person, bool simulated,
+                                       UnixClock clock = system_time);
     // Continues at the step reached. `participant`: "P03". Fails if the plan was changed since the
     // participant began, unless `accept_change`.
     static Result<Participation> resume(const content::Study& study, const std::filesystem::path& folder,
                                         const std::string& participant, bool accept_change,
-                                        Clock clock = system_time);
+                                        UnixClock clock = system_time);
 
     [[nodiscard]] const content::Study& study() const { return *study_; }
     [[nodiscard]] const std::string& participant() const { return participant_; }
@@ -95,8 +96,9 @@ class Participation {
 
   private:
     static Result<Participation> start(const content::Study& study, Journal journal,
-                                       std::filesystem::path folder, Clock clock);
-    Participation(const content::Study& study, Journal journal, std::filesystem::path folder, Clock clock);
+                                       std::filesystem::path folder, UnixClock clock);
+    Participation(const content::Study& study, Journal journal, std::filesystem::path folder,
+                  UnixClock clock);
     void update_progress();
     [[nodiscard]] double steady_now() const;
     Status append(std::vector<JournalEntry> entries);
@@ -106,7 +108,7 @@ class Participation {
     Journal journal_;
     std::filesystem::path folder_;
     std::string participant_;
-    Clock clock_;
+    UnixClock clock_;
     std::vector<Step> steps_;
     Progress progress_;
     std::vector<std::size_t> conditions_;

@@ -10,7 +10,7 @@ namespace bolt::tool_models {
 
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
+using TriangleIndices = std::array<std::uint32_t, 3>;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -54,10 +54,10 @@ std::vector<Vec2> flattened(std::span<const Vec3> loop) {
 
 void cap(Shell& shell, std::size_t first, std::size_t size, bool reversed) {
     const std::vector<Vec2> flat = flattened(std::span(shell.points).subspan(first, size));
-    for (const Triangle& t : triangulate(flat)) {
+    for (const TriangleIndices& t : triangulate(flat)) {
         const auto index = [&](std::size_t i) { return static_cast<std::uint32_t>(first + t[i]); };
-        shell.triangles.push_back(reversed ? Triangle{index(0), index(2), index(1)}
-                                           : Triangle{index(0), index(1), index(2)});
+        shell.triangles.push_back(reversed ? TriangleIndices{index(0), index(2), index(1)}
+                                           : TriangleIndices{index(0), index(1), index(2)});
     }
 }
 
@@ -77,10 +77,10 @@ Shell joined(const std::vector<Loop>& loops, bool closed) {
 
 }  // namespace
 
-std::vector<Triangle> triangulate(std::span<const Vec2> polygon) {
+std::vector<TriangleIndices> triangulate(std::span<const Vec2> polygon) {
     std::vector<std::uint32_t> left(polygon.size());
     std::iota(left.begin(), left.end(), 0U);
-    std::vector<Triangle> triangles;
+    std::vector<TriangleIndices> triangles;
     const auto at = [&](std::size_t i) -> const Vec2& { return polygon[left[i % left.size()]]; };
     while (left.size() > 3) {
         // Cuts off the ear with the shortest new edge. Only corners that point inwards can lie in an ear.
@@ -209,7 +209,7 @@ Shell moved(Shell shell, const std::function<Vec3(const Vec3&)>& map) {
 
 double volume(const Shell& shell) {
     double six = 0.0;
-    for (const Triangle& t : shell.triangles)
+    for (const TriangleIndices& t : shell.triangles)
         six += glm::dot(shell.points[t[0]], glm::cross(shell.points[t[1]], shell.points[t[2]]));
     return six / 6.0;
 }

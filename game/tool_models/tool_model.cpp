@@ -238,12 +238,12 @@ double adjusted_length(const ToolParameters& p, double handle_length) {
 }  // namespace
 
 ToolParameters parameters_of(const content::WrenchDesign& design) {
-    if (design.head == content::ToolHead::open_end) return open_end_parameters(design);
+    if (design.head == content::ToolHeadKind::open_end) return open_end_parameters(design);
     ToolParameters p;
     p.size = design.size;
     p.teeth = design.teeth;
     p.extension = design.extension;
-    if (design.head == content::ToolHead::hex_bit) p.head = ModelHead::hex_bit;
+    if (design.head == content::ToolHeadKind::hex_bit) p.head = ModelHead::hex_bit;
     switch (design.kind) {
         case content::ToolKind::ring_wrench:
             p.kind = ModelKind::ring_wrench;
@@ -304,7 +304,7 @@ Result<GrippingHead> gripping_head(const ToolParameters& p) {
 }
 
 GrippingHead gripping_head(const content::WrenchDesign& design) {
-    if (design.head != content::ToolHead::open_end)
+    if (design.head != content::ToolHeadKind::open_end)
         return gripping_head(parameters_of(design)).value_or(GrippingHead{});
     // An author's model has its own dimensions, so those of the file count.
     return {collision::make_jaw(design.jaw, design.head_angle, design.head_thickness, design.jaw_depth,
@@ -339,7 +339,7 @@ double yield_torque(const content::WrenchDesign& design, KeyStrength keys) {
     constexpr double surplus = 1.2;
     const ToolStrength strength = strength_of(design);
     double torque = strength.limit.source == TorqueSource::none ? 0.0 : surplus * strength.limit.torque;
-    if (design.head == content::ToolHead::hex_key || design.head == content::ToolHead::hex_bit) {
+    if (design.head == content::ToolHeadKind::hex_key || design.head == content::ToolHeadKind::hex_bit) {
         const double key = key_yield_torque(parameters_of(design).size, keys);
         torque = torque > 0.0 ? std::min(torque, key) : key;
     }

@@ -27,14 +27,16 @@ std::string sizes_of(const content::Assembly& assembly) {
 
 VariantEntry variant_entry(const content::Assembly& assembly, content::AssemblyVariant variant) {
     VariantEntry entry{
-        std::move(variant), assembly.instructions, {}, assembly.joints.size(), sizes_of(assembly)};
+        std::move(variant), assembly.lesson_texts, {}, assembly.joints.size(), sizes_of(assembly)};
     for (const content::Tool* tool : content::choosable_tools(assembly)) entry.tools.push_back(*tool);
     return entry;
 }
 
-// The variant that is played unless another is chosen comes first.
+// The lesson that is played unless another is chosen comes first: the default variant or, if the file names
+// none, the file without a variant, under the assembly's title.
 std::vector<VariantEntry> variants_of(const content::Assembly& assembly) {
     std::vector<VariantEntry> entries;
+    if (assembly.variant.empty()) entries.push_back(variant_entry(assembly, {"", assembly.title}));
     for (const content::AssemblyVariant& variant : assembly.variants)
         entries.push_back(
             variant.name == assembly.variant
@@ -42,7 +44,6 @@ std::vector<VariantEntry> variants_of(const content::Assembly& assembly) {
                 : variant_entry(content::load_assembly(assembly.file, variant.name).assembly, variant));
     std::stable_partition(entries.begin(), entries.end(),
                           [&](const VariantEntry& entry) { return entry.variant.name == assembly.variant; });
-    if (entries.empty()) entries.push_back(variant_entry(assembly, {}));
     return entries;
 }
 
@@ -102,7 +103,7 @@ void add_characters(ui::Ui& ui, const AssemblyEntry& entry) {
     if (entry.error) ui.add_characters(entry.error->message());
     for (const VariantEntry& variant : entry.variants) {
         for (const auto& [code, title] : variant.variant.title) ui.add_characters(title);
-        for (const auto& [code, text] : variant.instructions) ui.add_characters(text);
+        for (const auto& [code, text] : variant.lesson_texts) ui.add_characters(text);
         for (const content::Tool& tool : variant.tools)
             for (const auto& [code, title] : tool.title) ui.add_characters(title);
     }

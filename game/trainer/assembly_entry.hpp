@@ -12,10 +12,10 @@
 
 namespace bolt::trainer {
 
-// One variant, or an assembly without variants, as the menu lists it.
+// One variant, or the assembly without a variant, as the menu lists it.
 struct VariantEntry {
     content::AssemblyVariant variant;
-    std::map<std::string, std::string> instructions;  // by language
+    std::map<std::string, std::string> lesson_texts;  // by language
     std::vector<content::Tool> tools;                 // to choose from, the default one first
     std::size_t joints = 0;
     std::string sizes;  // of the bolts: "M16×180, M16×75"

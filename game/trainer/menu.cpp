@@ -170,7 +170,7 @@ void draw_description(const ScreenContext& context, float width, const AssemblyE
                       const VariantEntry& variant) {
     draw_title(context, in_language(entry.title, context.words.language, entry.name));
     if (variant.joints > 0) draw_wrapped(joints_text(context.words, variant), muted_text, width);
-    draw_wrapped(in_language(variant.instructions, context.words.language, ""), {0.93F, 0.94F, 0.95F, 1.0F},
+    draw_wrapped(in_language(variant.lesson_texts, context.words.language, ""), {0.93F, 0.94F, 0.95F, 1.0F},
                  width);
 }
 
@@ -232,7 +232,7 @@ WideMenu draw_wide(const ScreenContext& context, Menu& menu, const MenuPictures&
         thumbnail_height * scale + 2.0F * ImGui::GetTextLineHeight() + 3.0F * card_padding * scale;
     float height = card + 2.0F * edge + 2.0F * spacing;
     if (entry != nullptr)
-        height += wrapped_height(in_language(variant_of(*entry, choice.variant).instructions,
+        height += wrapped_height(in_language(variant_of(*entry, choice.variant).lesson_texts,
                                              context.words.language, ""),
                                  right_width) +
                   ImGui::GetTextLineHeight() + context.heading->FontSize + 2.0F * spacing;

@@ -1,6 +1,6 @@
 // The heads of tools that grip a hexagon from its end: the ring, the socket and the hexagon key. Together
 // with the open jaw (jaw.hpp) they are the heads that a tool can have: their fit on the part that they turn,
-// and their contacts with it, in closed form.
+// in closed form, and their contacts with it.
 //
 // Frame of the tool: origin on the bolt's axis in the middle of the part that grips, +X along the handle, +Z
 // along the bolt away from the members; only an open jaw may be turned over. Frame of the turned part, nut or
@@ -72,9 +72,8 @@ double thickness(const ToolHead& head);
 // far as possible, and a socket neither stands on the seat nor hangs above the nut.
 double grip_height(const ToolHead& head, const TurnedShape& shape);
 
-// The position of a head on a shape that the head can turn. For rings and keys `toward_throat` and
-// `toward_mouth` are half a side of the hexagon, and `lateral_offset` is the distance between the axes of
-// head and shape. `tool`: pose of the tool in the frame of the shape.
+// The position of a head on a shape that the head can turn. `tool`: pose of the tool in the frame of the
+// shape.
 HeadFit head_fit(const ToolHead& head, const TurnedShape& shape, const Pose& tool);
 
 // A head or a shape as convex solids in its own frame.
@@ -99,9 +98,9 @@ struct GripQuery {
 //
 // A jaw is always tested with solid_contacts(). So is a ring, a socket or a key until all six edges of the
 // hexagon reach into the hole. From then on the hole, which is convex, is tested in closed form: the hexagon
-// touches no wall if none of its corners is beyond a wall. Each wall gets two contacts, one at each end of
-// the edges within the hole: that of the nearest corner. Six more points test the shoulder of a socket or the
-// floor under a key.
+// touches no wall if none of its edges is beyond a wall. Each wall gets two contacts with the edge of the
+// hexagon that is nearest to it: at the lower and at the upper end of the part of that edge within the hole.
+// Six more points test the shoulder of a socket or the floor under a key.
 std::size_t grip_contacts(const GripQuery& query, const Pose& tool, const Pose& shape,
                           std::span<Contact, max_grip_contacts> out);
 

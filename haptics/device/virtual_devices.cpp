@@ -99,7 +99,7 @@ namespace {
 
 class RecordedDevice final : public DeviceDriver {
   public:
-    RecordedDevice(Description description, Recording recording, Timer timer)
+    RecordedDevice(Description description, RecordedSamples recording, Timer timer)
         : description_(std::move(description)),
           recording_(std::move(recording)),
           timer_(std::move(timer)),
@@ -132,7 +132,7 @@ class RecordedDevice final : public DeviceDriver {
 
   private:
     Description description_;
-    Recording recording_;
+    RecordedSamples recording_;
     Timer timer_;
     std::optional<Sample> next_;
     std::size_t index_ = 0;
@@ -142,7 +142,7 @@ class RecordedDevice final : public DeviceDriver {
 
 }  // namespace
 
-DeviceFactory recorded(Description description, Recording recording, Timer timer) {
+DeviceFactory recorded(Description description, RecordedSamples recording, Timer timer) {
     return [description = std::move(description), recording = std::move(recording),
             timer = std::move(timer)]() -> Result<std::unique_ptr<DeviceDriver>> {
         if (!recording(0))

@@ -44,11 +44,11 @@ class VirtualPuck {
 };
 
 // Returns sample `index`, with increasing times; nullopt after the last.
-using Recording = std::function<std::optional<Sample>(std::size_t index)>;
+using RecordedSamples = std::function<std::optional<Sample>(std::size_t index)>;
 
 // A device that plays recorded samples at their recorded times; restarts at each opening. After the last
 // sample the pose stays and all buttons are released. Rendered force has no effect.
-DeviceFactory recorded(Description description, Recording recording, Timer timer);
+DeviceFactory recorded(Description description, RecordedSamples recording, Timer timer);
 
 enum class InjectedFault : std::uint8_t {
     unplugged,     // read and write fail, it cannot be opened, the motors have no power

@@ -25,7 +25,7 @@ std::uint64_t get_little_endian(std::span<const std::uint8_t> at) {
 
 }  // namespace
 
-std::array<std::uint8_t, report_bytes> encode_message(const Message& message) {
+std::array<std::uint8_t, report_bytes> encode_message(const WheelMessage& message) {
     std::array<std::uint8_t, report_bytes> bytes{};
     const std::span<std::uint8_t> all(bytes);
     bytes[0] = report_id;
@@ -38,9 +38,9 @@ std::array<std::uint8_t, report_bytes> encode_message(const Message& message) {
     return bytes;
 }
 
-std::optional<Message> decode_message(std::span<const std::uint8_t> report) {
+std::optional<WheelMessage> decode_message(std::span<const std::uint8_t> report) {
     if (report.size() < report_bytes || report[0] != report_id) return std::nullopt;
-    Message m;
+    WheelMessage m;
     m.type = static_cast<MessageType>(report[1]);
     m.class_id = static_cast<std::uint16_t>(get_little_endian(report.subspan(2, 2)));
     m.instance = report[4];
@@ -50,7 +50,7 @@ std::optional<Message> decode_message(std::span<const std::uint8_t> report) {
     return m;
 }
 
-std::optional<std::int64_t> reply_value(Command command, const Message& message) {
+std::optional<std::int64_t> reply_value(Command command, const WheelMessage& message) {
     if (message.type != MessageType::request || message.class_id != axis_class || message.instance != 0 ||
         message.command != static_cast<std::uint32_t>(command))
         return std::nullopt;

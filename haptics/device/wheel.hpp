@@ -40,23 +40,23 @@ enum class Command : std::uint32_t {
 
 constexpr double full_power = 32767.0;
 
-struct Message {
+struct WheelMessage {
     MessageType type = MessageType::request;
     std::uint16_t class_id = axis_class;
     std::uint8_t instance = 0;
     std::uint32_t command = 0;
     std::int64_t data = 0;
     std::uint64_t address = 0;
-    friend bool operator==(const Message&, const Message&) = default;
+    friend bool operator==(const WheelMessage&, const WheelMessage&) = default;
 };
 
-std::array<std::uint8_t, report_bytes> encode_message(const Message& message);
+std::array<std::uint8_t, report_bytes> encode_message(const WheelMessage& message);
 
 // Returns nullopt for another report or a short one.
-std::optional<Message> decode_message(std::span<const std::uint8_t> report);
+std::optional<WheelMessage> decode_message(std::span<const std::uint8_t> report);
 
 // The value that axis 0 returns for `command`; nullopt if the message is not that reply.
-std::optional<std::int64_t> reply_value(Command command, const Message& message);
+std::optional<std::int64_t> reply_value(Command command, const WheelMessage& message);
 
 }  // namespace bolt::device::open_ffboard
 

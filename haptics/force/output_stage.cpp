@@ -232,8 +232,9 @@ OutputCommand render(const OutputLimits& limits, OutputStage& stage, const Devic
         command = control_passivity(limits, passivity, motion, request, ramp, ramp_before, dt);
     } else {
         passivity.balance = passivity.stored_energy = passivity.damping = 0.0;
-        // A request with a value that is not finite counts as one fault. limit_output() counts a command that
-        // is not finite, and sends none of it; an energy that is not finite is counted here.
+        // `invalid_requests` grows by one for a request with a value that is not finite. limit_output()
+        // counts it if the value is in the command, and sends no force then. Here it is counted if only an
+        // energy is not finite.
         if (!finite_command)
             command = request.command;
         else if (!valid_request)

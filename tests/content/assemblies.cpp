@@ -48,7 +48,7 @@ TEST_CASE("Assemblies: every shipped assembly loads in every variant, in three l
         CHECK(assembly.text == content_test::shipped(name));
         for (const char* language : {"en", "de", "zh"}) {
             CHECK(assembly.title.contains(language));
-            CHECK(assembly.instructions.contains(language));
+            CHECK(assembly.lesson_texts.contains(language));
         }
         for (const content::AssemblyVariant& variant : assembly.variants)
             CHECK(load(name.c_str(), variant.name.c_str()).variant == variant.name);

@@ -106,20 +106,20 @@ TEST_CASE("Tools: rings, ratchets and torque wrenches with sockets have a size i
     for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
     content::Assembly& a = loaded.assembly;
     REQUIRE(content::choose_tool(a, "ring"));
-    CHECK(a.wrench.head == content::ToolHead::ring);
+    CHECK(a.wrench.head == content::ToolHeadKind::ring);
     CHECK(a.wrench.size == doctest::Approx(0.013));
     CHECK(a.wrench.teeth == 0);
     REQUIRE(content::choose_tool(a, "ratchet"));
-    CHECK(a.wrench.head == content::ToolHead::socket);
+    CHECK(a.wrench.head == content::ToolHeadKind::socket);
     CHECK(a.wrench.teeth == 24);
     CHECK(a.wrench.extension == doctest::Approx(0.075));
     REQUIRE(content::choose_tool(a, "bit"));
-    CHECK(a.wrench.head == content::ToolHead::hex_bit);
+    CHECK(a.wrench.head == content::ToolHeadKind::hex_bit);
     CHECK(a.wrench.teeth == 72);
     REQUIRE(content::choose_tool(a, "key"));
-    CHECK(a.wrench.head == content::ToolHead::hex_key);
+    CHECK(a.wrench.head == content::ToolHeadKind::hex_key);
     REQUIRE(content::choose_tool(a, "set"));
-    CHECK(a.wrench.head == content::ToolHead::socket);
+    CHECK(a.wrench.head == content::ToolHeadKind::socket);
     CHECK(a.wrench.click_swing > 0.0);
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("Tools: a joint type names the only tool that turns it") {
     REQUIRE(!a.joints.empty());
     for (const content::AssemblyJoint& joint : a.joints) {
         CHECK(joint.tool == "ring");
-        CHECK(content::tool_of(a, joint).head == content::ToolHead::ring);
+        CHECK(content::tool_of(a, joint).head == content::ToolHeadKind::ring);
     }
     const content::LessonTools lesson = content::lesson_tools(a);
     REQUIRE(lesson.tools.size() == 1);
@@ -184,7 +184,7 @@ TEST_CASE("Tools: a tool can name another one for joints that it does not reach"
     REQUIRE(content::choose_tool(a, "ratchet"));
     for (const content::AssemblyJoint& joint : a.joints)
         CHECK(content::tool_of(a, joint).head ==
-              (joint.design.id == "B2" ? content::ToolHead::ring : content::ToolHead::socket));
+              (joint.design.id == "B2" ? content::ToolHeadKind::ring : content::ToolHeadKind::socket));
     CHECK(content::lesson_tools(a).tools.size() == 2);
 
     const auto refused = [&](const char* instead, const char* message) {

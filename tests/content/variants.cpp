@@ -69,8 +69,8 @@ TEST_CASE("Variants: zq350 has lessons about its covers and its feet, and the ca
     CHECK(content::model_paths(feet, &content::ModelFiles::contact).size() == 2);
     for (const Assembly* lesson : {&covers, &feet}) {
         for (const char* language : {"en", "de", "zh"}) {
-            REQUIRE(lesson->instructions.contains(language));
-            CHECK(lesson->instructions.at(language) != casing.instructions.at(language));
+            REQUIRE(lesson->lesson_texts.contains(language));
+            CHECK(lesson->lesson_texts.at(language) != casing.lesson_texts.at(language));
         }
         // Every joint is tightened once in every pass.
         for (const content::Pass& pass : lesson->passes) {
@@ -111,7 +111,7 @@ TEST_CASE("Variants: the joints of a variant keep the order of the file, and its
     CHECK(a.joints[2].design.id == "B4");
     CHECK(a.joints[2].index_in_file == 3);
     CHECK(ids(a, a.passes[1].order) == std::vector<std::string>{"B4", "B1", "B2"});
-    CHECK(a.instructions.at("en") == "Three of them.");
+    CHECK(a.lesson_texts.at("en") == "Three of them.");
     const auto whole = content::parse_assembly(with_variant(R"("joints": ["B4"])"), "f");
     CHECK(whole.assembly.joints.size() == 4);  // without a default variant the plain file is a lesson too
 }

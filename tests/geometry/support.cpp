@@ -343,7 +343,7 @@ CheckOutput check_with(const Machine& machine, const Edit& edit, const Machine* 
     auto loaded = content::load_assembly(world.folder);
     for (const Error& error : loaded.errors) FAIL(error.message());
     for (content::Tool& other : loaded.assembly.tools) {
-        if (generated || !other.wrench.model.empty() || other.wrench.head != content::ToolHead::open_end)
+        if (generated || !other.wrench.model.empty() || other.wrench.head != content::ToolHeadKind::open_end)
             continue;
         const fs::path file = world.root / "tools" / (other.name + ".glb");
         REQUIRE(assets::write_glb(file, model_of(plain_wrench(other.wrench))));

@@ -234,7 +234,7 @@ TEST_CASE("Tools: 100 joints with five tools are checked; the processor time is 
 }
 
 TEST_CASE("Tools: the strength of a ratchet is that of its weaker part") {
-    content::WrenchDesign design{.kind = content::ToolKind::ratchet, .head = content::ToolHead::socket};
+    content::WrenchDesign design{.kind = content::ToolKind::ratchet, .head = content::ToolHeadKind::socket};
     design.size = 32.0 * mm;
     design.handle_length = 300.0 * mm;
     const tool_models::ToolStrength socket = tool_models::strength_of(design);
@@ -245,11 +245,11 @@ TEST_CASE("Tools: the strength of a ratchet is that of its weaker part") {
     CHECK_FALSE(tool_models::strength_of(design).of_drive);
     CHECK(tool_models::strength_of(design).limit.torque == 107.0);
     // No test torque of keys is known; that of a bit is the drive's.
-    design = {.kind = content::ToolKind::hex_key, .head = content::ToolHead::hex_key};
+    design = {.kind = content::ToolKind::hex_key, .head = content::ToolHeadKind::hex_key};
     design.size = 6.0 * mm;
     CHECK(tool_models::strength_of(design).limit.source == tool_models::TorqueSource::none);
     CHECK(tool_models::yield_torque(design) == doctest::Approx(0.857 * 0.2 * 1.47e9 * 6e-3 * 6e-3 * 6e-3));
-    design = {.kind = content::ToolKind::ratchet, .head = content::ToolHead::hex_bit};
+    design = {.kind = content::ToolKind::ratchet, .head = content::ToolHeadKind::hex_bit};
     design.size = 6.0 * mm;
     design.handle_length = 300.0 * mm;
     CHECK(tool_models::strength_of(design).of_drive);

@@ -41,7 +41,7 @@ TEST_CASE(
     "Bent tool: the smallest keys yield where Unbrako's do, and one of 6 mm bears a screw of class 12.9") {
     content::WrenchDesign key;
     key.kind = content::ToolKind::hex_key;
-    key.head = content::ToolHead::hex_key;
+    key.head = content::ToolHeadKind::hex_key;
     key.size = 2.0 * mm;  // of sizes in the table, scaled by the cube: 1.02 N·m at 1.5 mm
     CHECK(tool_models::yield_torque(key) == doctest::Approx(1.02 * 8.0 / 3.375).epsilon(0.2));
     key.size = 6.0 * mm;

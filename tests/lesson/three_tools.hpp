@@ -15,9 +15,9 @@ inline content::Assembly cover_with_three_tools() {
     content::Assembly& cover = loaded.assembly;
     content::Tool ring{"ring", {}, {}}, ratchet{"ratchet", {}, {}};
     ring.wrench.kind = content::ToolKind::ring_wrench;
-    ring.wrench.head = content::ToolHead::ring;
+    ring.wrench.head = content::ToolHeadKind::ring;
     ratchet.wrench.kind = content::ToolKind::ratchet;
-    ratchet.wrench.head = content::ToolHead::socket;
+    ratchet.wrench.head = content::ToolHeadKind::socket;
     ratchet.wrench.teeth = 24;
     for (content::Tool* tool : {&ring, &ratchet}) {
         tool->wrench.size = 0.013;

@@ -20,7 +20,7 @@ content::Assembly load(const char* name, const char* tool) {
     return std::move(loaded.assembly);
 }
 
-content::WrenchDesign tool_of_24(content::ToolKind kind, content::ToolHead head) {
+content::WrenchDesign tool_of_24(content::ToolKind kind, content::ToolHeadKind head) {
     content::WrenchDesign tool;
     tool.kind = kind;
     tool.head = head;
@@ -39,8 +39,9 @@ bool has_reason(const LessonResult& result, DeductionKind kind) {
 
 TEST_CASE("Tool choice: an M16 bolt of class 12.9 is too much for an open end, and not for a ring") {
     const content::WrenchDesign open =
-        tool_of_24(content::ToolKind::open_end_wrench, content::ToolHead::open_end);
-    const content::WrenchDesign ring = tool_of_24(content::ToolKind::ring_wrench, content::ToolHead::ring);
+        tool_of_24(content::ToolKind::open_end_wrench, content::ToolHeadKind::open_end);
+    const content::WrenchDesign ring =
+        tool_of_24(content::ToolKind::ring_wrench, content::ToolHeadKind::ring);
     CHECK(tool_models::bearable_torque(open) == doctest::Approx(359.0));  // ISO 1711-1
     CHECK(tool_models::bearable_torque(ring) == doctest::Approx(451.0));
     content::AssemblyJoint joint;
@@ -54,7 +55,7 @@ TEST_CASE("Tool choice: an M16 bolt of class 12.9 is too much for an open end, a
 }
 
 TEST_CASE("Tool choice: a key bears the torque at which its hexagon yields") {
-    content::WrenchDesign key = tool_of_24(content::ToolKind::hex_key, content::ToolHead::hex_key);
+    content::WrenchDesign key = tool_of_24(content::ToolKind::hex_key, content::ToolHeadKind::hex_key);
     key.size = 6.0 * mm;
     content::AssemblyJoint joint;
     joint.spec.torque.high = 54.0;
@@ -62,7 +63,7 @@ TEST_CASE("Tool choice: a key bears the torque at which its hexagon yields") {
     joint.spec.torque.high = 55.0;  // 0.857 · 0.2 · 1.47 GPa · (6 mm)³ = 54.4 N·m
     CHECK(fault_of(key, joint, Task::tighten) == ToolFault::too_weak);
     // A bit of this size on a ratchet bears no more, although its square drive does.
-    content::WrenchDesign bit = tool_of_24(content::ToolKind::ratchet, content::ToolHead::hex_bit);
+    content::WrenchDesign bit = tool_of_24(content::ToolKind::ratchet, content::ToolHeadKind::hex_bit);
     bit.size = 6.0 * mm;
     bit.teeth = 72;
     CHECK(fault_of(bit, joint, Task::tighten) == ToolFault::too_weak);
@@ -90,7 +91,7 @@ TEST_CASE("Tool choice: the trainee is responsible only if another choice has no
 TEST_CASE("Tool choice: under the published law no tool is too weak") {
     content::Assembly assembly = load("cover-m8", "");
     assembly.tools.at(1).wrench.kind = content::ToolKind::ring_wrench;
-    assembly.tools.at(1).wrench.head = content::ToolHead::ring;
+    assembly.tools.at(1).wrench.head = content::ToolHeadKind::ring;
     assembly.tools.at(1).wrench.size = 13.0 * mm;
     for (content::AssemblyJoint& joint : assembly.joints) joint.spec.torque.high = 80.0;
     CHECK(faults_of_choice(assembly, Task::tighten).at(0) == ToolFault::too_weak);
@@ -154,7 +155,7 @@ TEST_CASE("Tool choice: a weak tool costs 5 points before it bends") {
     // Another choosable wrench bears the torque; this one is tested with 64.5 N·m.
     assembly.tools.front().wrench = assembly.wrench;
     assembly.tools.front().wrench.kind = content::ToolKind::ring_wrench;
-    assembly.tools.front().wrench.head = content::ToolHead::ring;
+    assembly.tools.front().wrench.head = content::ToolHeadKind::ring;
     assembly.tools.front().wrench.size = 13.0 * mm;
     for (content::AssemblyJoint& joint : assembly.joints) joint.spec.torque.high = 65.0;
     const session::LessonOptions options;

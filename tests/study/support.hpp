@@ -17,7 +17,7 @@ class StudyFolder {
     StudyFolder();
     [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
     [[nodiscard]] bolt::content::Study load() const;
-    bolt::study::Clock clock() {
+    bolt::study::UnixClock clock() {
         return [this] { return now; };
     }
     // Reduces the plan to one condition, one lesson of one nut, and a form after it.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double leap = 0.09;  // of the greatest force; a tick changes it by less
 
-content::WrenchDesign tool(content::ToolKind kind, content::ToolHead head, double size, int teeth = 0) {
+content::WrenchDesign tool(content::ToolKind kind, content::ToolHeadKind head, double size, int teeth = 0) {
     content::WrenchDesign design;
     design.kind = kind;
     design.head = head;
@@ -28,11 +28,15 @@ content::Assembly cover_with(const content::WrenchDesign& design) {
     return std::move(loaded.assembly);
 }
 
-content::WrenchDesign ring() { return tool(content::ToolKind::ring_wrench, content::ToolHead::ring, 0.013); }
-content::WrenchDesign ratchet() {
-    return tool(content::ToolKind::ratchet, content::ToolHead::socket, 0.013, 72);
+content::WrenchDesign ring() {
+    return tool(content::ToolKind::ring_wrench, content::ToolHeadKind::ring, 0.013);
 }
-content::WrenchDesign key() { return tool(content::ToolKind::hex_key, content::ToolHead::hex_key, 0.006); }
+content::WrenchDesign ratchet() {
+    return tool(content::ToolKind::ratchet, content::ToolHeadKind::socket, 0.013, 72);
+}
+content::WrenchDesign key() {
+    return tool(content::ToolKind::hex_key, content::ToolHeadKind::hex_key, 0.006);
+}
 
 // One M8 socket screw in a tapped hole, tightened with a key of 6 mm.
 content::Assembly screw_with(const content::WrenchDesign& design, const std::filesystem::path& model) {

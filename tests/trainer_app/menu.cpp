@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "content/format/folders.hpp"
+#include "game/trainer/assembly_entry.hpp"
 #include "tests/support/environment.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"
@@ -316,6 +317,32 @@ TEST_CASE("Menu: an assembly of the user is listed; one with mistakes says why a
     driver.frame();
     REQUIRE(driver.app().screen() == ShownScreen::lesson);
     CHECK(driver.lesson().session->assembly().file.find("assemblies/another/") != std::string::npos);
+}
+
+TEST_CASE("Menu: a file with variants and no default one also offers the lesson without a variant") {
+    const test::Folder data;
+    const test::EnvironmentVariable home("XDG_DATA_HOME", data.path().c_str());
+    std::ifstream shipped(content::content_folder() / "assemblies/cover-m8/assembly.json");
+    std::string text(std::istreambuf_iterator<char>(shipped), {});
+    const std::size_t order = text.find("\"order\"");
+    REQUIRE(order != std::string::npos);
+    text.insert(order, R"("variants": { "one": { "title": { "en": "One" }, "joints": ["B1"] } }, )");
+    add_user_assembly(data.path(), "several", "");
+    std::ofstream(data / "boltwright/assemblies/several/assembly.json") << text;
+    HeadlessTrainer driver(options("several", true), small);
+    driver.frame();
+    driver.frame();
+    const auto entries = trainer::list_assemblies();
+    const auto entry = std::find_if(entries.begin(), entries.end(),
+                                    [](const auto& listed) { return listed.name == "several"; });
+    REQUIRE(entry != entries.end());
+    if (entry->error) FAIL(entry->error->message());
+    REQUIRE(entry->variants.size() == 2);
+    CHECK(entry->variants[0].variant.name.empty());
+    CHECK(entry->variants[0].variant.title == entry->title);
+    CHECK(entry->variants[0].joints == 4);
+    CHECK(trainer::variant_of(*entry, "").joints == 4);
+    CHECK(trainer::variant_of(*entry, "one").joints == 1);
 }
 
 TEST_CASE("Menu: the page about this computer shows what is found at once, and the timing afterwards") {

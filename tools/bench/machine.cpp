@@ -91,7 +91,7 @@ assets::Primitive make_turned_part(const TurnedProfile& profile, const CrossSect
     return part;
 }
 
-struct TurnedShape {
+struct TurnedPartMesh {
     TurnedProfile profile;
     CrossSection section;
     int material = 0;
@@ -121,7 +121,7 @@ std::vector<assets::Material> materials() {
             make("rubber", {0.03F, 0.03F, 0.03F}, 0.0F, 0.85F, 0.0F)};
 }
 
-TurnedShape pick_shape(int index, Random& random) {
+TurnedPartMesh pick_shape(int index, Random& random) {
     const auto size = [&](double low, double high) { return static_cast<float>(random.uniform(low, high)); };
     const float r = size(0.04, 0.09), h = size(0.05, 0.14);
     switch (index % 5) {
@@ -171,7 +171,7 @@ assets::Model make_machine(const MachineSize& size) {
     const int columns = std::max(1, static_cast<int>(std::lround(std::sqrt(size.parts * 1.5))));
     int left = size.triangles;
     for (int i = 0; i < size.parts; ++i) {
-        const TurnedShape shape = pick_shape(i, random);
+        const TurnedPartMesh shape = pick_shape(i, random);
         assets::Primitive part = make_turned_part(shape.profile, shape.section, left / (size.parts - i));
         left -= static_cast<int>(part.indices.size() / 3);
         part.material = shape.material;

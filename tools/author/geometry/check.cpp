@@ -97,7 +97,7 @@ std::vector<JawOpening> jaws_of(const content::Assembly& assembly, const std::ve
     std::vector<JawOpening> jaws;
     for (const std::size_t i : tools) {
         const content::Tool& tool = assembly.tools[i];
-        if (tool.wrench.head != content::ToolHead::open_end) continue;
+        if (tool.wrench.head != content::ToolHeadKind::open_end) continue;
         jaws.push_back({tool.name == content::default_tool_name
                             ? ""
                             : fmt::format(" (the tool {})", content::in_quotes(tool.name)),

@@ -29,15 +29,15 @@ collision::TurnedShape shape_of(const joint::JointDesign& design) {
 std::string title_of(const content::WrenchDesign& design) {
     const double size = content::nominal_size(design) / mm;
     switch (design.head) {
-        case content::ToolHead::open_end:
+        case content::ToolHeadKind::open_end:
             return fmt::format("an open end of {:g} mm", tool_models::parameters_of(design).size / mm);
-        case content::ToolHead::ring:
+        case content::ToolHeadKind::ring:
             return fmt::format("a ring of {:g} mm", size);
-        case content::ToolHead::socket:
+        case content::ToolHeadKind::socket:
             return fmt::format("a socket of {:g} mm", size);
-        case content::ToolHead::hex_key:
+        case content::ToolHeadKind::hex_key:
             return fmt::format("a hexagon key of {:g} mm", size);
-        case content::ToolHead::hex_bit:
+        case content::ToolHeadKind::hex_bit:
             break;
     }
     return fmt::format("a hexagon bit of {:g} mm", size);
@@ -50,20 +50,20 @@ std::string name_of_tool(const content::Assembly& assembly, std::size_t tool) {
 }
 
 std::vector<content::WrenchDesign> usual_tools(const joint::JointDesign& design) {
-    using content::ToolHead;
+    using content::ToolHeadKind;
     using content::ToolKind;
     const joint::TurnedPartSize part = joint::turned_part_size(design);
-    std::vector<std::pair<ToolKind, ToolHead>> kinds{{ToolKind::ring_wrench, ToolHead::ring},
-                                                     {ToolKind::ratchet, ToolHead::socket},
-                                                     {ToolKind::open_end_wrench, ToolHead::open_end}};
+    std::vector<std::pair<ToolKind, ToolHeadKind>> kinds{{ToolKind::ring_wrench, ToolHeadKind::ring},
+                                                         {ToolKind::ratchet, ToolHeadKind::socket},
+                                                         {ToolKind::open_end_wrench, ToolHeadKind::open_end}};
     if (part.depth > 0.0)
-        kinds = {{ToolKind::hex_key, ToolHead::hex_key}, {ToolKind::ratchet, ToolHead::hex_bit}};
+        kinds = {{ToolKind::hex_key, ToolHeadKind::hex_key}, {ToolKind::ratchet, ToolHeadKind::hex_bit}};
     std::vector<content::WrenchDesign> tools;
     for (const auto& [kind, head] : kinds) {
         content::WrenchDesign tool;
         tool.kind = kind;
         tool.head = head;
-        if (head == ToolHead::open_end) {
+        if (head == ToolHeadKind::open_end) {
             tool.jaw = part.across_flats + tool_models::standard_play;
             tool.head_angle = to_radians(15.0);
         } else {

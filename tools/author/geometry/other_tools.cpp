@@ -16,7 +16,7 @@ namespace {
 constexpr std::array extension_bars{75.0 * mm, 125.0 * mm, 250.0 * mm};
 
 bool has_drive(const content::WrenchDesign& design) {
-    return design.head == content::ToolHead::socket || design.head == content::ToolHead::hex_bit;
+    return design.head == content::ToolHeadKind::socket || design.head == content::ToolHeadKind::hex_bit;
 }
 
 }  // namespace

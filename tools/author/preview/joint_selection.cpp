@@ -40,6 +40,9 @@ Result<SelectableJoints> find_joints(const std::string& source, const std::strin
     if (!loaded.ok()) return fail(std::move(loaded.errors.front()));
     const content::Assembly& assembly = loaded.assembly;
     found.variant = assembly.variant;
+    const bool has_default =
+        assembly.variants.empty() || !content::load_assembly(source).assembly.variant.empty();
+    if (!has_default) found.variants.emplace_back();
     for (const content::AssemblyVariant& known : assembly.variants) found.variants.push_back(known.name);
     std::vector<Error> errors;
     const auto document = content::JsonDocument::parse(assembly.text, assembly.file, errors);

@@ -24,7 +24,7 @@ struct SelectableJoints {
     std::vector<SelectableJoint> joints;  // in the order of the file
     geometry::Bvh triangles;              // Triangle::part: index in `joint_of_part`
     std::vector<int> joint_of_part;       // index in `joints`; -1: the part belongs to no joint
-    std::vector<std::string> variants;    // names of all variants of the file
+    std::vector<std::string> variants;    // names of all variants; first an empty one if none is the default
     std::string variant;                  // name of the shown one; empty: the file has none
 };
 

@@ -110,7 +110,8 @@ void PreviewPanel::draw_problems(const PreviewPanelState& state) {
 
 void PreviewPanel::draw_contents(const PreviewPanelState& state) {
     for (std::size_t i = 0; i < state.variants.size(); ++i)
-        if (ImGui::RadioButton(state.variants[i].c_str(), state.variants[i] == state.variant))
+        if (ImGui::RadioButton(state.variants[i].empty() ? "without a variant" : state.variants[i].c_str(),
+                               state.variants[i] == state.variant))
             commands_.variant = i;
     if (!state.variants.empty()) ImGui::Separator();
     bool all = state.all_sectors;

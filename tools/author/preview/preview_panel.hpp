@@ -18,7 +18,7 @@ namespace bolt::author {
 struct PreviewPanelState {
     const CheckOverlay& overlay;
     const BackgroundCheck& check;
-    std::span<const std::string> variants;  // of the file
+    std::span<const std::string> variants;  // of the file; an empty name: without a variant
     std::string variant;                    // the shown one
     std::string selected;                   // id of a joint; empty: none
     bool all_sectors = false;
