@@ -10,7 +10,7 @@ namespace bolt::content {
 
 namespace {
 
-constexpr double margin_share = 0.02;  // of the wall's edges, which stays free
+constexpr double margin_share = 0.02;  // of the wall's width and height, which stays free at each side
 constexpr double below_eyes = 0.03;    // rad, of the direction to the panel
 constexpr int refinements = 4;         // place, distance and size depend on one another
 

@@ -33,16 +33,17 @@ std::array<Vec3, 4> corners_of(const WallAxes& wall, double margin = 0.0);
 // Parallel walls do not cross.
 bool walls_cross(const WallAxes& a, const WallAxes& b, double margin);
 
-// If an edge of `a` lies in the plane of `b` and inside the outline of `b`, returns the distance of the edge
-// from that outline; none if it is at most `tolerance`. The part of `b` behind `a` cannot be seen.
+// A wall `a` that stands on another one, `b`, away from its edge hides what is behind it. If an edge of `a`
+// lies in the plane of `b` and inside the outline of `b`, returns the distance of the edge from that outline;
+// none if it is at most `tolerance`.
 std::optional<double> edge_inset(const WallAxes& a, const WallAxes& b, double tolerance);
 
 // The width of the strip that two walls in the same plane (to `tolerance`) have in common; none if they have
 // no strip in common.
 std::optional<double> coplanar_overlap(const WallAxes& a, const WallAxes& b, double tolerance);
 
-// The gap between the nearest pair of nearly parallel edges, measured where the pair is farthest apart; none
-// if no such pair runs side by side.
+// Of each pair of nearly parallel edges that run side by side, the largest distance there; returns the
+// smallest of these. None if there is no such pair.
 std::optional<double> seam_gap(const WallAxes& a, const WallAxes& b);
 
 }  // namespace bolt::content

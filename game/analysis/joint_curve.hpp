@@ -24,9 +24,9 @@ struct CurvePoint {
     std::uint16_t hold = 0;  // number of the hold in its visit, from 1; plots draw no line between holds
 };
 
-// Decimates a stream of samples of unknown length to a fixed size and keeps all peaks. Each bucket holds the
-// first, lowest, highest (by torque) and last of an equal number of samples. When the buckets are full, pairs
-// of neighbours are merged and that number doubles.
+// Decimates a stream of samples of unknown length to a fixed size. Each bucket stands for an equal number of
+// samples and keeps the first, the lowest, the highest (by torque) and the last of them. When the buckets are
+// full, neighbours are merged in pairs, and a bucket then stands for twice as many samples.
 class CurveDecimator {
   public:
     explicit CurveDecimator(std::size_t max_buckets = 2048);

@@ -23,9 +23,9 @@ inline constexpr double largest_peak_ratio = 3.0;
 // highest and the lowest clamp force at one torque, if the torque was determined on the original joint.
 inline constexpr double largest_slope_ratio = 1.4;
 
-// The mean slopes of loosening, from the breakaway to 5 % of it, may differ by this factor: the torque is the
-// difference of friction and the pitch's share, so friction changes it more than in tightening, and published
-// runs have few samples on the slope.
+// The mean slopes of loosening, from the breakaway torque to 5 % of that torque, may differ by this factor.
+// Two reasons for the wider limit: the loosening torque is friction minus the pitch's share, so friction
+// changes it more than the tightening torque; and published runs have few samples on the slope.
 inline constexpr double largest_fall_ratio = 2.0;
 
 // Why the measured curves cannot be of a joint with this simulated curve: their median peak differs by more

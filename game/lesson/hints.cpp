@@ -340,8 +340,8 @@ const std::optional<Hint>& update(HintState& hints, const ObservedLesson& work, 
     int level =
         std::max(hints.level, level_by_time(guided ? guided_times : practice_times, hints.progress.idle));
     if (requested) level = std::min(level + 1, max_level);
-    // The same situation may concern another joint in the hand or need another motion. A hint that merely
-    // outlasts its situation keeps its text.
+    // The hint is made anew also if its situation continues, but another joint is in the hand or another
+    // motion is needed. It keeps its text if it is only shown longer than its situation lasts.
     other = other || (candidate == hints.situation &&
                       (work.lesson.held_joint != hints.held_joint || underlying != hints.underlying));
     hints.level = level;

@@ -65,7 +65,8 @@ std::string motion_text(const words::Words& words, const Hint& hint, const Contr
 // The following functions describe, in the trainee's language, which input performs each motion of a hint.
 // The caller names the bound keys and buttons.
 
-// Sets the control of HintMotion::counter_hold to `key`. By default it is the button of the panel in a room.
+// Sets the control of HintMotion::counter_hold to `key`. The functions below name the button of the panel,
+// which exists only in a room.
 ControlNames with_second_wrench(const words::Words& words, ControlNames controls, const std::string& key);
 
 // Mouse: press on a nut and hold, drag, release. `tool_key` takes the wrench and puts it down.

@@ -30,7 +30,8 @@ constexpr std::string_view name(Verdict verdict) { return verdict_names.of(verdi
 
 struct JointResult {
     std::string id;
-    // N·m, highest of the tightening step and of later pulls that tightened further; loosening: of its steps
+    // N·m. The highest of the tightening step and of later pulls that tightened further. In a loosening
+    // lesson: the highest of the joint's loosening steps.
     double torque = 0.0;
     double angle = 0.0;  // rad, from JointTrack::mark; loosening: turned back in its steps
     // N, when the result was last updated; at the end of the lesson it includes embedding and the interaction
@@ -112,7 +113,7 @@ enum class EventKind : std::uint8_t {
     release,     // peak torque of the step, N·m
     stage,       // joint::Stage
     click,       // torque at the click, N·m
-    mistake,     // depends on LessonEvent::mistake
+    mistake,     // a value that each MistakeKind defines by its report in lesson.cpp
     undo,        // number of steps undone
     visibility,  // visible fraction of the due nut, 0 … 1
     note

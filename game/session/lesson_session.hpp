@@ -49,8 +49,8 @@ struct LessonOptions {
     lesson::Task task = lesson::Task::tighten;
     joint::Law law = joint::Law::mechanistic;
     lesson::LawAdaptation law_adaptation =
-        lesson::LawAdaptation::yield_end;                // replays of old sessions use the other one
-    ToolYield tools_yield = ToolYield::mechanistic_law;  // replays of old sessions use the others
+        lesson::LawAdaptation::yield_end;                // replays of older sessions: before_format_6
+    ToolYield tools_yield = ToolYield::mechanistic_law;  // replays of older sessions: the others
     std::uint64_t seed = 1;
     double dt = 0.001;
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).
@@ -87,9 +87,9 @@ void set_device_limits(const LessonOptions& options, SessionSetup& start);
 // A lesson that follows the ticks of the session's own servo, or of a station's.
 struct LessonTracker {
     lesson::Lesson lesson;
-    // Steps begun, minus steps taken back by undo. The servo saves one checkpoint when a step begins, so
-    // this equals servo::State::checkpoint_count, except for the few ticks in which a station has not saved
-    // the newest one; a restore in that time returns to the previous step.
+    // Steps begun, minus steps taken back by undo. The servo saves one checkpoint when a step begins, so this
+    // equals servo::State::checkpoint_count. With a station it is greater by one for a few ticks, until the
+    // station has saved the newest checkpoint; an undo in these ticks goes one step further back.
     std::uint32_t steps_begun = 0;
 };
 
@@ -147,9 +147,9 @@ class LessonSession {
     // outputs. Fails also if they differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::TickInput& input,
                   const servo::Output& output);
-    // The number of checkpoints that must exist by now: those saved, plus steps begun whose checkpoint is
-    // still pending. Undo does not reduce it. A caller of repeat() sends one station::SaveCheckpoint
-    // whenever the number rises by one; tick() does it itself.
+    // The number of checkpoints that must have been saved since the beginning, those that undo discarded
+    // included: checkpoints_saved(), plus one for a step whose checkpoint is still pending. A caller of
+    // repeat() sends one station::SaveCheckpoint whenever the number rises by one; tick() does it itself.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - session_setup_.state.checkpoint_count;
     }

@@ -32,8 +32,8 @@ struct ReplayResult {
 
 using VisitTick = std::function<bool(const ReplayTick&)>;  // false: stop
 
-// Replays each tick from the initial state `start` and runs tick_systems on `world`, in which
-// world::add_haptics() has created the entities, before `visit`.
+// Replays each tick from the initial state `start`. Before each `visit` it runs tick_systems on `world`, in
+// which the caller has created the entities by world::add_haptics().
 Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
                             const world::WriteHaptics& world, const VisitTick& visit);
 // As above, in a new world.

@@ -42,11 +42,11 @@ struct TraineeState {
     DelayedPerception perception;
     StepPlan plan;
     Phase phase = Phase::pause;
-    double time = 0.0;            // s since the beginning of the lesson
-    double phase_start = 0.0;     // s
-    double phase_duration = 0.0;  // s; 0: the phase has no fixed duration
-    Pose from, to;                // of the current movement
-    bool flipped = false;
+    double time = 0.0;                 // s since the beginning of the lesson
+    double phase_start = 0.0;          // s
+    double phase_duration = 0.0;       // s; 0: the phase has no fixed duration
+    Pose from, to;                     // of the current movement
+    bool flipped = false;              // an open-end wrench is turned over
     double handle_angle = 0.0;         // rad about the bolt
     double stroke_start = 0.0;         // rad, handle angle at the start of the stroke
     double stroke_end = 0.0;           // rad, from which a ratchet swings back
@@ -165,8 +165,8 @@ void unload(TraineeState& t);
 void swing_back(TraineeState& t);
 void spin_back(TraineeState& t);
 
-// Puts the second wrench on plan.joint once the trainee sees that nut and bolt turn together, to and fro or
-// on and on.
+// Puts the second wrench on plan.joint once the trainee sees that nut and bolt turn together; motions in both
+// directions add up.
 void see_common_turn(TraineeState& t);
 // Returns true if a ratchet can pull again without leaving the nut.
 bool pulls_again(const TraineeState& t);

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double notch_step = 0.02;              // m along the view for a notch
 constexpr double notch_step_on_bolt = 0.01;      // m along the bolt
-constexpr double notch_turn = to_radians(30.0);  // of the fingers for a notch; below max_angular_deflection
+constexpr double notch_turn = to_radians(30.0);  // of the fingers for a notch; less than 0.6 rad,
+                                                 // device::HandMotion::max_angular_deflection
 // s in which the hand follows a notch of the mouse wheel. An immediate step would move the tool into the
 // workpiece at 1 m/s and make the fingers slip off the nut.
 constexpr double notch_time = 0.1, min_notch = 1e-3;

@@ -242,9 +242,9 @@ void derive_insert(const JointDesign& design, MechanisticParameters& p) {
     p.insert_wear = std::pow(nut->least_off_5th / nut->least_off, 0.25);
 }
 
-// Draws from `random` last, and only if the held part can turn, so that the other values of a joint stay the
-// same. The bolt's weight rests on its head, or in its hole if the bolt is level. The friction radius d/2 is
-// our value between the radii of head and hole.
+// Draws from `random` last, and only if the held part can turn, so that a joint has the same other values
+// with and without a part that can turn. The bolt's weight rests on its head, or in its hole if the bolt is
+// level. The friction radius d/2 is our value between the radii of head and hole.
 void derive_held_part(const JointDesign& design, Random& random, MechanisticParameters& p) {
     p.held_part_can_turn = design.counter_hold == CounterHold::second_wrench;
     if (!p.held_part_can_turn) return;

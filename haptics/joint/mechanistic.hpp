@@ -34,7 +34,7 @@ namespace bolt::joint {
 // A_s. The form (ours) is fitted to the three strengths of ISO 898-1, with half the elongation after
 // fracture as uniform elongation.
 struct PlasticCurve {
-    double elastic_load = 0.0;   // L_e, N of equivalent stress × A_s
+    double elastic_load = 0.0;   // L_e, N: equivalent stress times A_s
     double ultimate_load = 0.0;  // L_m
     double scale = 0.0;          // u_c, m
     double uniform = 0.0;        // u_u, m

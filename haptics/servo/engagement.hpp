@@ -87,8 +87,8 @@ void settle_ratchet(const Wrench& wrench, double rotation, double play, Engageme
 // directions. To separate them, contact queries get a hexagon that turns with the head once the play is used
 // up, and the moment of the contacts about the bolt is not rendered. If contacts drove the nut instead, its
 // torque would depend on the position error of the god-object: 0.01 mm at a corner changes a torque of 100
-// N·m by 3 N·m. The force is continuous at engagement: inside the play both the law's torque and the removed
-// moment are zero.
+// N·m by 3 N·m. The force is continuous at engagement: inside the play both the law's torque and the moment
+// that is not rendered are zero.
 
 // Pose of the wrench in the nut's frame.
 Pose pose_in_nut_frame(const NutGeometry& nut, const joint::JointState& joint, const ToolPose& tool);

@@ -116,7 +116,7 @@ TEST_CASE("BoardRequest: OpenFFBoard queries and replies encode and decode") {
                                          *open_ffboard::decode_message(other)));
     }
     const open_ffboard::WheelMessage m{
-        open_ffboard::WheelMessageType::write, 0xa02, 3, 0x12345678, -5, 0x123456789abcdef0};
+        open_ffboard::MessageType::write, 0xa02, 3, 0x12345678, -5, 0x123456789abcdef0};
     CHECK(open_ffboard::decode_message(open_ffboard::encode_message(m)) == m);
     reply.pop_back();
     CHECK(!open_ffboard::decode_message(reply));

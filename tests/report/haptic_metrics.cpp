@@ -143,8 +143,7 @@ TEST_CASE("Haptic metrics: time with a visible nut while the wrench is near it")
     CHECK(std::isnan(script.metrics().arrivals[0].nut_visible));
     // A value that comes a tick late, because the step begins beside the nut, is no reason to drop the
     // others.
-    script.events[1] = {1461, lesson::EventKind::visibility, 0, 0.6, ""};
-    script.events[0].joint = 1;
+    script.events[2].tick = 1461;
     CHECK(script.metrics().arrivals[0].nut_visible == doctest::Approx(0.019).epsilon(0.06));
 }
 

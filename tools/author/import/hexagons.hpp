@@ -1,5 +1,5 @@
 // The plane faces of a part, and six of them that form a hexagon: the outside of a head or a nut, or the
-// walls of a socket. Scene frame, metres, relative to the part.
+// walls of a socket. In metres, in the part's frame with the axes of the scene (y up).
 #pragma once
 
 #include <algorithm>

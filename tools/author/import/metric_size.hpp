@@ -33,7 +33,7 @@ const joint::FastenerSize* size_of(double diameter, double across_flats, const C
 // this is the diameter of an inch thread, names the thread.
 std::string explain_size(double diameter);
 
-// The same for a cap screw. Names the standard of a low head.
+// The same for a cap screw. If its head is a low one, names the standard of such heads.
 std::string explain_size(double diameter, double across_flats, const CapHead& head);
 
 // Returns the name of the thread. `hole`: diameter of the hole of the nut or tapped part, m, which reveals a
