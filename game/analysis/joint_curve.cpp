@@ -114,7 +114,7 @@ void CurveBuilder::end_visit(JointBuilder& joint) {
     joint.held = false;
 }
 
-// Updates the run-down, the stages and the snug angle. Only angles beyond all previous ones extend a stage.
+// Updates the run-down, the stages and the mark. Only angles beyond all previous ones extend a stage.
 void CurveBuilder::advance(JointBuilder& joint, const CurvePoint& point, double snug_torque) {
     JointCurve& curve = joint.curve;
     if (!joint.started) {
@@ -134,8 +134,8 @@ void CurveBuilder::advance(JointBuilder& joint, const CurvePoint& point, double 
         extend(curve.stages, point.stage, curve.end_angle, point.angle);
         curve.end_angle = point.angle;
     }
-    if (std::isnan(curve.snug_angle) && snug_torque > 0.0 && sign_ * point.torque >= snug_torque)
-        curve.snug_angle = point.angle;
+    if (std::isnan(curve.mark) && snug_torque > 0.0 && sign_ * point.torque >= snug_torque)
+        curve.mark = point.angle;
 }
 
 void CurveBuilder::add_sample(JointBuilder& joint, CurvePoint point, double snug_torque) {

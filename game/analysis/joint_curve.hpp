@@ -82,7 +82,7 @@ struct JointCurve {
     RunDown run_down;
     // rad, from which the tightening angle counts: where the snug torque was first met. In a lesson that
     // turns nuts by an angle: where the first visit in such a pass began. NaN: not reached.
-    double snug_angle = std::numeric_limits<double>::quiet_NaN();
+    double mark = std::numeric_limits<double>::quiet_NaN();
     double start_angle = 0.0;  // rad, when first held
     double end_angle = 0.0;    // rad, furthest in the direction of work
 };

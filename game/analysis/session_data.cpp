@@ -68,7 +68,7 @@ void set_marks(SessionData& data) {
     };
     for (JointCurve& curve : data.curves) {
         const auto first = std::find_if(curve.visits.begin(), curve.visits.end(), turns);
-        curve.snug_angle =
+        curve.mark =
             first == curve.visits.end() ? std::numeric_limits<double>::quiet_NaN() : first->begin_angle;
     }
 }

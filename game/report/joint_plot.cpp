@@ -313,8 +313,8 @@ JointPlotFrame joint_plot_frame(const analysis::SessionData& session, std::size_
     JointPlotFrame frame;
     frame.origin = loosening || !has_contact ? curve.start_angle : contact->from;
     frame.origin_name = loosening || !has_contact ? "start" : "first contact";
-    if (!loosening && std::isfinite(curve.snug_angle)) {
-        frame.origin = curve.snug_angle;
+    if (!loosening && std::isfinite(curve.mark)) {
+        frame.origin = curve.mark;
         frame.origin_name = lesson::turns_by_angle(session.assembly) ? "mark" : "snug";
     }
     const double start = drawn_angle(frame, curve.start_angle, loosening);

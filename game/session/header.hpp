@@ -41,10 +41,11 @@ struct Header {
     std::string assembly_text;  // the file's exact text, so that a session replays without the folder
     std::string variant;
     joint::Law law = joint::Law::mechanistic;
-    // These three follow from the format of the file.
+    // These four follow from the format of the file.
     lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;
     ToolYield tools_yield = ToolYield::mechanistic_law;  // before format 8: no_law; in format 8: all_laws
     bool judges_tool_choice = true;                      // since format 9
+    bool rounds_all_loaded_corners = true;               // since format 10 (servo::Setup)
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     // "person", or the simulated trainee's profile: "expert", … The key in the file is "operator".

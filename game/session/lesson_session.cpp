@@ -176,6 +176,7 @@ namespace {
 servo::Setup make_lesson_setup(const content::Assembly& assembly, const LessonOptions& options) {
     servo::Setup setup = make_setup(assembly, options.law, options.device_limits, options.seed, options.dt);
     servo::set_ratchets(setup, options.task == lesson::Task::loosen);
+    setup.rounds_all_loaded_corners = options.rounds_all_loaded_corners;
     const bool yields =
         options.tools_yield == ToolYield::all_laws ||
         (options.tools_yield == ToolYield::mechanistic_law && options.law == joint::Law::mechanistic);

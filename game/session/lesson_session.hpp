@@ -51,6 +51,7 @@ struct LessonOptions {
     lesson::LawAdaptation law_adaptation =
         lesson::LawAdaptation::yield_end;                // replays of older sessions: before_format_6
     ToolYield tools_yield = ToolYield::mechanistic_law;  // replays of older sessions: the others
+    bool rounds_all_loaded_corners = true;               // replays of sessions before format 10: false
     std::uint64_t seed = 1;
     double dt = 0.001;
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).

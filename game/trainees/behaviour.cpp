@@ -362,7 +362,7 @@ bool pulls_again(const TraineeState& t) {
 
 // A free nut has less friction than the pawl of a ratchet, so the handle takes it along when it swings back.
 // The trainee sees that, and from then on takes the ratchet off after each pull, so that the nut stays free.
-void see_free_nut(TraineeState& t) {
+void notice_free_nut(TraineeState& t) {
     constexpr double taken_back = 0.5;  // share of the stroke
     if (!t.plan.loosening || std::abs(t.stroke_turn) < min_turn) return;
     const double net = t.joint().nut.angle - t.nut_angle_at_stroke;
@@ -371,7 +371,7 @@ void see_free_nut(TraineeState& t) {
     t.plan.finished = true;
 }
 
-void see_common_turn(TraineeState& t) {
+void notice_common_turn(TraineeState& t) {
     if (!t.lacks_second_wrench()) return;
     t.seen_common_turn += std::abs(t.joint().common_turn - t.last_common_turn);
     t.last_common_turn = t.joint().common_turn;

@@ -167,10 +167,10 @@ void spin_back(TraineeState& t);
 
 // Puts the second wrench on plan.joint once the trainee sees that nut and bolt turn together; motions in both
 // directions add up.
-void see_common_turn(TraineeState& t);
+void notice_common_turn(TraineeState& t);
 // Returns true if a ratchet can pull again without leaving the nut.
 bool pulls_again(const TraineeState& t);
 // At the end of a swing back: ends the plan if the ratchet has taken the nut back with it.
-void see_free_nut(TraineeState& t);
+void notice_free_nut(TraineeState& t);
 
 }  // namespace bolt::trainees

@@ -92,7 +92,7 @@ Pose step_phase(TraineeState& t, const Percept& felt, Grip& grip) {
         case Phase::pull:
             grip = own;
             pull(t, felt);
-            see_common_turn(t);
+            notice_common_turn(t);
             pose = t.tool_at_nut(0.0);
             if (!t.holds_intended_nut()) start_lift(t, pose, 0.3);  // the jaw slipped off
             break;
@@ -112,7 +112,7 @@ Pose step_phase(TraineeState& t, const Percept& felt, Grip& grip) {
             grip = own;
             swing_back(t);
             pose = t.tool_at_nut(0.0);
-            if (t.phase_over()) see_free_nut(t);
+            if (t.phase_over()) notice_free_nut(t);
             if (!t.holds_intended_nut() || t.plan.finished)
                 start_lift(t, pose, 0.3);
             else if (t.phase_over())

@@ -298,7 +298,7 @@ void App::follow_placement(const view::ImmersiveFrame& immersive,
         placed.workpiece =
             scene_in_room() *
             (0.5 * (Vec3(active_->workplace.workpiece.low) + Vec3(active_->workplace.workpiece.high)));
-    const ReplacedObjects replaced = trainer::update(room.placement, immersive, placed, seconds);
+    const ObjectsToPlace replaced = trainer::update(room.placement, immersive, placed, seconds);
     if (replaced.panel) room.panel.reset();
     if (replaced.workpiece) room.workpiece.reset();
     if (immersive.origin_moved) room.touch_done = false;  // the registration may be wrong from now on

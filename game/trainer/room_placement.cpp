@@ -42,8 +42,8 @@ bool can_place(const Placement& placement, const view::ImmersiveFrame& immersive
            (immersive.tracked && immersive.attentive && placement.waited >= patience);
 }
 
-ReplacedObjects update(Placement& placement, const view::ImmersiveFrame& immersive,
-                       const PlacedObjects& placed, double seconds) {
+ObjectsToPlace update(Placement& placement, const view::ImmersiveFrame& immersive,
+                      const PlacedObjects& placed, double seconds) {
     const double passed = std::min(seconds, longest_frame);
     const bool worn = is_worn(immersive);
     if (immersive.expected_head) {

@@ -25,7 +25,7 @@ struct PlacedObjects {
 };
 
 // The objects that are to be placed again.
-struct ReplacedObjects {
+struct ObjectsToPlace {
     bool panel = false, workpiece = false;
 };
 
@@ -42,7 +42,7 @@ bool can_place(const Placement& placement, const view::ImmersiveFrame& immersive
 // panel for 3 s, or has gone away, the panel is placed again, and so is a workpiece that the user has never
 // faced. A workpiece that was faced stays: the user may walk around it. A display that is fixed in the room
 // keeps all where it is.
-ReplacedObjects update(Placement& placement, const view::ImmersiveFrame& immersive,
-                       const PlacedObjects& placed, double seconds);
+ObjectsToPlace update(Placement& placement, const view::ImmersiveFrame& immersive,
+                      const PlacedObjects& placed, double seconds);
 
 }  // namespace bolt::trainer

@@ -293,10 +293,13 @@ bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::Join
     const double beyond = std::abs(wound) - play - full_corner_torque / setup.wrench.stiffness;
     const double turned = std::max(0.0, beyond - e.turned_beyond_corner_torque);
     e.turned_beyond_corner_torque = std::max(e.turned_beyond_corner_torque, beyond);
-    // The work removes corner material: at two corners, a triangle with two sides of `rounded` that enclose
-    // 120°.
+    // The work removes corner material: at each corner that bears, a triangle with two sides of `rounded`
+    // that enclose 120°.
+    const bool two =
+        std::holds_alternative<collision::Jaw>(setup.wrench.head) || !setup.rounds_all_loaded_corners;
+    const double corners = two ? 2.0 : 6.0;
     const double area = std::sqrt(3.0) / 4.0, height = std::max(e.fit.overlap, min_height);
-    rounded = std::sqrt(square(rounded) + limit * turned / (2.0 * area * height * nut.corner_pressure));
+    rounded = std::sqrt(square(rounded) + limit * turned / (corners * area * height * nut.corner_pressure));
     rounded = std::min(rounded, 0.5 * nut.across_flats / std::sqrt(3.0));
     const double remaining =
         1.0 - e.turned_beyond_corner_torque / (slip_off_half_plays * std::max(play, angle_tolerance));

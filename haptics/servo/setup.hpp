@@ -116,6 +116,9 @@ struct Setup {
     force::TorqueRendering torque_rendering;
     force::GuidingParameters guiding;
     force::OutputLimits limits;
+    // The work at the corner torque rounds the corners that bear: two with a jaw, six with any other head.
+    // False (sessions before format 10): two with any head.
+    bool rounds_all_loaded_corners = true;
 
     // N·m that fingertips can apply to the nut.
     [[nodiscard]] double finger_torque(const NutGeometry& nut) const {

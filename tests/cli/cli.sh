@@ -199,7 +199,7 @@ expect 0 'its button is held' "$bin/boltwright" doctor --help
 # The trial of a station: errors before it begins.
 expect 4 'no device 256f:0000; expected one that .boltwright devices. lists' "$bin/boltwright" doctor --device 256f:0000
 expect 4 'not a serial port' "$bin/boltwright" doctor cover-m8 --glove /dev/null
-expect 4 'is the glove.s adapter plugged in' "$bin/boltwright" doctor cover-m8 --glove /dev/ttyNONE
+expect 4 'is the device.s adapter plugged in' "$bin/boltwright" doctor cover-m8 --glove /dev/ttyNONE
 echo '{"format": "boltwright rig 1", "most_torque_Nm": 400}' > rig.json
 expect 3 '^rig.json:1:[0-9]+: ' "$bin/boltwright" doctor --device 256f:0000 --rig rig.json
 expect 3 'there is no such folder, file or assembly' "$bin/boltwright" doctor nowhere --device 256f:0000
@@ -209,7 +209,7 @@ expect 2 'requires --glove' "$bin/boltwright" doctor --trainee Ada
 # Devices: none connected, an emulated glove, missing permission, a port without a glove.
 expect 0 'Serial ports for a CyberGlove' "$bin/boltwright" devices
 expect 4 'there is no device 256f:0000; expected one that' "$bin/boltwright" devices --device 256f:0000
-expect 4 'is the glove.s adapter plugged in' "$bin/boltwright" devices --glove /dev/ttyNONE
+expect 4 'is the device.s adapter plugged in' "$bin/boltwright" devices --glove /dev/ttyNONE
 expect 4 'not a serial port' "$bin/boltwright" devices --glove /dev/null
 expect 2 '' "$bin/boltwright" devices --seconds -1
 glove() {  # starts an emulated glove with these options on ./port
@@ -328,7 +328,7 @@ check "a station begins with a glove alone" reports 'For 3600 s'
 check "... whose closed hand takes the wrench" reports 'the hand takes the wrench'
 kill $emulated && wait $emulated
 exec 4>&-
-check "... an unplugged glove is reported with a remedy" reports 'worn.*is the glove.s adapter plugged in'
+check "... an unplugged glove is reported with a remedy" reports 'worn.*is the device.s adapter plugged in'
 sleep 0.5  # a problem that another message replaces within 0.3 s is dropped
 "$bin/bolt-emulate" glove --postures --link "$work/worn" < asked > /dev/null &
 emulated=$!

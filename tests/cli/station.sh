@@ -12,7 +12,7 @@ expect 4 'no device is connected that a station can use' "${run[@]}" station new
 check 'no file is written' test ! -e lab.json
 export FDSDK=$work/sdk EMULATED_ARM_INITIALIZED=1
 expect 4 'there is no device force-dimension:7; did you mean force-dimension:0' "${run[@]}" station new lab.json --device force-dimension:7
-expect 4 'is the glove.s adapter plugged in' "${run[@]}" station new lab.json --glove /dev/ttyNONE
+expect 4 'is the device.s adapter plugged in' "${run[@]}" station new lab.json --glove /dev/ttyNONE
 expect 0 "arm +$arm" "${run[@]}" station new lab.json --name 'Lab 2'
 expect 2 'lab.json exists already; expected a new file, or --force' "${run[@]}" station new lab.json
 expect 0 "arm +$arm" "${run[@]}" station new lab.json --device $arm --force

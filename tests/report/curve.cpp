@@ -70,7 +70,7 @@ TEST_CASE("Joint curves: pieces of any size give the same curves") {
     for (std::size_t j = 0; j < pieces.size(); ++j) {
         const JointCurve& whole = session.data.curves[j];
         REQUIRE(pieces[j].visits.size() == whole.visits.size());
-        CHECK(pieces[j].snug_angle == whole.snug_angle);
+        CHECK(pieces[j].mark == whole.mark);
         CHECK(pieces[j].stages.size() == whole.stages.size());
         for (std::size_t v = 0; v < whole.visits.size(); ++v) {
             CHECK(pieces[j].visits[v].points.size() == whole.visits[v].points.size());
@@ -83,9 +83,9 @@ TEST_CASE("Joint curves: snug angle, run-down and stages of a known joint") {
     const SyntheticSession session = synthetic_session({});
     for (const JointCurve& curve : session.data.curves) {
         const double seat = 18.0 * 360.0;
-        REQUIRE(std::isfinite(curve.snug_angle));
+        REQUIRE(std::isfinite(curve.mark));
         // One tick turns the wrench by 0.25°.
-        const double snug = to_degrees(curve.snug_angle) - seat;
+        const double snug = to_degrees(curve.mark) - seat;
         CHECK(synthetic_torque(snug) >= 20.0 - 0.01);
         CHECK(synthetic_torque(snug - 0.26) < 20.0);
         REQUIRE(curve.stages.size() >= 3);

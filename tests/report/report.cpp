@@ -158,7 +158,7 @@ TEST_CASE("Joint plot: the run-down is cut off, and the angle axis begins shortl
     CHECK(frame.origin_name == "snug");
     CHECK(frame.range.span() < 120.0);
     CHECK(frame.range.low < 0.0);
-    const double end = to_degrees(session.data.curves[0].end_angle - session.data.curves[0].snug_angle);
+    const double end = to_degrees(session.data.curves[0].end_angle - session.data.curves[0].mark);
     CHECK(frame.range.high > end);
     const Plot plot = joint_plot(session.data, 0);
     CHECK(has(plot.x.label, "drawn from"));

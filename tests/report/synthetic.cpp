@@ -178,7 +178,7 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
         const JointCurve& curve = data.curves[j];
         if (curve.visits.empty()) continue;
         r.torque = curve.visits.back().peak.torque;
-        r.angle = std::isfinite(curve.snug_angle) ? curve.end_angle - curve.snug_angle : 0.0;
+        r.angle = std::isfinite(curve.mark) ? curve.end_angle - curve.mark : 0.0;
         r.clamp_at_release = curve.visits.back().release.clamp;
         r.clamp = r.clamp_at_release * (0.965 + 0.01 * random.normal());
         r.torque_verdict = r.overall = verdict_of(r.torque, data.assembly.joints[j].spec.torque);

@@ -60,8 +60,8 @@ TEST_CASE("Reader: another program's database is refused") {
 TEST_CASE("Reader: a session of a newer version is refused with both numbers") {
     const Folder folder;
     const auto path = script_session(folder / "a.session", 5);
-    run_sql(path, "PRAGMA user_version = 10");
-    CHECK(contains(refusal(path), "newer version: its format is 10; expected a format from 1 to 9"));
+    run_sql(path, "PRAGMA user_version = 11");
+    CHECK(contains(refusal(path), "newer version: its format is 11; expected a format from 1 to 10"));
     run_sql(path, "PRAGMA user_version = 0");
     CHECK(contains(refusal(path), "unknown format 0"));
 }

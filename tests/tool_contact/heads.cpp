@@ -156,6 +156,34 @@ TEST_CASE("Tool heads: a ratchet tightens by strokes of a few degrees without le
     CHECK(motion.step < leap * bench.setup.limits.force);
 }
 
+TEST_CASE(
+    "Tool heads: the work at the corner torque equals that of the material that the loaded corners lose") {
+    for (const bool all : {true, false}) {
+        CAPTURE(all);
+        test::Workbench bench(cover_with(ring()));
+        bench.setup.rounds_all_loaded_corners = all;
+        REQUIRE(session::pretighten(bench.assembly, bench.setup, bench.state));
+        Motion motion;
+        lower(bench, motion, 0.0, 0.0);
+        REQUIRE(motion.engaged);
+        const NutGeometry& nut = bench.setup.nuts[0];
+        Engagement& e = bench.state.engagement;
+        joint::JointState& joint = bench.state.joints[0];
+        const double limit =
+            contact_drive(bench.setup, nut, 0.0, e).torque_limit;  // with whole corners: the corner torque
+        const double play = half_play(bench.setup.wrench, nut.across_flats, 0.0);
+        const double turned = to_radians(0.02);
+        joint.torque = limit;
+        e.hand_angle = joint.rotation() + play + limit / bench.setup.wrench.stiffness + turned;
+        double rounded = 0.0;
+        CHECK_FALSE(round_corners(bench.setup, nut, joint, rounded, e));
+        const double lost =
+            (all ? 6.0 : 2.0) * 0.25 * std::sqrt(3.0) * square(rounded) * e.fit.overlap;  // m³
+        CHECK(rounded > 0.0);
+        CHECK(nut.corner_pressure * lost == doctest::Approx(limit * turned).epsilon(1e-6));
+    }
+}
+
 TEST_CASE("Tool heads: a ring bears more torque than an open end, and little overlap rounds the corners") {
     const double s = 0.013, half = 0.5 * s / std::sqrt(3.0);
     test::Workbench bench(cover_with(ring()));
