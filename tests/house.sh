@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks the rules of the sources: includes point to lower layers only, headers have #pragma once, no TODO remains, all texts are
-# used, documents name only what exists, skipped tests are reported, and clang-format changes no file.
+# used, comments begin with their subject, documents name only what exists, skipped tests are reported, and clang-format changes no file.
 set -euo pipefail
 cd "$1"
 . tests/support/skip.sh house
@@ -39,6 +39,13 @@ echo '    {"hint.of_nothing", ""},' > "$planted/key_rows.hpp"
 [ -n "$(unused_texts "$planted/key_rows.hpp")" ] || bad "the check of the texts finds nothing"
 unused_keys=$(unused_texts content/words/key_rows.hpp)
 [ -z "$unused_keys" ] || bad "text keys that no code uses: $unused_keys"
+
+# The first word of a comment is the subject of a sentence.
+inverted() { grep -rnE '^\s*// (Of|What|Whether|Whoever|Nothing|How) ' --include='*.cpp' --include='*.hpp' "$@" || true; }
+echo '// Of a nut that is turned.' > "$planted/inverted.cpp"
+[ -n "$(inverted "$planted")" ] || bad "the check of the comments finds nothing"
+found=$(inverted engine haptics content game tools tests)
+[ -z "$found" ] || bad "comments that do not begin with their subject: $found"
 
 # Documents name only files and functions that exist.
 mkdir "$planted/docs"

@@ -42,8 +42,9 @@ std::optional<double> edge_inset(const WallAxes& a, const WallAxes& b, double to
 // no strip in common.
 std::optional<double> coplanar_overlap(const WallAxes& a, const WallAxes& b, double tolerance);
 
-// Of each pair of nearly parallel edges that run side by side, the largest distance there; returns the
-// smallest of these. None if there is no such pair.
+// Returns the width of the gap between two walls. Each pair of nearly parallel edges that run side by side
+// has a gap, the largest distance between them there; the result is the smallest gap, none without such a
+// pair.
 std::optional<double> seam_gap(const WallAxes& a, const WallAxes& b);
 
 }  // namespace bolt::content

@@ -26,9 +26,10 @@
 
 namespace bolt::content {
 
-// How a device stands in front of the user, rad. All zero: as its maker intends, its x to the user's right, y
-// up and z to the user. From there it is rolled about its z, then pitched about the user's x (positive: its
-// far side rises), then yawed about the vertical (positive: counter-clockwise seen from above).
+// The orientation of a device in front of the user, rad. All zero: as its maker intends, its x to the user's
+// right, y up and z to the user. From there it is rolled about its z, then pitched about the user's x
+// (positive: its far side rises), then yawed about the vertical (positive: counter-clockwise seen from
+// above).
 struct Mounting {
     double yaw = 0.0, pitch = 0.0, roll = 0.0;
     bool operator==(const Mounting&) const = default;

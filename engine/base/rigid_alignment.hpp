@@ -72,7 +72,7 @@ struct PivotFit {
     Vec3 tip{0.0};     // m, in the frame of the tool
     Vec3 pivot{0.0};   // m, the point, in the frame of the poses
     double rms = 0.0;  // m, of the distances between the tip and the point
-    // How much the orientations differ: the standard deviation, over the poses, of that unit vector fixed to
+    // The spread of the orientations: the standard deviation, over the poses, of that unit vector fixed to
     // the tool which varies least. Noise of standard deviation s on each axis of n poses gives an error of
     // the tip below s / (√n · orientation_spread) on each axis. 0: all turns have one axis, and the tip may
     // be anywhere along it.

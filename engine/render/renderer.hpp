@@ -47,8 +47,8 @@ struct RendererOptions {
     // The error allowed for coarser levels of detail, in pixels of the picture; 0: always draw all triangles.
     float level_error_px = 0.0F;
     bool keep_depth = false;  // required by depth()
-    // How far beyond each edge of the picture parts are kept from culling, in half widths and heights, so
-    // that none is missing after move_eyes().
+    // Distance beyond each edge of the picture within which parts are not culled, in half widths and heights,
+    // so that none is missing after move_eyes().
     float margin = 0.0F;
 };
 

@@ -51,7 +51,7 @@ struct Label {
     glm::vec4 outline{0.0F};      // alpha 0: no outline
     float outline_width = 0.06F;  // em, up to 0.1
     glm::vec4 plate{0.0F};        // background behind the text; alpha 0: none
-    // How much of the text shows through parts in front of it: 0 hidden, 1 fully visible. Ghosts hide text
+    // Share of the text that shows through parts in front of it: 0 hidden, 1 fully visible. Ghosts hide text
     // like opaque parts.
     float occluded_visibility = 0.0F;
     float occlusion_margin = 0.0F;  // m: parts less far in front of the text do not hide it

@@ -1,8 +1,8 @@
 #include "game/lesson/situation.hpp"
 
-#include "game/lesson/step_requirements.hpp"
-
 #include <cmath>
+
+#include "game/lesson/step_requirements.hpp"
 
 namespace bolt::lesson {
 

@@ -13,7 +13,8 @@ namespace bolt::report {
 
 // The people that a page may name.
 struct TraineeNames {
-    // Of names.json. A session with a typed name in place of a code belongs to the person of that name.
+    // The people in names.json. A session with a typed name in place of a code belongs to the person of that
+    // name.
     std::vector<content::Person> people;
     bool show = false;  // false: the page has codes only, so that it can be passed on
 };

@@ -1,12 +1,12 @@
 #include "game/scene/angle_dial.hpp"
 
-#include "game/lesson/step_requirements.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+
+#include "game/lesson/step_requirements.hpp"
 
 namespace bolt::scene {
 

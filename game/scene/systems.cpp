@@ -196,8 +196,8 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     held.closed_share = hand.closed_share;
     held.palm = hand.palm;
     held.at_nut = hand.nut.has_value();
-    // A point that the wrist is drawn towards. Of a measured hand: on the side of its palm, because at a nut
-    // the fingers are bent.
+    // The wrist is drawn towards this point. With a measured hand it is on the side of its palm, because at a
+    // nut the fingers are bent.
     const Vec3 towards =
         held.palm ? hand.pose.position - held.palm->orientation * Vec3(0.0, 1.0, 0.0) : context.shoulder;
     const double sense = hand.nut ? context.setup.nuts[*hand.nut].sense : 1.0;

@@ -86,7 +86,7 @@ std::string servo_text(double rate);
 //   none of these                     unrecorded
 TraineeKind trainee_kind(const Header& header);
 
-// The person's code, or in sessions of older programs the typed name; empty if neither is recorded. Of a
+// The person's code, or in sessions of older programs the typed name; empty if neither is recorded. For a
 // simulated trainee: the text of --trainee.
 std::string trainee_name(const Header& header);
 

@@ -8,7 +8,7 @@
 
 namespace bolt::statistics {
 
-// Of type 7 (Hyndman and Fan 1996).
+// The quantile of type 7 (Hyndman and Fan 1996).
 static double quantile_of_sorted(std::span<const double> sorted, double share) {
     const double at = share * static_cast<double>(sorted.size() - 1);
     const auto below = static_cast<std::size_t>(at);

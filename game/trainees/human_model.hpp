@@ -59,7 +59,7 @@ struct Percept {
 };
 
 // Delays perception by a reaction time, and detects yielding from the slope of torque over the nut's angle.
-// What the trainee sees of the joint, such as the nut's angle, has no delay.
+// Values that the trainee sees, such as the nut's angle, have no delay.
 class DelayedPerception {
   public:
     // `reaction`, `dt`: s. `stiffness`: wrench and wrist in series, N·m/rad; their deflection is subtracted

@@ -1,8 +1,8 @@
 #include "game/trainees/step_plan.hpp"
 
-#include "game/lesson/step_requirements.hpp"
-
 #include <algorithm>
+
+#include "game/lesson/step_requirements.hpp"
 
 namespace bolt::trainees {
 

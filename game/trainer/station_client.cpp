@@ -1,13 +1,13 @@
 #include "game/trainer/station_client.hpp"
 
-#include "game/lesson/step_requirements.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <variant>
+
+#include "game/lesson/step_requirements.hpp"
 
 namespace bolt::trainer {
 

@@ -59,7 +59,7 @@ struct HeadFit {
     // direction that tightens a right-hand thread.
     double misalignment = 0.0;
     double overlap = 0.0;  // m, height over which the flats bear at each loaded corner
-    // m along the flats from the axis to the two ends of the contact. Of a ring, socket or key: half a side
+    // m along the flats from the axis to the two ends of the contact; with a ring, socket or key half a side
     // of the hexagon.
     double toward_throat = 0.0, toward_mouth = 0.0;
     double lateral_offset = 0.0;  // m, from the middle of the slot, ring or key to the bolt's axis

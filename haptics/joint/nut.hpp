@@ -143,7 +143,7 @@ struct CornerGrip {
 // N·m at which the jaw slips.
 double corner_torque(double pressure, const CornerGrip& grip);
 
-// A ring, a socket or a key bears at all six corners. Of each flat it bears on the strip from the corner, at
+// A ring, a socket or a key bears at all six corners. On each flat it bears on the strip from the corner, at
 // x from the middle of the flat, inward to x0, with the lever (x + x0)/2:
 //
 //   T = 6 p e (x − x0) (x + x0)/2 = 3 p e (x² − x0²)

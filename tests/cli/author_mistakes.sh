@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What an author is told about mistakes that a file's syntax does not show. author_mistakes.sh BIN SOURCES
+# The messages to an author about mistakes that a file's syntax does not show. author_mistakes.sh BIN SOURCES
 . "$(dirname "$0")/checks.sh"
 
 author=$bin/bolt-author

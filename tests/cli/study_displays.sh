@@ -23,7 +23,7 @@ mistake tracked '"hand": "tracked"' 'hand: only a headset tracks the hand; expec
 mistake mouse '"display": "headset", "hand": "free"' 'hand: the mouse that moves this hand cannot be used in a headset; expected an arm'
 mistake desk '"display": "headset", "devices": ["mouse"]' 'devices: the mouse cannot be used in a headset'
 
-# What this computer lacks is told by check, and before anybody takes part.
+# `check` states what this computer lacks, before anybody takes part.
 plan headless '"display": "headset"'
 lacks() {  # lacks CODE FOLDER PATTERN
     expect "$1" "^$2/study.json:6:[0-9]+: /conditions/1/lesson/$3" env XR_RUNTIME_JSON=/nonexistent.json "${study[@]}" check "$2"

@@ -1,10 +1,10 @@
 #include "tests/dead_ends/lesson_run.hpp"
 
-#include "game/lesson/step_requirements.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "game/lesson/step_requirements.hpp"
 
 namespace dead_ends {
 

@@ -32,7 +32,7 @@ void HeadsetDriver::release() {
     drawn_.reset();
 }
 
-// How well the runtime returns what was sent in the user's last turn.
+// Compares the poses from the runtime with those that were sent in the user's last turn.
 void HeadsetDriver::compare(const view::ImmersiveFrame& immersive) {
     for (std::size_t side = 0; side < sent_.sides.size(); ++side) {
         const xr::HandInput &sent = sent_.sides[side], &got = immersive.hands.sides[side];

@@ -25,7 +25,7 @@ std::size_t count_of(std::string_view text, std::string_view word) {
     return count;
 }
 
-// How often a text names each direction.
+// The number of times that a text names each direction.
 struct Directions {
     std::size_t clockwise = 0, anticlockwise = 0, left = 0, right = 0;
 

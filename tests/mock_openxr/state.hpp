@@ -71,7 +71,7 @@ struct HandTracker {
     std::size_t side = 0;
 };
 
-// Of XR_FB_passthrough: the feature and its layers are paused or run, each by itself.
+// XR_FB_passthrough: the feature and each of its layers are paused or run separately.
 struct Passthrough {
     bool running = false;
 };

@@ -20,8 +20,8 @@ struct Workbench {
     explicit Workbench(content::Assembly lesson, const force::OutputLimits& limits = {});
 
     // Pose of a wrench whose jaw is `above` (m) the middle of a nut and `beside` its axis (m along e1 and
-    // e2), aligned with its flats except for `misfit` rad. Of the six possible angles, the one whose handle
-    // is nearest to `towards`.
+    // e2), aligned with its flats except for `misfit` rad. Among the six possible angles it takes the one
+    // whose handle is nearest to `towards`.
     [[nodiscard]] Pose wrench(std::size_t joint, double above, double misfit = 0.0,
                               const Vec3& beside = Vec3(0.0), const Vec3& towards = Vec3(0, 0, 1)) const;
     servo::Output step(const Pose& hand, servo::Grip grip = servo::Grip::wrench);

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr double frame_time = 0.02;  // s
 
-// How the hand closes.
+// The means by which the hand closes.
 enum class Closes { by_space_bar, in_glove, by_gripper };
 
 // The station and the lesson that repeats its ticks.

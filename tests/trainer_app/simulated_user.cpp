@@ -1,10 +1,10 @@
 #include "tests/trainer_app/simulated_user.hpp"
 
-#include "game/lesson/step_requirements.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
+
+#include "game/lesson/step_requirements.hpp"
 
 namespace bolt::test {
 

@@ -37,7 +37,7 @@ class Obstacles {
     [[nodiscard]] double top() const;  // m, largest height above the joint's origin; -∞ if empty
 
     // Returns a part with a triangle that crosses a triangle of `tool`, which `pose` places in the joint's
-    // frame; no_part if there is none. Of several such parts it returns the smallest, because its name
+    // frame; no_part if there is none. If there are several, it returns the smallest, because its name
     // locates the collision better than that of a casing.
     [[nodiscard]] std::uint32_t first_hit_by(const Bvh& tool, const RigidMotion& pose) const;
     // Returns false only if the tool collides in no motion of the sweep about `pose`.

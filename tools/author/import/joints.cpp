@@ -29,7 +29,7 @@ bool has_two_hexagons(const JointCandidate& joint) {
     return joint.nut >= 0 && joint.tapped < 0 && joint.head == joint::HeadShape::hexagon;
 }
 
-// Of a joint that is turned at its nut.
+// Returns the seat of the head. The joint must be turned at its nut.
 Vec3 head_seat(const JointCandidate& joint) { return joint.seat - joint.grip * joint.axis; }
 
 void turn_at_head(JointCandidate& joint) {

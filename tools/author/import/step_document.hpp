@@ -91,7 +91,7 @@ struct StepInstance {
     gp_Trsf placement;  // relative to the parent
     int part = -1;
     std::vector<int> children;
-    // Of this instance: overrides the colour of the part; the colour of a face overrides this one.
+    // The colour of this instance overrides that of the part; the colour of a face overrides both.
     std::optional<Colour> colour;
 };
 
