@@ -246,6 +246,14 @@ void adopt_wrench_pose(TraineeState& t) {
     t.placement_error = offset + nut.axis * glm::dot(nut.axis, t.placement_error - offset);
 }
 
+Vec3 retreat_direction(int catches, const Vec3& up, Vec3 back, Vec3 aside) {
+    // The rest pose may be behind the workpiece; a key never leaves its socket inwards.
+    back -= up * std::min(0.0, glm::dot(up, back));
+    aside -= up * glm::dot(up, aside);
+    if (catches % 2 == 1) return up + 0.3 * static_cast<double>(std::min(catches, 5)) * unit(back);
+    return 0.3 * up + unit(aside);
+}
+
 void retreat_if_caught(TraineeState& t, const Pose& intended, const Pose& wrench) {
     const bool in_transit = t.phase == Phase::reach || t.phase == Phase::lower ||
                             t.phase == Phase::change_tool || t.phase == Phase::lift ||
@@ -260,15 +268,9 @@ void retreat_if_caught(TraineeState& t, const Pose& intended, const Pose& wrench
     t.caught_time = 0.0;
     ++t.consecutive_catches;
     t.from = wrench;
-    // An odd retreat goes up and back, an even one sideways away from the obstacle, because a corner that is
-    // hooked in a thread does not come out along the bolt.
-    const Vec3 up = way_off_nut(t, wrench.position), back = t.rest.position - wrench.position;
-    Vec3 aside = wrench.position - intended.position;
-    aside -= up * glm::dot(up, aside);
     const Vec3 direction =
-        t.consecutive_catches % 2 == 1
-            ? up + 0.3 * static_cast<double>(std::min(t.consecutive_catches, 5)) * unit(back)
-            : 0.3 * up + unit(aside);
+        retreat_direction(t.consecutive_catches, way_off_nut(t, wrench.position),
+                          t.rest.position - wrench.position, wrench.position - intended.position);
     t.to = {wrench.position + retreat * direction, wrench.orientation};
     t.intended_pose_jumped = true;
     t.enter(Phase::lift, 0.6);

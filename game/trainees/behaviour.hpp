@@ -150,6 +150,12 @@ void start_lift(TraineeState& t, const Pose& pose, double seconds);
 // bolt.
 void adopt_wrench_pose(TraineeState& t);
 
+// The direction, not normalised, in which a caught tool retreats at the given number of catches in a row.
+// `up`: unit, off the nearest nut; `back`: to the rest pose; `aside`: from the intended pose to the tool. Odd
+// retreats go up and back, even ones sideways, because a corner that is hooked in a thread does not come out
+// along the bolt. Each of them has a part along `up`.
+Vec3 retreat_direction(int catches, const Vec3& up, Vec3 back, Vec3 aside);
+
 // Moves a wrench that is caught on an obstacle away from it. The next path is higher.
 void retreat_if_caught(TraineeState& t, const Pose& intended, const Pose& wrench);
 

@@ -56,4 +56,19 @@ TEST_CASE(
     CHECK(bench.retreat().y < -0.03);
 }
 
+TEST_CASE("Leaving a nut: each retreat of a caught tool has a part off the nut, wherever the rest pose is") {
+    Random random(11, 1);
+    const auto some = [&] {
+        return Vec3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+    };
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 up = glm::normalize(some()), back = some(), aside = 0.1 * some();
+        for (int catches = 1; catches < 10; ++catches) {
+            CAPTURE(catches);
+            const double off = glm::dot(trainees::retreat_direction(catches, up, back, aside), up);
+            CHECK(off > (catches % 2 == 1 ? 1.0 - 1e-9 : 0.3 - 1e-9));
+        }
+    }
+}
+
 }  // namespace bolt::lesson::leaving_nut
