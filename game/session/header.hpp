@@ -46,6 +46,7 @@ struct Header {
     ToolYield tools_yield = ToolYield::mechanistic_law;  // before format 8: no_law; in format 8: all_laws
     bool judges_tool_choice = true;                      // since format 9
     bool rounds_all_loaded_corners = true;               // since format 10 (servo::Setup)
+    bool allows_narrow_gaps = true;                      // since format 11 (servo::Setup)
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     // "person", or the simulated trainee's profile: "expert", … The key in the file is "operator".

@@ -177,6 +177,7 @@ servo::Setup make_lesson_setup(const content::Assembly& assembly, const LessonOp
     servo::Setup setup = make_setup(assembly, options.law, options.device_limits, options.seed, options.dt);
     servo::set_ratchets(setup, options.task == lesson::Task::loosen);
     setup.rounds_all_loaded_corners = options.rounds_all_loaded_corners;
+    setup.allows_narrow_gaps = options.allows_narrow_gaps;
     const bool yields =
         options.tools_yield == ToolYield::all_laws ||
         (options.tools_yield == ToolYield::mechanistic_law && options.law == joint::Law::mechanistic);

@@ -48,10 +48,11 @@ struct LessonOptions {
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     joint::Law law = joint::Law::mechanistic;
-    lesson::LawAdaptation law_adaptation =
-        lesson::LawAdaptation::yield_end;                // replays of older sessions: before_format_6
-    ToolYield tools_yield = ToolYield::mechanistic_law;  // replays of older sessions: the others
-    bool rounds_all_loaded_corners = true;               // replays of sessions before format 10: false
+    // Sessions of older formats are replayed under the rules of their time (SessionReader sets them).
+    lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;
+    ToolYield tools_yield = ToolYield::mechanistic_law;
+    bool rounds_all_loaded_corners = true;
+    bool allows_narrow_gaps = true;
     std::uint64_t seed = 1;
     double dt = 0.001;
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).
@@ -61,7 +62,8 @@ struct LessonOptions {
     std::string trainee;             // as session::Header::trainee
     std::optional<hand::Side> hand;  // the working hand; none: unknown
 
-    std::optional<bool> view_help;               // only of a simulated trainee
+    // A simulated trainee requests a view of the nut, as key V does. Empty: the trainee is a person.
+    std::optional<bool> view_help;
     double servo_rate = 0.0;                     // Hz, of the servo's thread; 0: virtual time
     force::OutputLimits device_limits;           // default: a large 6-DoF arm, such as a Virtuose
     std::optional<InterruptedLesson> continues;  // none: a lesson from its beginning
@@ -85,12 +87,13 @@ Header make_header(const SessionSetup& start, const LessonOptions& options);
 // prepare_session().
 void set_device_limits(const LessonOptions& options, SessionSetup& start);
 
-// A lesson that follows the ticks of the session's own servo, or of a station's.
+// A lesson and the ticks that it follows. The session computes them itself, or a station's servo does.
 struct LessonTracker {
     lesson::Lesson lesson;
     // Steps begun, minus steps taken back by undo. The servo saves one checkpoint when a step begins, so this
     // equals servo::State::checkpoint_count. With a station it is greater by one for a few ticks, until the
-    // station has saved the newest checkpoint; an undo in these ticks goes one step further back.
+    // station has saved the newest checkpoint. An undo in these ticks therefore restores the checkpoint
+    // before it.
     std::uint32_t steps_begun = 0;
 };
 
@@ -148,9 +151,9 @@ class LessonSession {
     // outputs. Fails also if they differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::TickInput& input,
                   const servo::Output& output);
-    // The number of checkpoints that must have been saved since the beginning, those that undo discarded
-    // included: checkpoints_saved(), plus one for a step whose checkpoint is still pending. A caller of
-    // repeat() sends one station::SaveCheckpoint whenever the number rises by one; tick() does it itself.
+    // The number of checkpoints that the servo must save in all: checkpoints_saved(), plus one while a step
+    // has begun whose checkpoint is not saved yet. A caller of repeat() sends the station one
+    // station::SaveCheckpoint whenever the number rises; tick() does it itself.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - session_setup_.state.checkpoint_count;
     }
@@ -158,8 +161,8 @@ class LessonSession {
     [[nodiscard]] std::uint32_t checkpoints_saved() const { return checkpoints_saved_; }
     // The tool of the due joint, for servo::TickInput::tool.
     [[nodiscard]] std::uint8_t due_tool() const;
-    // The servo::TickInput::checkpoint_action that restores the start of the step `steps` steps before the
-    // due one; 0: not allowed.
+    // Returns the value of servo::TickInput::checkpoint_action with which an undo goes back to the start of
+    // the due step (`steps` = 0) or of an earlier one; 0: not allowed.
     [[nodiscard]] std::uint8_t restore_action(std::size_t steps) const;
 
     // In the next tick, returns the nuts and the lesson to the start of the due step (0) or of the step

@@ -198,6 +198,7 @@ Result<SessionReader> SessionReader::open(const std::filesystem::path& path) {
                                                : ToolYield::mechanistic_law;
     header.judges_tool_choice = session.format >= 9;
     header.rounds_all_loaded_corners = session.format >= 10;
+    header.allows_narrow_gaps = session.format >= 11;
     if (session.format >= 2) {
         BOLT_TRY(read_obstacles(database, file, header.obstacle_names));
     }

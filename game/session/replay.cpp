@@ -67,6 +67,7 @@ Result<SessionSetup> restore_setup(const SessionReader& session) {
     options.law_adaptation = header.law_adaptation;
     options.tools_yield = header.tools_yield;
     options.rounds_all_loaded_corners = header.rounds_all_loaded_corners;
+    options.allows_narrow_gaps = header.allows_narrow_gaps;
     options.seed = header.seed;
     options.dt = header.dt;
     options.device_limits = *header.device_limits;

@@ -27,7 +27,7 @@ inline constexpr std::int64_t application_id = 0x424F4C54;  // "BOLT", in SQLite
 // published law; 6: lesson::LawAdaptation::yield_end, and the text may have parameters of the published law
 // for a joint type; 7: several tools; 8: the second wrench, and tools that yield; 9: tools yield under the
 // mechanistic law only, and the choice of a tool is judged; 10: rings, sockets and keys round six corners.
-inline constexpr std::int64_t format_version = 10, oldest_format = 1;
+inline constexpr std::int64_t format_version = 11, oldest_format = 1;
 
 // Angles are in radians, as in memory, so that reading returns the written bits. The columns `rehits` and
 // `order_errors` have older names: they hold JointResult::done_already and out_of_turn.

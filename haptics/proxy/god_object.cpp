@@ -24,6 +24,8 @@ constexpr double query_margin = 50e-6;       // m, margin of the query's band be
 constexpr double min_clearance_share = 0.2;  // of the skin; a motion that ends nearer is rejected
 // m, deepest penetration at which the finder first detects a feature.
 constexpr double finder_tolerance = 250e-6;
+// m; a greater violation (ConstrainedMotion) means that constraints contradict each other.
+constexpr double contradiction = 1e-6;
 constexpr int max_attempts = 4;  // motions tried from a pose
 constexpr int search_iterations = 24;
 
@@ -41,6 +43,10 @@ struct ConstraintSet {
 
     void add(const Constraint& row) {
         if (count < rows.size()) rows[count++] = row;
+    }
+    // Afterwards no constraint demands a retreat: standing still satisfies all of them.
+    void drop_retreats() {
+        for (Constraint& row : std::span(rows).first(count)) row.slack = std::max(row.slack, 0.0);
     }
 };
 
@@ -131,13 +137,22 @@ class Stepper {
         return step_.queries < p_.max_queries && (charged_cost_ < p_.max_query_cost || !has_moved_);
     }
 
-    Twist solve(const Twist& wanted, const ConstraintSet& rows) {
+    ConstrainedMotion constrain_once(const Twist& wanted, const ConstraintSet& rows) {
+        const Metric metric{p_.coupling.stiffness, p_.coupling.torsion};
+        ++step_.solves;
+        return constrain(metric, wanted, std::span(rows.rows).first(rows.count), {}, guess_);
+    }
+
+    Twist solve(const Twist& wanted, ConstraintSet& rows) {
         Twist motion = wanted;
         if (rows.count > 0) {
-            const Metric metric{p_.coupling.stiffness, p_.coupling.torsion};
-            const auto all = std::span(rows.rows).first(rows.count);
-            motion = constrain(metric, wanted, all, {}, guess_).motion;
-            ++step_.solves;
+            ConstrainedMotion found = constrain_once(wanted, rows);
+            const bool contradict = found.violation > contradiction && current_query_.nearest >= 0.0;
+            if (p_.allows_narrow_gaps && contradict) {
+                rows.drop_retreats();
+                found = constrain_once(wanted, rows);
+            }
+            motion = found.motion;
         }
         if (!first_motion_) first_motion_ = motion;
         guess_ = motion;

@@ -4,8 +4,9 @@
 // contact that appears or disappears causes no step in the force.
 //
 // Ruspini, Kolarov and Khatib, SIGGRAPH 1997 (the proxy); Ortega, Redon and Coquillart, IEEE TVCG 13(3), 2007
-// (six degrees of freedom, least constraint). The metric of the constraint is the coupling's stiffness: the
-// constrained tool rests where spring and contacts balance, and the spring's force is the contacts' force.
+// (six degrees of freedom, least constraint). Of all poses that contacts permit, the constrained tool takes
+// the one with the least energy of the coupling's spring. There spring and contacts balance, so the force of
+// the spring equals that of the contacts.
 #pragma once
 
 #include <limits>
@@ -37,9 +38,8 @@ struct ForceRateLimits {
     double tool_share_of_rendered = 0.05;  // of the rendered force
     double tool_share_of_maximum = 0.005;  // of the greatest force; applies if little is rendered
     double total_share_of_maximum = 0.08;  // of the greatest force
-    // Share of the limit of the tool's part that may be used in any direction. The rest may be used only in
-    // the direction of the last tick's change, because a change that alternates from tick to tick is felt as
-    // trembling.
+    // The tool's part may use this share of its limit in any direction, and the rest only in the direction of
+    // the last tick's change, because a change that alternates from tick to tick is felt as trembling.
     double any_direction_share = 0.3;
 };
 
@@ -50,16 +50,20 @@ struct GodObjectParameters {
     std::optional<collision::BoundingBox> box;  // bounds the tool as well, in its own frame
     double friction_coefficient = 0.15;
     // m, kept between tool and obstacles. The finder samples the surfaces. Between two samples the tool can
-    // be up to 0.19 mm nearer than the finder reports (measured by bolt-contact-validation, on the ZQ350), so
-    // the penetration stays below 0.1 mm.
+    // be up to 0.19 mm nearer than the finder reports (measured by bolt-contact-validation, on the ZQ350). Of
+    // these the skin leaves 0.08 mm of penetration.
     double skin = 110e-6;
     // m, how far a point of the tool may move until the next query. It may move further only if the last
-    // query found no obstacle within that distance.
+    // query found no obstacle on that longer way.
     double stride = 0.4e-3;
     double max_band = 5e-3;        // m, widest band of a query
     double recovery_speed = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
-    // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The cost of
-    // the first query of a tick, at the pose where the last tick ended, is not charged if its band is one
+    // A tool nearer to obstacles than the skin must retreat from them. If it is between two obstacles and
+    // cannot retreat from both, it need not, provided that it penetrates neither. False (sessions before
+    // format 11): it must; the contact forces then grow, and their friction holds the tool.
+    bool allows_narrow_gaps = true;
+    // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The first
+    // query of a tick, at the pose where the last tick ended, is free if it searches no further than one
     // stride.
     // `max_query_cost` applies after the first motion of the tick. Once the budget is spent, the tool moves
     // only as far as earlier queries proved free, and continues in the next tick.
@@ -82,7 +86,7 @@ struct GodObjectState {
 // Result of a step.
 struct GodObjectStep {
     double nearest = 0.0;      // m; lower bound of the distance at the end of the step
-    std::size_t contacts = 0;  // within the band, in the last query at a pose of the tool
+    std::size_t contacts = 0;  // within the band, at the last pose that the tool took
     int queries = 0;
     std::uint32_t query_cost = 0;
     int solves = 0;
@@ -96,8 +100,8 @@ GodObjectState start_god_object(const Pose& pose);
 // Advances by one tick of `dt` (s). A motion is accepted in one of two cases:
 //
 //   free    no point of the tool travels further than the distance to the nearest obstacle, less the skin
-//   short   no point travels further than `stride`, and a query at the end finds no contact that came nearer
-//           and is now nearer than a fifth of the skin
+//   short   no point travels further than `stride`, and at the end every contact that the motion approached
+//           is at least a fifth of the skin away
 //
 // In the second case a contact that did not come nearer is tolerated if it was at most 0.25 mm deep at the
 // start, because the finder can have missed it there. Ignores a pose that is not finite. Does not allocate.

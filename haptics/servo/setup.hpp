@@ -1,5 +1,5 @@
-// The constants of the servo tick. Built for each lesson, and again for the limits of a device. Between two
-// ticks change_tool() changes the tool in it.
+// The constants of the servo tick. Built for each lesson, and built again when a device is opened, because
+// its limits are part of it. Between two ticks change_tool() changes the tool in it.
 #pragma once
 
 #include <span>
@@ -38,11 +38,12 @@ struct NutGeometry {
     std::size_t tool = 0;           // index in Setup::tools of the tool that turns it
     // m above the bearing face, at which the tool's origin, or the fingertips, are when they hold the nut.
     double grip_height = 0.0;
-    double corner_pressure = 0.0;    // Pa at which the corners yield (haptics/joint/nut.hpp)
-    double start_gap = 0.0;          // m from bearing face to seat at nut angle 0
-    double lead = 0.0;               // m of advance per rad
-    double held_across_flats = 0.0;  // m, of the held part (joint::CounterHold); 0: it cannot turn
-    double held_distance = 0.0;      // m from the seat along −axis to the middle of that part
+    double corner_pressure = 0.0;  // Pa at which the corners yield (haptics/joint/nut.hpp)
+    double start_gap = 0.0;        // m from bearing face to seat at nut angle 0
+    double lead = 0.0;             // m of advance per rad
+    // The held part of a through-bolt: its head if the nut is turned, and its nut if the head is turned.
+    double held_across_flats = 0.0;  // m; 0: it cannot turn (joint::CounterHold)
+    double held_distance = 0.0;      // m from the seat along −axis to the middle of the held part
 };
 
 // The ratchet between the handle and the head of a tool. In one direction the head turns with the handle. In
@@ -74,8 +75,9 @@ collision::TurnedShape shape_of(const NutGeometry& nut);
 
 struct Wrench {
     collision::ToolHead head;
-    // rad, from the handle to the direction of the head: that of a jaw points to its throat, that of any
-    // other head to a corner of its hexagon. Turning an open-end wrench over negates it.
+    // rad, from the handle to the direction of the head. The direction of a jaw points to its throat; the
+    // direction of any other head points to a corner of its hexagon. Turning an open-end wrench over negates
+    // the angle.
     double head_angle = 0.0;
     double handle_length = 0.0;  // m
     double half_play = 0.0;      // rad of free rotation of the head on the hexagon, to either side
@@ -110,15 +112,19 @@ struct Setup {
     std::size_t tool = 0;  // index in `tools`
     Wrench wrench;
     double finger_stiffness = 5.0;   // N·m/rad
-    double finger_force = 65.0;      // N, sum of the tangential forces at which the fingertips slip
+    double finger_force = 65.0;      // N, sum of the tangential forces of all fingertips when they slip
     double hold_stiffness = 1000.0;  // N/m between an engaged tool and the nut's centre
     double hold_torsion = 5.0;       // N·m/rad that keeps an engaged wrench square to the bolt
     force::TorqueRendering torque_rendering;
     force::GuidingParameters guiding;
     force::OutputLimits limits;
-    // The work at the corner torque rounds the corners that bear: two with a jaw, six with any other head.
-    // False (sessions before format 10): two with any head.
+    // A head that slips over the corners of a nut (at the corner torque, joint/nut.hpp) removes material from
+    // the corners that bear: two with a jaw, six with any other head. False (sessions before format 10): two
+    // with any head.
     bool rounds_all_loaded_corners = true;
+    // The tool can move in a gap that is narrower than its safety distance (GodObjectParameters in
+    // haptics/proxy). False (sessions before format 11): friction holds it there.
+    bool allows_narrow_gaps = true;
 
     // N·m that fingertips can apply to the nut.
     [[nodiscard]] double finger_torque(const NutGeometry& nut) const {

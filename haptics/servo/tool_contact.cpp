@@ -266,6 +266,7 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
 
     set_coupling(setup, contact);
     contact.parameters.friction_coefficient = d.friction_coefficient;
+    contact.parameters.allows_narrow_gaps = setup.allows_narrow_gaps;
     return contact;
 }
 

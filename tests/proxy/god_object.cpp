@@ -211,6 +211,38 @@ TEST_CASE("God-object: an approaching obstacle pushes the tool and penetrates by
     CHECK(ticks == doctest::Approx(0.01 / (p.recovery_speed * dt)).epsilon(0.1));
 }
 
+TEST_CASE("God-object: a peg in a hole narrower than its skin slides out when it is pulled") {
+    GodObjectParameters p = frictionless();
+    p.friction_coefficient = 0.15;
+    CHECK(p.allows_narrow_gaps);
+    for (const double gap : {60e-6, 95e-6, 105e-6}) {
+        CAPTURE(gap);
+        // Six walls about z, each `gap` from the peg.
+        Scene scene;
+        const double half_width = 5e-3;
+        for (int i = 0; i < 6; ++i) {
+            const double angle = to_radians(60.0 * i);
+            const Vec3 outwards(std::cos(angle), std::sin(angle), 0.0);
+            scene.obstacles.push_back(HalfSpace{-outwards, -(half_width + gap)});
+            for (const double z : {0.0, 0.01}) scene.points.push_back(half_width * outwards + Vec3(0, 0, z));
+        }
+        const Pose pulled = at(Vec3(1e-3, 0.0, 0.02));
+        for (const bool allows : {false, true}) {
+            p.allows_narrow_gaps = allows;
+            GodObjectState state = start_god_object(Pose{});
+            const GodObjectStep step = lead(p, state, pulled, scene);
+            const double out = state.constrained_tool.position.z;
+            if (!allows) {
+                CHECK(out < 1e-3);  // sessions before format 11: their friction holds it
+                continue;
+            }
+            CHECK(step.nearest > 0.2 * p.skin);
+            // The pull of 1 N towards a wall holds back 0.15 N of the pull along z, which is 0.15 mm.
+            CHECK(out > 0.02 - 0.3e-3);
+        }
+    }
+}
+
 TEST_CASE("God-object: an invalid device pose changes neither tool nor force") {
     const GodObjectParameters p = frictionless();
     const Scene scene = point_among({HalfSpace{}});
