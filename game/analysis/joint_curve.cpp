@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "engine/base/math.hpp"
 
@@ -70,6 +71,7 @@ namespace {
 constexpr std::size_t max_visits = 64;  // of one joint; further visits are added to the last one
 constexpr std::size_t max_spans = 64;
 constexpr double min_work_angle = to_radians(0.5);
+constexpr double unmarked = std::numeric_limits<double>::quiet_NaN();
 constexpr double min_work_torque = 0.01;  // N·m, least torque that counts as work
 
 bool usable(const session::TickRecord& tick, std::size_t joints) {
@@ -94,6 +96,8 @@ CurveBuilder::CurveBuilder(CurveRequest request)
 
 void CurveBuilder::begin_visit(JointBuilder& joint, const CurvePoint& point, int pass) {
     std::vector<Visit>& visits = joint.curve.visits;
+    const bool seated = point.stage != joint::Stage::navigation;
+    if (turns_by_angle(pass) && seated && std::isnan(joint.curve.mark)) joint.curve.mark = point.angle;
     if (visits.size() == max_visits) {
         // Continue the last visit: feed its points to the decimator again.
         for (const CurvePoint& kept : visits.back().points) joint.points.add(kept);
@@ -134,8 +138,16 @@ void CurveBuilder::advance(JointBuilder& joint, const CurvePoint& point, double 
         extend(curve.stages, point.stage, curve.end_angle, point.angle);
         curve.end_angle = point.angle;
     }
-    if (std::isnan(curve.mark) && snug_torque > 0.0 && sign_ * point.torque >= snug_torque)
+    // As in the lesson (update_turned_torque()): a nut off its seat has no mark.
+    if (sign_ > 0.0 && point.stage == joint::Stage::navigation) curve.mark = unmarked;
+    const bool marks = request_.turns_by_angle.empty() || turns_by_angle(open_pass_);
+    if (marks && std::isnan(curve.mark) && snug_torque > 0.0 && sign_ * point.torque >= snug_torque)
         curve.mark = point.angle;
+}
+
+bool CurveBuilder::turns_by_angle(int pass) const {
+    const auto i = static_cast<std::size_t>(pass);
+    return i < request_.turns_by_angle.size() && request_.turns_by_angle[i];
 }
 
 void CurveBuilder::add_sample(JointBuilder& joint, CurvePoint point, double snug_torque) {

@@ -81,7 +81,9 @@ struct JointCurve {
     std::vector<StageSpan> stages;
     RunDown run_down;
     // rad, from which the tightening angle counts: where the snug torque was first met. In a lesson that
-    // turns nuts by an angle: where the first visit in such a pass began. NaN: not reached.
+    // turns nuts by an angle: where the first visit in such a pass began, or, if the nut was off its seat
+    // then, where that pass first met the snug torque. A nut that leaves its seat loses its mark, as in the
+    // lesson. NaN: no mark.
     double mark = std::numeric_limits<double>::quiet_NaN();
     double start_angle = 0.0;  // rad, when first held
     double end_angle = 0.0;    // rad, furthest in the direction of work
@@ -92,6 +94,7 @@ struct CurveRequest {
     double dt = 0.001;                // s
     joint::Direction direction = joint::Direction::tighten;
     std::vector<std::uint64_t> pass_begins;  // first ticks of the passes, ascending
+    std::vector<bool> turns_by_angle;        // by pass; empty: no pass of the lesson turns nuts by an angle
 };
 
 // Computes the curves from the ticks in order, in pieces of any size, in memory independent of the session's
@@ -115,6 +118,7 @@ class CurveBuilder {
     void end_visit(JointBuilder& joint);
     void add_sample(JointBuilder& joint, CurvePoint point, double snug_torque);
     void advance(JointBuilder& joint, const CurvePoint& point, double snug_torque);
+    [[nodiscard]] bool turns_by_angle(int pass) const;
 
     CurveRequest request_;
     double sign_ = 1.0;  // of nut angles and torques in the direction of work

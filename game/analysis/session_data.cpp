@@ -24,6 +24,9 @@ CurveRequest request_for(const SessionData& data, const std::vector<lesson::Less
     for (const lesson::LessonEvent& event : events)
         if (event.kind == lesson::EventKind::pass_begin) request.pass_begins.push_back(event.tick);
     std::sort(request.pass_begins.begin(), request.pass_begins.end());
+    if (data.direction() == joint::Direction::tighten && lesson::turns_by_angle(data.assembly))
+        for (const content::Pass& pass : data.assembly.passes)
+            request.turns_by_angle.push_back(pass.kind == content::PassKind::turn);
     return request;
 }
 
@@ -55,22 +58,6 @@ std::vector<lesson::JointResult> results_by_joint(const content::Assembly& assem
         results.back().id = joint.design.id;
     }
     return results;
-}
-
-// In a lesson that turns nuts by an angle, the tightening angle counts from the mark: where the nut rested
-// when the first such pass reached it.
-void set_marks(SessionData& data) {
-    if (data.direction() == joint::Direction::loosen || !lesson::turns_by_angle(data.assembly)) return;
-    const std::vector<content::Pass>& passes = data.assembly.passes;
-    const auto turns = [&](const Visit& visit) {
-        const auto pass = static_cast<std::size_t>(visit.pass);
-        return pass < passes.size() && passes[pass].kind == content::PassKind::turn;
-    };
-    for (JointCurve& curve : data.curves) {
-        const auto first = std::find_if(curve.visits.begin(), curve.visits.end(), turns);
-        curve.mark =
-            first == curve.visits.end() ? std::numeric_limits<double>::quiet_NaN() : first->begin_angle;
-    }
 }
 
 Result<SessionData> read_session(const session::SessionReader& session) {
@@ -106,7 +93,6 @@ Result<SessionData> read_session(const session::SessionReader& session) {
         });
     if (!read) return fail(read.error());
     data.curves = builder.finish();
-    set_marks(data);
     data.metrics = metrics.finish();
     Result<std::optional<servo::Timing>> timing = session.timing();
     if (!timing) return fail(timing.error());

@@ -100,6 +100,37 @@ TEST_CASE("Joint curves: snug angle, run-down and stages of a known joint") {
     }
 }
 
+TEST_CASE("Joint curves: the mark of a nut that left its seat is where a pass by angle met the snug torque") {
+    using joint::Stage;
+    const auto at = [](double degrees, double torque, Stage stage) {
+        return tick(0, degrees, torque, stage);
+    };
+    const auto mark_of = [](std::vector<session::TickRecord> first_pass,
+                            std::vector<session::TickRecord> second_pass) {
+        CurveRequest request{{10.0}, 0.001, joint::Direction::tighten, {0, first_pass.size()}};
+        request.turns_by_angle = {false, true};
+        CurveBuilder builder(request);
+        builder.add(0, first_pass);
+        builder.add(first_pass.size(), second_pass);
+        return to_degrees(builder.finish()[0].mark);
+    };
+    const std::vector<session::TickRecord> seated = {at(90, 2, Stage::navigation),
+                                                     at(100, 12, Stage::linearity)};
+    // Seated at the beginning of the second pass: its first angle.
+    CHECK(mark_of(seated, {at(101, 11, Stage::linearity), at(130, 40, Stage::linearity)}) ==
+          doctest::Approx(101.0));
+    // Off its seat at the beginning, and unseated during the pass: where the snug torque was met afterwards.
+    std::vector<session::TickRecord> unseated = seated;
+    unseated.push_back(at(80, -1, Stage::navigation));
+    CHECK(mark_of(unseated, {at(80, 1, Stage::navigation), at(104, 12, Stage::linearity),
+                             at(130, 40, Stage::linearity)}) == doctest::Approx(104.0));
+    CHECK(mark_of(seated, {at(101, 11, Stage::linearity), at(85, -1, Stage::navigation),
+                           at(99, 9, Stage::linearity), at(103, 12, Stage::linearity)}) ==
+          doctest::Approx(103.0));
+    CHECK(std::isnan(mark_of(seated, {})));
+    CHECK(std::isnan(mark_of(seated, {at(101, 11, Stage::linearity), at(85, -1, Stage::navigation)})));
+}
+
 TEST_CASE("Joint curves: loosening reverses the direction") {
     CurveRequest request;
     request.snug_torque.assign(1, 10.0);
