@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <set>
+#include <thread>
 
 namespace bolt::study {
 
@@ -103,6 +105,22 @@ Error participant_error(const fs::path& folder, std::string what, std::string ex
 
 std::string checksum_text(std::uint64_t checksum) { return fmt::format("{:016x}", checksum); }
 
+// Locks the study against other enrolments. Waits up to three seconds for one that is in progress; it takes
+// milliseconds.
+Result<session::FileLock> lock_enrolments(const fs::path& participants) {
+    constexpr int attempts = 150;
+    constexpr std::chrono::milliseconds pause(20);
+    for (int attempt = 1;; ++attempt) {
+        auto lock = session::FileLock::acquire(participants / "enrolment", participants.string());
+        const bool taken = !lock && lock.error().what == session::lock_is_taken;
+        if (taken && attempt == attempts)
+            return fail(participant_error(participants, "another program is enrolling a participant",
+                                          "one enrolment at a time"));
+        if (!taken) return lock;
+        std::this_thread::sleep_for(pause);
+    }
+}
+
 Result<fs::path> add_participant(const content::Study& study, const fs::path& study_folder,
                                  const NewParticipant& participant) {
     const fs::path participants = study_folder / participants_folder_name;
@@ -110,7 +128,7 @@ Result<fs::path> add_participant(const content::Study& study, const fs::path& st
     fs::create_directories(participants, problem);
     if (problem) return fail(participant_error(participants, "cannot be created: " + problem.message()));
     // Held until the journal exists, so that two programs do not take the same place.
-    BOLT_TRY_ASSIGN(const auto lock, session::FileLock::acquire(participants / "enrolment", "enrolment"));
+    BOLT_TRY_ASSIGN(const auto lock, lock_enrolments(participants));
     BOLT_TRY_ASSIGN(const auto states, list_participants(study, study_folder));
     BOLT_TRY(check_enrolment(study, study_folder, participant, states));
     std::set<std::size_t> places;

@@ -125,14 +125,8 @@ TEST_CASE("Study: one program at a time leads a participant, and two can enrol a
     for (int i = 0; i < 8; ++i) {
         const pid_t child = fork();
         if (child == 0) {
-            // The lock of the enrolment does not wait.
-            for (int attempt = 0; attempt < 2000; ++attempt) {
-                if (Participation::enrol(study, folder.path(), fmt::format("T-2{}", i), false,
-                                         folder.clock()))
-                    _exit(0);
-                usleep(2000);
-            }
-            _exit(1);
+            const std::string person = fmt::format("T-2{}", i);
+            _exit(Participation::enrol(study, folder.path(), person, false, folder.clock()) ? 0 : 1);
         }
         children.push_back(child);
     }
@@ -146,6 +140,12 @@ TEST_CASE("Study: one program at a time leads a participant, and two can enrol a
         places.insert(state.progress.place);
     CHECK(places.size() == 9);
     CHECK(*places.rbegin() == 8);
+
+    const auto lock =
+        required(session::FileLock::acquire(folder.path() / "participants" / "enrolment", "enrolment"));
+    const auto blocked = Participation::enrol(study, folder.path(), "T-30", false, folder.clock());
+    REQUIRE_FALSE(blocked);
+    CHECK(blocked.error().message().find("another program is enrolling a participant") != std::string::npos);
 }
 
 TEST_CASE("Study: a killed program loses no answer that was given") {
