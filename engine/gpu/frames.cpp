@@ -108,8 +108,9 @@ Result<VkDescriptorSet> FrameContext::descriptor_set(VkDescriptorSetLayout layou
 }
 
 void FrameContext::begin_timing(std::string name) {
-    if (!queries_ || timing_names_.size() == max_timings) return;
+    if (!queries_) return;
     open_timings_.push_back(timing_names_.size());
+    if (timing_names_.size() == max_timings) return;
     vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(),
                          static_cast<std::uint32_t>(2 * timing_names_.size()));
     timing_names_.push_back(std::move(name));
@@ -117,9 +118,11 @@ void FrameContext::begin_timing(std::string name) {
 
 void FrameContext::end_timing() {
     if (open_timings_.empty()) return;
-    const auto query = static_cast<std::uint32_t>(2 * open_timings_.back() + 1);
-    vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), query);
+    const std::size_t timing = open_timings_.back();
     open_timings_.pop_back();
+    if (timing == max_timings) return;  // begun when all queries were in use
+    const auto query = static_cast<std::uint32_t>(2 * timing + 1);
+    vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), query);
 }
 
 void FrameContext::read_timings() {

@@ -83,8 +83,9 @@ class FrameContext {
     RetiredResources retired_;
     QueryPool queries_;
     std::vector<std::string> timing_names_;  // names, in the order of the queries
-    std::vector<std::size_t> open_timings_;  // indices of timings that have begun and not ended
-    std::vector<PassTiming> timings_;        // of the previous use of this frame
+    std::vector<std::size_t>
+        open_timings_;                 // timings that have begun and not ended; max_timings: not measured
+    std::vector<PassTiming> timings_;  // of the previous use of this frame
 };
 
 class Frames {

@@ -189,8 +189,8 @@ Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<
         gpu::image_barrier(frame.commands(), targets.picture.get(), gpu::ResourceUse::color_target,
                            gpu::ResourceUse::transfer_from);
     }
-    statistics_ = {list.triangles, static_cast<std::uint32_t>(list.draws.size()),
-                   static_cast<std::uint32_t>(list.instances.size()), shadow_.static_map_redrawn()};
+    group.statistics = {list.triangles, static_cast<std::uint32_t>(list.draws.size()),
+                        static_cast<std::uint32_t>(list.instances.size()), shadow_.static_map_redrawn()};
     return {};
 }
 

@@ -17,9 +17,10 @@
 // shades: with forward lighting the same picture of the assembly zq350 took nearly three times as long on
 // lavapipe.
 //
-// Each pass is a class in passes/ with its pipelines. A batch has the views that one draw call
-// renders, one layer each: with multiview, all views of one size. If the driver's multiview is wrong
-// (multiview_works), each view is a batch with images of its own. Separate images are needed because lavapipe
+// Each pass is a class in passes/ with its pipelines. A group is the views of one call of Renderer::render;
+// they have one size. With multiview one draw call renders all views of the group, one layer each. If the
+// driver's multiview is wrong (multiview_works), each view is drawn by itself, into images of its own: the
+// group then has several batches of one view. Separate images are needed because lavapipe
 // of Mesa 22.3 always resolves into layer 0, even if the image view begins with another layer.
 #pragma once
 
@@ -41,22 +42,16 @@ struct RendererOptions {
     ShaderCode shaders;                    // replacements of built-in shaders
     enum class Multiview : std::uint8_t { where_it_works, always, never };
     Multiview multiview = Multiview::where_it_works;
-    // Compute shaders suit GPUs with few units for graphics. On lavapipe they are slower, because light.vert
-    // saves work that they repeat for each pixel; on a GPU they were not measured yet.
+    // Ambient occlusion and lighting: fragment or compute shaders. Compute shaders suit GPUs with few units
+    // for graphics. On lavapipe compute shaders are slower, because they repeat for each pixel what
+    // light.vert computes once; on a GPU they were not measured yet.
     ScreenStage screen_stage = ScreenStage::fragment;
     // The error allowed for coarser levels of detail, in pixels of the picture; 0: always draw all triangles.
     float level_error_px = 0.0F;
     bool keep_depth = false;  // required by depth()
-    // Distance beyond each edge of the picture within which parts are not culled, in half widths and heights,
-    // so that none is missing after move_eyes().
+    // Parts are drawn up to this distance beyond the edges of the picture, so that none is missing after
+    // move_eyes(). In half widths and half heights of the picture.
     float margin = 0.0F;
-};
-
-// Counts of the last call of Renderer::render.
-struct Statistics {
-    std::uint64_t triangles = 0;
-    std::uint32_t draws = 0, instances = 0;
-    bool static_shadow_redrawn = false;
 };
 
 class Renderer {
@@ -86,7 +81,9 @@ class Renderer {
     [[nodiscard]] ImageLayer depth(std::uint32_t view, std::uint32_t group = 0) const {
         return options_.keep_depth ? groups_.at(group).depth(view) : ImageLayer{};
     }
-    [[nodiscard]] const Statistics& statistics() const { return statistics_; }
+    [[nodiscard]] const Statistics& statistics(std::uint32_t group = 0) const {
+        return groups_.at(group).statistics;
+    }
     // Returns the pass with the deformed vertices of the last render(), for tests.
     [[nodiscard]] const DeformPass& deformed() const { return deform_; }
     // Writes compiled pipelines to the cache file for the next start.
@@ -117,7 +114,6 @@ class Renderer {
     gpu::ImageView white_array_;
     std::map<std::uint32_t, ViewGroup> groups_;
     std::optional<bool> multiview_works_;  // unknown until several views are drawn
-    Statistics statistics_;
 };
 
 // A second view in a corner of the picture, as `boltwright render --inset` draws it.

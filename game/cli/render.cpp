@@ -78,28 +78,6 @@ Result<const assets::Animation*> find_animation(const assets::Model& model, cons
                              : fmt::format("did you mean \"{}\"?", near));
 }
 
-struct TimedFrame {
-    double milliseconds = 0.0;
-    std::vector<gpu::PassTiming> passes;
-};
-
-std::string timings_json(const std::string& device, const render::Statistics& statistics,
-                         const std::vector<TimedFrame>& times) {
-    nlohmann::ordered_json json{
-        {"device", device}, {"triangles", statistics.triangles}, {"draws", statistics.draws}};
-    std::vector<double> sorted;
-    for (const TimedFrame& time : times) {
-        nlohmann::ordered_json passes = nlohmann::ordered_json::object();
-        for (const gpu::PassTiming& pass : time.passes)  // a pass has one entry for each view
-            passes[pass.name] = passes.value(pass.name, 0.0) + pass.milliseconds;
-        json["frames"].push_back({{"ms", time.milliseconds}, {"gpu_ms", passes}});
-        sorted.push_back(time.milliseconds);
-    }
-    std::sort(sorted.begin(), sorted.end());
-    json["median_ms"] = sorted[sorted.size() / 2];
-    return json.dump(1) + "\n";
-}
-
 // The eye of a view, moved to the right by `offset` m.
 render::Eye eye_of(const RenderOptions& options, const view::Viewpoint& view, const render::BoundingBox& box,
                    float aspect, float offset = 0.0F) {
@@ -237,6 +215,32 @@ Result<Drawing> make_drawing(const RenderOptions& options, const view::LoadedMod
     return drawing;
 }
 
+struct TimedFrame {
+    double milliseconds = 0.0;
+    std::vector<gpu::PassTiming> passes;
+};
+
+std::string timings_json(const Drawing& drawing, const std::vector<TimedFrame>& times) {
+    std::uint64_t triangles = 0, draws = 0;
+    for (std::uint32_t group = 0; group <= drawing.insets.size(); ++group) {  // the view and its insets
+        triangles += drawing.gpu.renderer->statistics(group).triangles;
+        draws += drawing.gpu.renderer->statistics(group).draws;
+    }
+    nlohmann::ordered_json json{
+        {"device", drawing.gpu.device->name()}, {"triangles", triangles}, {"draws", draws}};
+    std::vector<double> sorted;
+    for (const TimedFrame& time : times) {
+        nlohmann::ordered_json passes = nlohmann::ordered_json::object();
+        for (const gpu::PassTiming& pass : time.passes)  // a pass has one entry for each view
+            passes[pass.name] = passes.value(pass.name, 0.0) + pass.milliseconds;
+        json["frames"].push_back({{"ms", time.milliseconds}, {"gpu_ms", passes}});
+        sorted.push_back(time.milliseconds);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    json["median_ms"] = sorted[sorted.size() / 2];
+    return json.dump(1) + "\n";
+}
+
 // Draws one view as often as requested, and writes its picture and the times of its frames.
 Status draw_view(Drawing& drawing, const view::Viewpoint& view, std::size_t view_count) {
     const RenderOptions& options = drawing.options;
@@ -263,8 +267,7 @@ Status draw_view(Drawing& drawing, const view::Viewpoint& view, std::size_t view
     }
     BOLT_TRY(view::write_picture(view::side_by_side(pictures), file_of(options, view, view_count)));
     if (options.timings.empty()) return {};
-    return write_file(options.timings,
-                      timings_json(drawing.gpu.device->name(), drawing.gpu.renderer->statistics(), times));
+    return write_file(options.timings, timings_json(drawing, times));
 }
 
 Status render_all(RenderOptions options) {

@@ -245,7 +245,11 @@ expect 0 'both.png' "${draw[@]}" render "$sources/content/tools/wrench-13.glb" -
 check "--timings has an entry for each of the two frames" test "$(grep -c '"ms"' times.json)" -eq 2
 expect 0 'same.png' "${draw[@]}" render cover-m8 --view top --size 96x64 --png same.png
 check "a picture drawn again is the same" cmp same.png pictures/cover-top.png
-expect 0 'marked.png' "${draw[@]}" render cover-m8 --view top --inset front --labels --size 96x64 --validate --png marked.png
+expect 0 'marked.png' "${draw[@]}" render cover-m8 --view top --inset front --labels --size 96x64 --validate \
+    --timings marked.json --png marked.png
+expect 0 'alone.png' "${draw[@]}" render cover-m8 --view top --size 96x64 --timings alone.json --png alone.png
+draws_of() { sed -n 's/^ "draws": \([0-9]*\),$/\1/p' "$1"; }
+check "--timings counts the view and its inset" test "$(draws_of marked.json)" -gt "$(draws_of alone.json)"
 check "an inset and labels change the picture" bash -c '! cmp -s marked.png same.png'
 expect 2 '"front"' "${draw[@]}" render cover-m8 --view top --inset frontt --png never.png
 expect 2 'no joints' "${draw[@]}" render "$sources/content/tools/wrench-13.glb" --labels --png never.png

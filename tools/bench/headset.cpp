@@ -77,8 +77,9 @@ FrameCost run(HeadsetLesson& lesson, const view::WindowFrame& window, int frames
         unwrap(lesson.app->draw(frame, window));
         unwrap(lesson.gpu.frames->submit(frame));
         cost.record += milliseconds_since(recording);
-        cost.draws = lesson.gpu.renderer->statistics().draws;
-        cost.triangles = lesson.gpu.renderer->statistics().triangles;
+        const std::uint32_t group = window.immersive != nullptr ? view::immersive_group : 0;
+        cost.draws = lesson.gpu.renderer->statistics(group).draws;
+        cost.triangles = lesson.gpu.renderer->statistics(group).triangles;
     }
     unwrap(lesson.gpu.frames->finish());
     cost.whole = milliseconds_since(begin);

@@ -45,11 +45,19 @@ struct ImageLayer {
 };
 
 // The render targets of views of one size, kept from frame to frame.
+// Counts of the last call of Renderer::render for a group.
+struct Statistics {
+    std::uint64_t triangles = 0;
+    std::uint32_t draws = 0, instances = 0;
+    bool static_shadow_redrawn = false;
+};
+
 struct ViewGroup {
     std::vector<RenderTargets> targets;             // one per batch
     std::vector<gpu::TransientRange> frame_blocks;  // shared::FrameData of the last frame, one per batch
     VkExtent2D extent{};
     std::uint32_t views = 0, views_per_batch = 1;
+    Statistics statistics;
 
     [[nodiscard]] ImageLayer picture(std::uint32_t view) const {
         return {&targets[view / views_per_batch].picture, view % views_per_batch};
