@@ -25,7 +25,8 @@ struct EnvironmentLight {
 Result<EnvironmentLight> upload_environment(gpu::Device& device, const shading::RadianceImage& image,
                                             std::uint32_t size = 128);
 
-// Uploads the table of directional albedos (engine/shading/ggx.hpp): columns √cos, rows roughness.
+// Uploads the table of directional albedos (engine/shading/ggx.hpp): the column is the square root of the
+// cosine of the angle of view, the row is the roughness.
 Result<gpu::Image> upload_albedo_table(gpu::Device& device);
 
 enum class LabelPlacement : std::uint8_t {

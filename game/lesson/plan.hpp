@@ -1,4 +1,5 @@
-// The steps of a lesson, planned from the passes of the assembly.
+// The steps of a lesson, planned from the passes of the assembly. A pass is a sequence of steps over all
+// joints, such as: tighten all nuts to half of the target torque.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +26,8 @@ struct LessonStep {
     double torque = 0.0;
     double fraction = 1.0;  // of the joint's target
     int pass = 0;
-    // rad. turn: the angle to reach, counted from the mark. loosen: the angle to turn back; 0: until the nut
-    // is free.
+    // rad. turn: the angle to reach, counted from the mark (docs/glossary.md). loosen: the angle to turn
+    // back; 0: until the nut is free.
     double angle = 0.0;
 };
 

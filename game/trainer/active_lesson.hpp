@@ -36,8 +36,8 @@ struct PointerState {
     bool drags_hand = false;         // the drag of the left button moves the hand, not the view
     glm::dvec2 press_position{0.0};  // px, where the left button was pressed
     std::optional<std::size_t> nut;  // under the pointer
-    // The wrench at rest is under the pointer (helped hand), within reach of the hand (device or tracked
-    // hand), or both (dragged hand).
+    // A click would take the wrench at rest. With the helped hand the wrench must be under the pointer; with
+    // a device or a tracked hand it must be within reach of the hand; with the free hand both.
     bool can_take_wrench = false;
 };
 
@@ -52,7 +52,7 @@ struct LessonClock {
 struct Guidance {
     lesson::HintState hints;
     lesson::MistakeState mistakes;
-    std::optional<std::pair<std::size_t, Pose>> wrench_ghost;  // cached: its step and its pose
+    std::optional<std::pair<std::size_t, Pose>> wrench_ghost;  // cached, for a step (index) and its pose
     InstructionState instruction;
 };
 
@@ -84,7 +84,7 @@ struct ActiveLesson {
     render::Scene scene;
 
     std::vector<scene::Postures> postures;  // by tool of the setup
-    std::size_t handle_posture_index = 0;   // index in Postures::on_handle
+    std::size_t handle_posture_index = 0;   // the grip of the handle that the hand has: Postures::on_handle
     Vec3 shoulder{0.0};                     // m, the trainee's
     scene::Effort effort;                   // of the hand
     view::Palette palette;
@@ -104,8 +104,8 @@ struct ActiveLesson {
     std::vector<lesson::LessonEvent> events;  // not logged yet
 };
 
-// The component of the hand. After the ticks of a frame, write_hand() replaces it by the hand of the mouse or
-// of the station.
+// The component of the hand. haptic_system writes it in each tick; after the ticks of a frame write_hand()
+// overwrites it with the hand of the mouse or of the station.
 inline const world::WorkingHand& hand_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::WorkingHand>();
 }

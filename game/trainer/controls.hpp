@@ -38,7 +38,7 @@ enum class Action : std::uint8_t {
     turn_right,
     raise,
     lower,
-    mirror,  // with a headset: the window shows the next view::Mirror
+    mirror,  // with a headset: the window shows the next picture, such as both eyes (view::Mirror)
 };
 inline constexpr std::size_t action_count = static_cast<std::size_t>(Action::mirror) + 1;  // the last one
 

@@ -20,8 +20,8 @@ using world::WorkingHand;
 // Input of the mouse for one frame.
 struct MouseCommand {
     std::optional<std::size_t> nut;  // pressed since the last frame
-    bool take_wrench = false;        // the wrench at rest, or its key, was pressed
-    std::uint8_t tool = 0;           // that lies ready for an empty hand: servo::TickInput::tool
+    bool take_wrench = false;        // a click on the wrench at rest, or Action::tool on the keyboard
+    std::uint8_t tool = 0;           // lies ready for an empty hand; as servo::TickInput::tool
     bool lay_down = false;
     bool retreat = false;  // move away from the nuts, with whatever the hand holds
     bool button_down = false;
@@ -38,11 +38,11 @@ struct HelpedHand {
     std::optional<std::size_t> nut;  // joint that the hand moves to, is at or holds
     Pose pose;                       // of the tool, in the assembly's frame
     Pose rest;                       // where the wrench lies; an empty hand waits beside it
-    double trainee_side = -1.0;      // sign of the direction to the trainee along the y axis of `rest`
+    double trainee_side = -1.0;      // the trainee stands on the side of the y axis of `rest` with this sign
     double handle_angle = 0.0;       // rad, about the bolt, tightening positive
-    bool flipped = false;
-    double free_swing = 0.0;    // rad by which the handle can swing in this pull
-    double hover_height = 0.0;  // m above the nut, where the hand waits
+    bool flipped = false;            // an open-end wrench is turned over
+    double free_swing = 0.0;         // rad by which the handle can swing in this pull
+    double hover_height = 0.0;       // m above the nut, where the hand waits
 
     double stroke_begin = 0.0;  // rad, handle angle at the start of the pull or twist
     double twist_end = 0.0;     // rad, handle angle at which the fingers start to return
@@ -64,7 +64,8 @@ struct HelpedHand {
     } on_arrival = OnArrival::rest;
     std::optional<std::size_t> queued_nut;  // pressed while the hand was busy
     bool missed = false;                    // the last attempt did not engage the nut, or lost it
-    // Consecutive. Up to five make the next approach higher; from the second on it is from another side.
+    // Consecutive misses. Each of the first five makes the next approach start higher above the nut; from the
+    // second on the handle comes from another side.
     int misses = 0;
 };
 

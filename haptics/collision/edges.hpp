@@ -63,8 +63,8 @@ struct EdgeCache {
     FacingEdges facing;
 };
 
-// m, added to the search radius of a piece that had an edge within this distance at its last query, so that
-// the candidates stay valid longer.
+// m. If an edge was within this distance of a piece at its last query, this distance is added to the radius
+// of the next search, so that its candidates stay valid longer.
 inline constexpr double short_lookahead = 2e-3;
 
 // As `query_edges`, with the cached candidates while they are valid. `turned`: rad, the piece's accumulated

@@ -19,18 +19,18 @@ namespace bolt::collision {
 // A conservative bound plus the motion (PairCache) that was accumulated when the bound was computed. Subtract
 // the present accumulated motion to get the bound that holds now.
 struct DistanceBound {
-    double lower;  // m: signed distance of a point, or `EdgeQueryResult::clear_distance` of an edge piece
-    double turn;   // rad: `EdgeQueryResult::clear_turn`; infinite for points
+    double lower;  // m: signed distance of a point. Of a piece of an edge: EdgeQueryResult::clear_distance
+    double turn;   // rad, rotation up to which `lower` holds (EdgeQueryResult::clear_turn); infinite: any
 };
 
-// The last query of a sample or cluster: its middle in the surface's frame, the lower bound there, and the
-// accumulated turn. The motion since then is at most the displacement of the middle plus the sample's size
-// times the turn, which is a tighter bound than the tool's whole motion.
+// The last query of a sample or cluster: where it was in the surface's frame, the lower bound there, and the
+// accumulated turn. The motion since then is at most the displacement of its middle plus its size times the
+// turn, which is a tighter bound than the tool's whole motion.
 struct CachedQuery {
-    glm::vec3 at;    // m
+    glm::vec3 at;    // m, of the middle
     float lower;     // m
     double turned;   // rad
-    bool edge_near;  // edge pieces: an edge was within `short_lookahead`
+    bool edge_near;  // pieces of edges: another edge was within short_lookahead (edges.hpp)
 };
 
 // The cache of one solid's samples against the other's surface.
@@ -68,10 +68,10 @@ NarrowPhaseState make_narrow_phase(const CollisionWorld& world, const ToolShape&
 void clear_cache(NarrowPhaseState& state, const CollisionWorld& world, const ToolShape& tool);
 
 // Writes the contacts up to `band` (m) between the tool at `pose` and the enabled bodies of the world.
-// Penetration has no limit except for edges against edges (edges.hpp). Distances are those of the meshes,
-// computed in double; the equation of `Contact` holds to 1e-9 m. `complete_within` is the band if all
-// contacts were written or merged (contact.hpp), otherwise the distance up to which they are complete.
-// `query_cost` depends on the cache. Does not allocate.
+// Any depth of penetration is found, except that of edges in edges (edges.hpp). Distances are those of the
+// meshes, computed in double; the equation at the top of struct Contact holds to 1e-9 m. `complete_within` is
+// the band if all contacts were written or merged (contact.hpp), otherwise the distance up to which they are
+// complete. `query_cost` depends on the cache. Does not allocate.
 ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& tool, const Pose& pose,
                                  double band, NarrowPhaseState& state, std::span<Contact> out);
 
@@ -82,7 +82,7 @@ ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& t
 // penetration.
 
 // m. The full correction applies up to `smooth_near`, which exceeds GodObjectParameters::skin, and fades to
-// none at `smooth_far`: tilting planes further away has no benefit.
+// none at `smooth_far`, because contacts further away bear no force.
 inline constexpr double smooth_near = 0.16e-3, smooth_far = 0.36e-3;
 // rad, greatest angle between the smooth normal and the facets' normal.
 inline constexpr double max_smoothing_angle = 20.0 * pi / 180.0;

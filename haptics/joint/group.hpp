@@ -92,7 +92,7 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
 // held part and NutDrive::held_part_torque together resist less than the thread. Then the clamp force does
 // not change.
 //
-// Returns the step of the drive's click mechanism.
+// Returns what the click mechanism of the drive did in this step.
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
                      const NutDrive& drive, double dt);
 
@@ -104,8 +104,9 @@ void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::s
 struct CurveSample {
     double angle = 0.0;  // rad from the start of the run
     Stage stage = Stage::navigation;
-    double torque = 0.0;  // N·m; loosening negative. Law `published`: with the paper's signs
-    double clamp = 0.0;   // N
+    double torque =
+        0.0;  // N·m; loosening negative, under the law `published` with the signs of its equations
+    double clamp = 0.0;  // N
 };
 
 struct CurveOptions {

@@ -9,8 +9,8 @@
 //   T   torque: T = F P/2π ± r (F (μ_G r_t/cos β + μ_K r_b) + thread drag)  (design.hpp, Motosh)
 //   r   breakaway factor on friction: r = 1 + (static ratio − 1) b. The breakaway state b, 0 … 1, rises to 1
 //       at rest and falls to 0 while the nut slides
-//   Y   yield: F q ≤ Y(plastic). q is the von Mises stress of tension and thread torque over the tensile
-//       stress (design.hpp), Y the load capacity (PlasticCurve)
+//   Y   yield: F q ≤ Y(plastic). q is the von Mises stress of tension and thread torque, divided by the
+//       tensile stress alone (design.hpp); Y is the load capacity (PlasticCurve)
 #pragma once
 
 #include <algorithm>
@@ -31,10 +31,10 @@ namespace bolt::joint {
 //
 // This is Voce hardening with an exponent below one. Its slope is infinite at u = 0, so the torque curve
 // bends into yield without a kink. The scale u_c is fitted so that the load at 0.2 % plastic strain is R_p0.2
-// A_s. The form (ours) is fitted to the three strengths of ISO 898-1, with half the elongation after
-// fracture as uniform elongation.
+// A_s. The form is ours. It is fitted to the elastic limit, R_p0.2 and R_m of ISO 898-1; the uniform
+// elongation is half the elongation after fracture.
 struct PlasticCurve {
-    double elastic_load = 0.0;   // L_e, N: equivalent stress times A_s
+    double elastic_load = 0.0;   // L_e, N, at u = 0: equivalent stress times A_s
     double ultimate_load = 0.0;  // L_m
     double scale = 0.0;          // u_c, m
     double uniform = 0.0;        // u_u, m
@@ -58,14 +58,14 @@ struct MechanisticParameters {
     ScrewThread thread;
     TorqueLevers levers;     // of this bolt, with scatter and without wear
     double mu_thread = 0.0;  // of this bolt
-    double kappa = 1.5;
+    double kappa = 1.5;      // of the bolt's property class (PropertyClass::kappa)
     double start_gap = 0.0;  // m, nut face to seat at angle 0
     SeatSpring seat;
     PlasticCurve bolt;
     double strip_load = 0.0;      // N, axial load at which the threads in the nut or hole shear
     double strip_length = 0.0;    // m of travel until the threads are sheared off completely
-    double flow_time = 0.0;       // s, see flow() in mechanistic.cpp
-    double embedding = 0.0;       // m, f_Z at the reference load and above
+    double flow_time = 0.0;       // s, time constant of plastic flow (flow() in mechanistic.cpp)
+    double embedding = 0.0;       // m, f_Z of VDI 2230, at the reference load and above
     double embedding_time = 0.0;  // s
     double reference_load = 0.0;  // N, preload at 90 % yield; scales embedding and wear
     double static_ratio = 1.0;    // breakaway/running friction
@@ -80,11 +80,13 @@ struct MechanisticParameters {
     double insert_wear = 1.0;    // factor on the insert's torque with every use
     double running_drag = 0.0;   // N·m, mean drag of the free thread
     double weight_lead = 0.0;    // N·m, weight of the nut along the lead; negative if it helps tightening
-    double weight_friction = 0;  // N·m
+    double weight_friction = 0;  // N·m, friction of the nut's weight on the thread
     double ripple_phase[3] = {0.0, 0.0, 0.0};  // of the running drag over the angle
-    bool held_part_can_turn = false;           // CounterHold::second_wrench; without it the next two are 0
-    double held_lever = 0.0;                   // m, μ r_b under the held part
-    double held_drag = 0.0;                    // N·m, friction of the bolt's weight
+    // Only friction or a second wrench keeps the held part from turning (CounterHold::second_wrench). False:
+    // it cannot turn, and the next two members are 0.
+    bool held_part_can_turn = false;
+    double held_lever = 0.0;  // m, μ r_b under the held part
+    double held_drag = 0.0;   // N·m, friction of the bolt's weight under the held part
 };
 
 // `random` determines this bolt's friction and the ripple of its drag; equal seeds give equal bolts.

@@ -28,9 +28,9 @@ struct Engagement {
     // rad, angle of the tool about the bolt at the last tick, in −π … π; a rotation that tightens increases
     // it.
     double azimuth = 0.0;
-    // rad, the rotation of the nut at which the tool would apply no torque: the nut's rotation at engagement,
-    // plus the misalignment of the jaw, plus the tool's rotation about the bolt since then (not wrapped).
-    // With a ratchet, the rotation of its head counts.
+    // rad, rest position of the spring between tool and nut: at this rotation of the nut the tool applies no
+    // torque. The sum of the nut's rotation at engagement, the misalignment of the jaw, and the tool's
+    // rotation about the bolt since then (not wrapped; with a ratchet, that of its head).
     double hand_angle = 0.0;
     double ratchet_slack = 0.0;  // rad, 0 … one tooth, by which the handle is behind the ratchet's head
     // m, tool minus nut centre at engagement; decays with a time constant of 0.05 s.
@@ -42,7 +42,8 @@ struct Engagement {
 
     // Wrench with contact simulation.
     collision::HeadFit fit;
-    double corner_torque_share = 1.0;  // remaining share of the corner torque while the head slips, 0 … 1
+    // 0 … 1, share of the corner torque (joint/nut.hpp) that the corners still bear while the head slips.
+    double corner_torque_share = 1.0;
     double turned_beyond_corner_torque = 0.0;  // rad
 };
 
@@ -59,7 +60,7 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
                             const ToolPose& tool, Grip grip, Engagement& engagement);
 
 // A tool with a ratchet (Ratchet in setup.hpp) takes three steps in a tick: turn_tool() with the hand, the
-// joint's step with a drive that limit_to_pawl() limits, and settle_ratchet(). Without a ratchet
+// joint's step with a joint::NutDrive that limit_to_pawl() limits, and settle_ratchet(). Without a ratchet
 // limit_to_pawl() and settle_ratchet() do nothing.
 
 // Turns the engaged tool by `turned`, rad since the last tick, tightening positive. The handle of a ratchet
@@ -84,8 +85,8 @@ void settle_ratchet(const Wrench& wrench, double rotation, double play, Engageme
 // (haptics/joint/nut.hpp).
 //
 // The joint law alone, with its implicit step, acts about the bolt's axis; contacts act in the other five
-// directions. To separate them, contact queries get a hexagon that turns with the head once the play is used
-// up, and the moment of the contacts about the bolt is not rendered. If contacts drove the nut instead, its
+// directions. Two measures separate them. In contact queries the hexagon turns with the head once the play is
+// used up. The moment of the contacts about the bolt is not rendered. If contacts drove the nut instead, its
 // torque would depend on the position error of the god-object: 0.01 mm at a corner changes a torque of 100
 // N·m by 3 N·m. The force is continuous at engagement: inside the play both the law's torque and the moment
 // that is not rendered are zero.
@@ -94,9 +95,9 @@ void settle_ratchet(const Wrench& wrench, double rotation, double play, Engageme
 Pose pose_in_nut_frame(const NutGeometry& nut, const joint::JointState& joint, const ToolPose& tool);
 
 // One tick. The head engages a nut that it can turn if the head surrounds the hexagon and the two are aligned
-// within the play. To engage, the flats of head and hexagon must overlap by at least Jaw::bevel, or by 0.5 mm
-// for other heads. Releases the nut if the head no longer surrounds the hexagon or turns by more than
-// a hand can turn in a tick, or if the command is not a pose. `rounded`, by joint: m
+// within the play. To engage, the flats of head and hexagon must overlap along the bolt by at least
+// Jaw::bevel, or by 0.5 mm for other heads. Releases the nut if the head no longer surrounds the hexagon or
+// turns by more than a hand can turn in a tick, or if the command is not a pose. `rounded`, by joint: m
 // (joint::CornerGrip::rounded).
 void update_contact_engagement(const Setup& setup, std::span<const joint::JointState> joints,
                                std::span<const double> rounded, const ToolPose& tool, Engagement& engagement);
@@ -106,8 +107,8 @@ joint::NutDrive contact_drive(const Setup& setup, const NutGeometry& nut, double
                               const Engagement& engagement);
 
 // Call before the joint's step. A tool transmits at most Wrench::yield_torque; any further rotation of the
-// hand bends it permanently. Returns that rotation, rad, at least 0. If the corners of the nut bear less,
-// they yield instead (round_corners).
+// hand bends it permanently. Returns that rotation, rad, at least 0. If the corners of the nut yield at a
+// smaller torque, the tool does not bend (round_corners).
 double bend_tool(const Wrench& wrench, double rotation, joint::NutDrive& drive, Engagement& engagement);
 
 // Call after the joint's step. A head that turns beyond the corners' torque removes material in proportion to
