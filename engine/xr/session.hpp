@@ -83,7 +83,8 @@ constexpr const char* name(BaseSpace space) {
 }
 
 struct SessionOptions {
-    bool seated = false;         // prefer BaseSpace::seated, else stage, then floor
+    // True: the base space is `seated`. False: it is the first available of stage, floor and seated.
+    bool seated = false;
     bool submit_depth = true;    // if the runtime uses depth to correct the picture
     bool separate_eyes = false;  // a swapchain for each eye even if one with two layers can be created
 };
