@@ -38,7 +38,7 @@ struct EyeView {
 // The poses of the head and the eyes when a frame is displayed.
 struct HeadView {
     Pose head;
-    std::vector<EyeView> eyes;  // left, right; one for a mono display
+    std::vector<EyeView> eyes;  // left, right; one for a mono display; none: the poses are not known
     bool tracked = false;       // false: estimated or held; draw with it, but do not rely on it otherwise
 };
 
