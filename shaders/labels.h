@@ -9,9 +9,9 @@ namespace bolt::render::shared {
 
 struct LabelFrame {
     vec4 position;  // m; w: em size, m or pixels
-    vec4 right;     // unit vector along a line of text; w: LABEL_…
-    vec4 up;        // w: visible fraction behind parts
-    vec4 pixels;    // xy: offset on the screen, y up; z: m towards the eye, the occlusion margin
+    vec4 right;     // unit vector along a line of text, for LABEL_FIXED; w: LABEL_…
+    vec4 up;        // unit vector up the text, for LABEL_FIXED; w: visible fraction behind parts
+    vec4 pixels;    // xy: offset on the screen, pixels, y up; z: occlusion margin, m
 };
 
 #define LABEL_FIXED 0.0      // in the plane of right and up
@@ -24,7 +24,7 @@ struct LabelQuad {
     vec4 uv;     // in the atlas, in the same order; for a background half of its width and height, em
     vec4 color;  // linear, straight alpha
     float grow;  // em: extent beyond the glyph's edge; for a background its corner radius
-    uint label;
+    uint label;  // index of its LabelFrame
     uint plate;  // 1: a background
     uint unused;
 };

@@ -23,26 +23,28 @@ struct View {
 
 struct Light {
     vec4 position;   // w: 0 directional, 1 point, 2 spot
-    vec4 direction;  // in which the light shines; w: range, 0: unlimited
+    vec4 direction;  // in which the light shines; w: range, m, 0: unlimited
     vec4 color;      // times intensity; w unused
-    vec4 cone;       // spot: scale and offset of the cosine
+    vec4 cone;       // spot: its light is scaled by clamp(x · cosine of the angle from the axis + y, 0, 1)²
 };
 
 #define MAX_VIEWS 4
 #define MAX_LIGHTS 8
 
+// The values that all draws of a batch of views share.
 struct FrameData {
     View views[MAX_VIEWS];
     Light lights[MAX_LIGHTS];
-    vec4 diffuse[9];         // environment: shading::Harmonics
+    vec4 diffuse[9];         // environment: nine spherical harmonics, rgb (shading::Harmonics)
     mat4 shadow_from_world;  // of light 0, if it casts a shadow
     vec4 environment;        // x: intensity, y: rotation about Y, rad, z: highest specular level, w: exposure
     vec4 picture;            // width, height, 1/width, 1/height
-    vec4 occlusion;      // x: radius of ambient occlusion, m; y: error of levels of detail, m per m distance
+    // x: radius of ambient occlusion, m; y: allowed error of levels of detail, m per m of distance
+    vec4 occlusion;
     vec4 background;     // rgb; w: 1 show it, 0 show the environment
     vec4 cut;            // focus of the cut-away, world; w: radius, m
     float cut_strength;  // 0: no fading … 1: full fading
-    float outline_px;    // width of outlines
+    float outline_px;    // width of outlines, pixels
     uint shadows;        // 1: light 0 casts a shadow
     uint unused;
 };
@@ -50,9 +52,9 @@ struct FrameData {
 struct Instance {
     mat4 world_from_object;
     vec4 tint;     // w: fraction of the material's colour that rgb replaces
-    vec4 outline;  // w: opacity
+    vec4 outline;  // colour of the line around the object; w: opacity, 0: no line
     uint flags;    // INSTANCE_…
-    float opacity;
+    float opacity;  // below 1: a ghost
     uint unused_a;
     uint unused_b;
 };
@@ -62,7 +64,7 @@ struct Instance {
 struct Material {
     vec4 base_color;
     vec4 emissive;        // including strength; w: alpha cutoff
-    vec4 specular_color;  // rgb; w: specular
+    vec4 specular_color;  // w: strength of the specular reflection
     float metallic;
     float roughness;
     float coat;
@@ -75,23 +77,24 @@ struct Material {
     uint unused_a;
     uint unused_b;
     uint unused_c;
-    // Two rows per map: base, metallic-roughness, normal, occlusion, emissive, coat, coat roughness, coat
-    // normal, anisotropy, specular, specular colour. w of the first row: the set of texture coordinates.
+    // For each map the two rows of the matrix that transforms its texture coordinates. Maps: base colour,
+    // metallic-roughness, normal, occlusion, emissive, coat, coat roughness, coat normal, anisotropy,
+    // specular, specular colour. w of the first row: the set of texture coordinates.
     vec4 uv[22];
 };
 
 // Push constants of deform.comp: a part, and the positions of its data and results in the buffers.
 struct DeformPart {
-    uint vertices;
-    uint first_vertex;
-    uint first_influence;
-    uint skinned;       // 1: has joints
-    uint first_delta;   // index in floats
-    uint delta_floats;  // per vertex
-    uint targets;
-    uint own_normals;  // 0: use face normals
-    uint positions;    // word offset of the result
-    uint attributes;   // word offset of the result
+    uint vertices;         // number of vertices
+    uint first_vertex;     // index into the model's vertices
+    uint first_influence;  // index into the model's influences (joints and weights of a vertex)
+    uint skinned;          // 1: has joints
+    uint first_delta;      // index into the displacements by morph targets, in floats
+    uint delta_floats;     // floats per vertex and target: 3 position, 6 with normal, 9 with tangent
+    uint targets;          // number of morph targets
+    uint own_normals;      // 0: use face normals
+    uint positions;        // where the positions are written, in words of 4 bytes
+    uint attributes;       // where the attributes are written, in words of 4 bytes
 };
 
 // Bits of the specialization constant of scene pipelines. Features that a part does not need are compiled out
@@ -106,7 +109,7 @@ struct DeformPart {
 #define SCENE_TANGENTS 64u
 #define SCENE_COAT 128u
 #define SCENE_ANISOTROPY 256u
-#define SCENE_MASK 512u                  // transparent below the cutoff
+#define SCENE_MASK 512u                  // transparent where alpha is below the cutoff
 #define SCENE_BLEND 1024u                // opacity is the base colour's alpha
 #define SCENE_TINTED 2048u               // tinted, translucent or unlit
 #define SCENE_SHADOW 4096u               // light 0 casts a shadow

@@ -15,17 +15,16 @@ struct FileLine {
     std::string_view file;
     int line = 0;  // from 1
 
-    // `column`: as Error::column.
+    // Returns an error with the code bad_content. `column`: from 1, in characters; 0: unknown.
     [[nodiscard]] tl::unexpected<Error> error(int column, std::string what, std::string expected) const;
 };
 
 struct CsvField {
     std::string text;  // unquoted, without surrounding blanks
-    int column = 1;    // of its first character, as Error::column counts
+    int column = 1;    // column of its first character: from 1, in characters
 };
 
-// Returns the column of the byte at `offset` of a line in UTF-8, as Error::column counts: from 1, in
-// characters.
+// Returns the column of the byte at `offset` in a line of UTF-8 text: from 1, in characters.
 int column_at(std::string_view line, std::size_t offset);
 
 // Splits one line without its line end. Fails for a quote that is not closed, and for text after a closing

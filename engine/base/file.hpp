@@ -29,8 +29,8 @@ Status write_private_file(const std::filesystem::path& path, std::string_view te
 // Fails if both paths name the same file, because writing the output would destroy the input.
 Status require_different_files(const std::filesystem::path& input, const std::filesystem::path& output);
 
-// The folder of the user's data by the XDG base directory specification; it may not exist yet. Fails if the
-// environment defines none.
+// Returns the folder of this program for the user's data: $XDG_DATA_HOME/boltwright, else
+// ~/.local/share/boltwright. The folder may not exist yet. Fails if neither XDG_DATA_HOME nor HOME is set.
 Result<std::filesystem::path> user_data_folder();
 
 // Distinguishes two versions of a file without reading them. A missing file is a version too.

@@ -96,7 +96,7 @@ class TripleBuffer {
 
   private:
     static constexpr std::uint8_t index_mask = 3, unseen_bit = 4;
-    static constexpr std::size_t cache_line = 64;  // bytes, as above
+    static constexpr std::size_t cache_line = 64;  // bytes; avoids false sharing
     struct alignas(cache_line) Slot {
         T value;
     };

@@ -11,6 +11,7 @@ namespace bolt {
 
 class Random {
   public:
+    // Equal seeds and streams give equal sequences; each stream has a sequence of its own.
     explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
 
     std::uint32_t bits();                     // 32 uniform bits

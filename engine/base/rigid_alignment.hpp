@@ -40,7 +40,7 @@ struct AlignmentLimits {
     // Least ratio of the second largest to the largest spread (standard deviation along a principal axis).
     double min_width = 0.1;
 };
-// Accept any scale; for points whose scale has been checked.
+// Limits that accept any scale, for points whose scale has been checked.
 inline constexpr AlignmentLimits any_scale{std::numeric_limits<double>::infinity(), 0.1};
 
 struct RigidAlignment {
@@ -72,13 +72,14 @@ struct PivotFit {
     Vec3 tip{0.0};     // m, in the frame of the tool
     Vec3 pivot{0.0};   // m, the point, in the frame of the poses
     double rms = 0.0;  // m, of the distances between the tip and the point
-    // The spread of the orientations: the standard deviation, over the poses, of that unit vector fixed to
-    // the tool which varies least. Noise of standard deviation s on each axis of n poses gives an error of
-    // the tip below s / (√n · orientation_spread) on each axis. 0: all turns have one axis, and the tip may
-    // be anywhere along it.
+    // The spread of the orientations. Each direction fixed to the tool has a standard deviation over the
+    // poses; this is the least of them. Noise of standard deviation s on each axis of n poses gives an error
+    // of the tip below s / (√n · orientation_spread) on each axis. 0: all turns have one axis, and the tip
+    // may be anywhere along it.
     double orientation_spread = 0.0;
 };
-// PivotFit::orientation_spread of turns that are spread evenly from −15° to 15° about each of two axes.
+// The least PivotFit::orientation_spread that fit_pivot() accepts: that of turns spread evenly from −15° to
+// 15° about each of two axes.
 inline constexpr double min_orientation_spread = 0.15;
 
 // The tip t and the point c with the least sum of |R t + p − c|² over the poses (R, p), in closed form:

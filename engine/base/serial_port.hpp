@@ -23,7 +23,7 @@ class SerialPort {
 
     // Waits at most `timeout` seconds for bytes; empty on timeout. Error::lost: the port has disappeared.
     Result<std::vector<std::uint8_t>> read(double timeout);
-    // Writes all bytes or fails. Times out after one second without progress.
+    // Writes all bytes or fails with Error::lost, also after one second without progress.
     Status write(const std::vector<std::uint8_t>& bytes);
 
   private:

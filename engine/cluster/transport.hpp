@@ -12,7 +12,7 @@
 
 namespace bolt::cluster {
 
-inline constexpr std::size_t max_message = 64U << 20;  // bytes
+inline constexpr std::size_t max_message = 64U << 20;  // bytes; receiving a longer one fails
 
 class Transport {
   public:

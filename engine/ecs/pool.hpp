@@ -14,7 +14,7 @@ namespace bolt::ecs {
 // Identifies something that has components: a slot index and the slot's generation. A stale entity never
 // refers to the next occupant of its slot.
 struct Entity {
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    static constexpr std::uint32_t none = ~std::uint32_t{0};  // the index of no entity
 
     std::uint32_t index = none;
     std::uint32_t generation = 0;

@@ -114,6 +114,7 @@ class Registry {
         return pool<Component>().insert(entity, std::forward<Arguments>(arguments)...);
     }
 
+    // Returns false if the entity has no such component.
     template <class Component>
     bool remove(Entity entity) {
         return pool<Component>().erase(entity);

@@ -96,14 +96,15 @@ struct DeviceCandidate {
     std::string driver;
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     std::uint32_t api_version = 0;
-    std::vector<std::string> missing;  // required features and extensions that the device lacks
+    std::vector<std::string> missing;  // required features, limits and queues that the device lacks
     std::uint64_t device_memory = 0;   // bytes of the largest device-local heap
     bool presents = true;              // can present to the requested surface; true if none is requested
 };
 
 struct DeviceChoice {
-    int index = -1;                    // -1: no device is usable
-    std::vector<std::string> reasons;  // one line per candidate: "used", or why it is not used
+    int index = -1;  // -1: no device is usable
+    // One line per candidate: name, type, driver, and "used" or why it is not used.
+    std::vector<std::string> reasons;
 };
 
 // Chooses by type (discrete, integrated, virtual, software), then by memory size. If `wanted` is not empty,
@@ -122,15 +123,17 @@ struct DeviceOptions {
 // The devices of this machine and the choice among them; printed by `doctor`.
 struct DeviceSurvey {
     std::vector<VkPhysicalDevice> physical;
-    std::vector<DeviceCandidate> candidates;
+    std::vector<DeviceCandidate> candidates;  // parallel to `physical`
     DeviceChoice choice;
 };
+// Lists and describes the devices. The choice ignores DeviceOptions::creator.
 Result<DeviceSurvey> survey_devices(const Instance& instance, const DeviceOptions& options);
 
 // The logical device, its only queue and its memory. It has a fixed address and must outlive everything
 // created from it.
 class Device {
   public:
+    // Fails with ErrorCode::no_device if no device can be used; the error says why for each.
     static Result<std::unique_ptr<Device>> create(const Instance& instance, const DeviceOptions& options);
 
     Device(const Device&) = delete;

@@ -54,14 +54,14 @@ class FrameContext {
     // buffer grows on demand.
     Result<TransientRange> allocate(VkDeviceSize size);
 
-    // Allocates a descriptor set with the same lifetime.
+    // Allocates a descriptor set, which is also valid until this frame is begun again.
     Result<VkDescriptorSet> descriptor_set(VkDescriptorSetLayout layout);
 
     // Destroys the resource when the GPU has completed this frame.
     void retire(RetiredResources::Resource resource) { retired_.add(std::move(resource)); }
 
-    // Measure the GPU time of the commands recorded in between. They do nothing on GPUs without timestamps,
-    // and after 64 timings in a frame.
+    // Measure the GPU time of the commands recorded in between; pairs may be nested. They do nothing on GPUs
+    // without timestamps, and after 64 timings in a frame.
     void begin_timing(std::string name);
     void end_timing();
 

@@ -12,6 +12,7 @@
 
 namespace bolt::gpu {
 
+// A resource that a shader declares. `count`: the number of array elements, 1 without an array.
 struct Binding {
     std::uint32_t set = 0, binding = 0, count = 1;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_MAX_ENUM;
@@ -32,6 +33,7 @@ struct Reflection {
     std::uint32_t push_constants = 0;  // bytes
 };
 
+// Fails if the words are not SPIR-V, or if the stage is not vertex, fragment or compute.
 Result<Reflection> reflect(std::span<const std::uint32_t> spirv);
 
 struct Shader {
@@ -57,10 +59,10 @@ struct GraphicsInfo {
     const Shader* fragment = nullptr;  // null: depth only
     std::vector<VertexStream> streams;
     std::vector<std::uint32_t> strides;  // bytes, one per vertex buffer
-    std::vector<VkFormat> colors;
+    std::vector<VkFormat> colors;        // formats of the colour targets
     VkFormat depth = VK_FORMAT_UNDEFINED;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    std::uint32_t view_mask = 0;  // multiview
+    std::uint32_t view_mask = 0;  // bit i: multiview draws view i; 0: no multiview
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;
     bool depth_test = true, depth_write = true;

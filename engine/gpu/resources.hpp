@@ -92,11 +92,10 @@ class Image {
 struct SamplerInfo {
     VkFilter filter = VK_FILTER_LINEAR;
     VkSamplerAddressMode address = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    // These override the two values above.
-    std::optional<VkFilter> min_filter;
-    std::optional<VkSamplerMipmapMode> mips;
-    std::optional<VkSamplerAddressMode> address_v;
-    bool compares = false;    // for shadow maps: returns whether reference ≤ depth
+    std::optional<VkFilter> min_filter;             // for minification; none: `filter`
+    std::optional<VkSamplerMipmapMode> mips;        // filter between mips; none: according to `filter`
+    std::optional<VkSamplerAddressMode> address_v;  // for v; none: `address`
+    bool compares = false;                          // for shadow maps: returns whether reference ≤ depth
     float anisotropy = 1.0F;  // a value above 1 is used on GPUs that support it, but not in software
 };
 Result<Sampler> make_sampler(const Device& device, const SamplerInfo& info);
@@ -133,12 +132,13 @@ struct ImageRange {
     std::uint32_t first_layer = 0, layers = VK_REMAINING_ARRAY_LAYERS;
 };
 
+// Lets the GPU wait for the use `from`, makes its writes visible to the use `to`, and changes the image's
+// layout. The contents are lost if `from` is undefined or acquired.
 void image_barrier(VkCommandBuffer commands, VkImage image, ResourceUse from, ResourceUse to,
                    const ImageRange& range = {});
 
-// The same for an image whose contents are not needed any more: waits for the last use, then discards the
-// contents. Use it for targets that are redrawn in every frame, because the GPU may still read the previous
-// frame's contents.
+// As image_barrier(), but discards the contents: waits for the last use, then changes the layout. Use it for
+// targets that are redrawn in every frame, because the GPU may still read the previous frame's contents.
 void image_barrier_discarding(VkCommandBuffer commands, VkImage image, ResourceUse last, ResourceUse to,
                               const ImageRange& range = {});
 

@@ -21,6 +21,7 @@ struct SurfaceSupport {
     std::vector<VkPresentModeKHR> modes;
 };
 
+// Fills `support`; returns the result of the first Vulkan call that fails.
 VkResult query_surface(VkPhysicalDevice gpu, VkSurfaceKHR surface, SurfaceSupport& support);
 
 struct SwapchainRequest {
@@ -42,7 +43,7 @@ struct SwapchainPlan {
 // over the surface's capabilities, so that tests need no window.
 Result<SwapchainPlan> plan_swapchain(const SurfaceSupport& support, const SwapchainRequest& request);
 
-// Creates the window's surface, at the start and after a loss.
+// Creates a surface of the window. Swapchain calls it after the loss of its surface.
 using MakeSurface = std::function<Result<Surface>()>;
 
 // A picture for a window, or for a part of it.
@@ -86,7 +87,8 @@ class Swapchain {
     // means that nothing can be presented now. `window`: the window's size in pixels. Call it between frames.
     Result<VkExtent2D> prepare(VkExtent2D window);
 
-    // Presents one picture that fills the window; see gpu::present() above.
+    // Presents one picture in this window: copies it, submits the frame, presents. Returns false if the
+    // picture was drawn but dropped. See gpu::present() above.
     Result<bool> present(Frames& frames, FrameContext& frame, const ShownPicture& picture, bool waits = true);
 
     // The choices for the current window, with reasons.

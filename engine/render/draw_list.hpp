@@ -16,7 +16,7 @@ struct PipelineKind {
     bool forward = false;
     bool ghost = false;  // blended, and only its nearest layer is visible
     bool double_sided = false;
-    std::uint32_t features = 0;  // SCENE_… bits
+    std::uint32_t features = 0;  // SCENE_… bits (shaders/shared.h)
     friend auto operator<=>(const PipelineKind&, const PipelineKind&) = default;
 };
 
@@ -32,8 +32,8 @@ using DeformedParts = std::map<std::pair<const Deformation*, const MeshPart*>, D
 struct Draw {
     PipelineKind kind;
     const GpuModel* model = nullptr;
-    std::uint32_t part = 0, level = 0;
-    std::uint32_t material = 0;  // index into the list's materials
+    std::uint32_t part = 0, level = 0;  // indices into GpuModel::parts and MeshPart::levels
+    std::uint32_t material = 0;         // index into the list's materials
     bool outlined = false;
     std::uint32_t first_instance = 0, instances = 0;
     DeformedPart deformed;
@@ -46,7 +46,7 @@ inline constexpr std::size_t max_materials = 32768;
 struct DrawList {
     std::vector<shared::Instance> instances;
     std::vector<shared::Material> materials;  // of all models
-    std::vector<Draw> draws;                  // in drawing order, see draw_list.cpp
+    std::vector<Draw> draws;                  // opaque parts, then blended ones from far to near
     std::uint32_t features = 0;               // SCENE_… bits that parts in the geometry buffer need
     std::vector<BoundingBox> forward;         // in world space, of parts that are shaded while drawn
     std::vector<BoundingBox> outlined;        // in world space, of outlined parts
@@ -58,7 +58,7 @@ struct DetailLimits {
     float height_px = 0.0F;   // height of the picture
     float allowed_px = 0.0F;  // largest error on the screen, for the nearest eye
     float allowed_m = 0.0F;   // largest error in the scene, used if there are no eyes (shadow map)
-    float margin = 0.0F;      // RendererOptions::margin
+    float margin = 0.0F;      // RendererOptions::margin: distance beyond the picture's edges that is drawn
 };
 
 // Objects fade inside a cone from the eye to the cut-away's focus. Returns the box of the sphere at the

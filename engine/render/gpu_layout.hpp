@@ -13,11 +13,11 @@ struct Vertices {
     std::vector<VertexAttributes> attributes;
     std::vector<std::uint32_t> sources;  // for each vertex, the primitive's vertex that it was made from
     std::vector<std::uint32_t> indices;
-    bool tangents = false;
+    bool tangents = false;  // `attributes` have tangents
 };
 
-// Converts a primitive of any topology to triangles. Without normals, every triangle gets vertices of its
-// own. `material` determines whether missing tangents are generated.
+// Converts a primitive to triangles; points and lines give none. Without normals, every triangle gets
+// vertices of its own. `material` determines whether missing tangents are generated.
 Vertices make_vertices(const assets::Primitive& primitive, const assets::Material& material);
 
 // Appends a copy of vertex `source` with another normal.

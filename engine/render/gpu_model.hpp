@@ -57,8 +57,10 @@ struct Deformable {
     std::uint32_t first_delta = 0;      // index into the model's deltas, in floats; target by target
     std::uint32_t delta_floats = 0;     // per vertex: 3 position, 6 with normal, 9 with tangent
     bool own_normals = true;            // false: flat normals of triangles without shared vertices
-    std::vector<BoundingBox> joints;    // of the vertices that each joint moves, in bind pose; may be empty
-    std::vector<BoundingBox> targets;   // of the displacements by each morph target at weight 1
+    // For each joint, the box around the vertices that it moves, in bind pose; an empty box if it moves none.
+    std::vector<BoundingBox> joints;
+    // For each morph target, the box around its displacements at weight 1.
+    std::vector<BoundingBox> targets;
 };
 
 // The deformation data of all parts of a model, as uploaded to the GPU.
@@ -79,14 +81,15 @@ Deformable make_deformable(const assets::Primitive& primitive, std::span<const s
 // deformation.
 BoundingBox bounds(const BoundingBox& rest, const Deformable& part, const Deformation* deformation);
 
-// Return the largest scale of the joints, and whether the joints mirror the part.
+// Return the largest scale of the joints, and whether the joints mirror the part; 1 and false without a
+// deformation or without joints.
 float scale_of(const Deformation* deformation);
 bool mirrors(const Deformation* deformation);
 
 // The triangles of a part at one level of detail.
 struct LevelRange {
     std::uint32_t first_index = 0, index_count = 0;
-    float error = 0.0F;  // m in the mesh's frame: assets::LevelOfDetail::error
+    float error = 0.0F;  // m in the mesh's frame: estimated largest distance from the finest level
 };
 
 // The unit of a draw call: a primitive of a mesh.
@@ -104,9 +107,10 @@ struct MeshRange {
     std::uint32_t first = 0, count = 0;  // parts
 };
 
-// The textures of a material's maps; -1: none. The order is that of shared::Material::uv.
+// The textures of a material, and how its parts are drawn.
 struct MaterialMaps {
-    // Indices into the model's textures.
+    // Indices into the model's textures; -1: none. Order: base colour, metallic-roughness, normal, occlusion,
+    // emissive, coat, coat roughness, coat normal, anisotropy, specular, specular colour.
     std::array<int, 11> textures{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
     bool blends = false, double_sided = false;
 };
@@ -130,7 +134,7 @@ struct GpuModel {
     std::vector<std::uint32_t> features;      // SCENE_… bits, parallel to materials
     std::vector<MaterialMaps> maps;           // parallel to materials
     std::vector<GpuTexture> textures;
-    std::uint64_t triangles = 0;
+    std::uint64_t triangles = 0;  // of the finest levels
 };
 
 // The attributes of a vertex apart from its position.

@@ -34,7 +34,7 @@ class HotShaders {
 
     // Returns all shaders at the first call, and whenever one of them or of its includes has changed since
     // the last call; otherwise nullopt. An error contains the compiler's output; shaders compiled before stay
-    // valid. `now`: see FileWatch::changed.
+    // valid. `now`: s, from any monotonic clock.
     std::optional<Result<ShaderCode>> changed(double now);
 
   private:

@@ -17,8 +17,8 @@ struct OverlayVertex {
 };
 
 struct OverlayTexture {
-    ImageLayer picture;                                // of an array image
-    gpu::ResourceUse use = gpu::ResourceUse::sampled;  // before and after drawing
+    ImageLayer picture;                                // its image must have an array view (ImageInfo::array)
+    gpu::ResourceUse use = gpu::ResourceUse::sampled;  // the image's use before and after drawing
     bool coverage = false;  // the first channel is coverage; otherwise the texture holds colours
 };
 
@@ -41,12 +41,14 @@ struct Rectangle {
     glm::vec2 low{0.0F}, high{0.0F};
 };
 
+// Appends a rectangle of one colour (sRGB, straight alpha).
 void add_rectangle(Overlay& overlay, const Rectangle& rectangle, const glm::vec4& color);
 
-// Draws a whole picture of the renderer; one texel a pixel if the rectangle has the picture's size.
+// Appends a whole picture of the renderer, stretched to the rectangle. The picture is in
+// ResourceUse::transfer_from.
 void add_picture(Overlay& overlay, const Rectangle& rectangle, const ImageLayer& picture);
 
-// Draws a picture with a border of this width around it.
+// Appends a picture with a border of this width around it.
 void add_inset(Overlay& overlay, const Rectangle& rectangle, const ImageLayer& picture, float border_px,
                const glm::vec4& border);
 

@@ -37,7 +37,7 @@
 namespace bolt::render {
 
 struct RendererOptions {
-    std::uint32_t shadow_size = 2048;
+    std::uint32_t shadow_size = 2048;      // texels per side of the shadow map
     std::filesystem::path pipeline_cache;  // empty: no cache on disk
     ShaderCode shaders;                    // replacements of built-in shaders
     enum class Multiview : std::uint8_t { where_it_works, always, never };
@@ -58,19 +58,21 @@ class Renderer {
   public:
     static Result<std::unique_ptr<Renderer>> create(gpu::Device& device, const RendererOptions& options);
 
-    // Records the views of a frame that have the same size. Afterwards their images are in
-    // ResourceUse::transfer_from. Views of another size, such as an inset or the close-up in a lesson, form
-    // another group, which has its own pictures; `group` is any number that identifies it.
+    // Records the views of a frame that have the same size: one to MAX_VIEWS eyes, otherwise it fails.
+    // Afterwards their images are in ResourceUse::transfer_from. Views of another size, such as an inset or
+    // the close-up in a lesson, form another group, which has its own pictures; `group` is any number that
+    // identifies it.
     Status render(gpu::FrameContext& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
                   std::uint32_t group = 0);
 
-    // Replaces the eyes of a group between render() and the submission of the frame: the GPU draws its
-    // pictures from the new ones. Culling and levels of detail stay those of the old ones, so the eyes may
-    // move by the margin at most. `eyes`: as many as render() got.
+    // Replaces the eyes of a group between render() and the submission of the frame: the GPU draws the
+    // group's pictures from the new eyes. Culling and levels of detail stay those of the old eyes, so the
+    // picture may move by RendererOptions::margin at most. `eyes`: as many as render() got.
     void move_eyes(std::span<const Eye> eyes, std::uint32_t group = 0);
 
-    // Draws an overlay over a picture that was rendered in this frame. The overlay may contain pictures of
-    // other groups.
+    // Draws an overlay over a picture that was rendered in this frame, or over a PanelPicture. The picture is
+    // in ResourceUse::transfer_from before and after. The overlay may contain pictures of other groups.
+    // Fails if the overlay contains a layer of the same image.
     Status draw_over(gpu::FrameContext& frame, const Overlay& overlay, const ImageLayer& picture);
 
     [[nodiscard]] ImageLayer picture(std::uint32_t view, std::uint32_t group = 0) const {

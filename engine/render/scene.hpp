@@ -22,6 +22,7 @@ struct EnvironmentLight {
     shading::Harmonics diffuse{};  // diffuse light
 };
 
+// `size`: texels per side of a face of the sharpest level.
 Result<EnvironmentLight> upload_environment(gpu::Device& device, const shading::RadianceImage& image,
                                             std::uint32_t size = 128);
 
@@ -55,7 +56,7 @@ struct Label {
     // Share of the text that shows through parts in front of it: 0 hidden, 1 fully visible. Ghosts hide text
     // like opaque parts.
     float occluded_visibility = 0.0F;
-    float occlusion_margin = 0.0F;  // m: parts less far in front of the text do not hide it
+    float occlusion_margin = 0.0F;  // m: a part that is nearer to the text than this does not hide it
     bool operator==(const Label&) const = default;
 };
 
@@ -101,7 +102,7 @@ struct Scene {
     std::vector<SceneLight> lights;
     std::vector<Label> labels;
     std::vector<Panel> panels;
-    const EnvironmentLight* environment = nullptr;
+    const EnvironmentLight* environment = nullptr;  // null: a black environment
     float environment_intensity = 1.0F;
     float environment_turn = 0.0F;  // rad, rotation about Y
     float exposure = 1.0F;
@@ -111,7 +112,7 @@ struct Scene {
     // a headset behind the objects.
     bool transparent = false;
     CutAway cut_away;
-    float outline_px = 3.0F;
+    float outline_px = 3.0F;  // width of outlines
 };
 
 // A viewpoint with any projection whose depth is 1 near and 0 far.
@@ -133,13 +134,14 @@ void add_model(Scene& scene, const assets::Model& model, const GpuModel& gpu_mod
 void add_model(Scene& scene, const assets::Model& model, const GpuModel& gpu_model,
                const glm::mat4& world = glm::mat4(1.0F));
 
-// Adds the KHR_lights_punctual lights of the model. The first directional one is moved to the front and casts
-// a shadow.
+// Adds the KHR_lights_punctual lights of the model. Then the first directional light of the scene is moved to
+// the front and casts a shadow.
 void add_lights(Scene& scene, const assets::Model& model, const assets::ModelPose& pose,
                 const glm::mat4& world = glm::mat4(1.0F));
 void add_lights(Scene& scene, const assets::Model& model, const glm::mat4& world = glm::mat4(1.0F));
 
-// Return whether an object casts a shadow, and whether light 0 casts shadows in this scene.
+// Return whether an object casts a shadow (translucent and unlit ones do not), and whether light 0 casts the
+// shadow of any object of the scene.
 bool casts_shadow(const Object& object);
 bool casts_shadow(const Scene& scene);
 

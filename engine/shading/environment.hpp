@@ -62,7 +62,7 @@ inline float level_roughness(std::size_t level, std::size_t levels) {
 // previous one, down to 4 texels, and uses twice the samples for a quarter of the texels. The lobe is GGX for
 // N = V, as in split-sum shading (B. Karis, Real Shading in Unreal Engine 4, 2013), integrated by filtered
 // importance sampling (J. Křivánek and M. Colbert, Real-time Shading with Filtered Importance Sampling, EGSR
-// 2008).
+// 2008). `size`: texels per side of a face of level 0. Level i uses `samples` · 2ⁱ directions for each texel.
 std::vector<CubeMap> prefilter(const RadianceImage& image, std::uint32_t size, std::uint32_t samples = 32);
 
 // Radiance reflected by a white diffuse surface, irradiance / π, in the first nine real spherical harmonics

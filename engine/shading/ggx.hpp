@@ -53,7 +53,7 @@ inline float masking(const glm::vec3& v, const glm::vec2& alpha) {
 }
 
 // Samples a half vector from the normals visible from `out` (E. Heitz, Sampling the GGX Distribution of
-// Visible Normals, JCGT 7(4), 2018).
+// Visible Normals, JCGT 7(4), 2018). `u`: two uniform random numbers in [0, 1).
 inline glm::vec3 sample_half(const glm::vec3& out, const glm::vec2& alpha, const glm::vec2& u) {
     const glm::vec3 v = glm::normalize(glm::vec3(alpha.x * out.x, alpha.y * out.y, out.z));
     const float flat = v.x * v.x + v.y * v.y;

@@ -51,8 +51,10 @@ struct DtrackFrame {
     int invalid_bodies = 0;
 };
 
+// A packet with more bodies, or with more flysticks, is damaged.
 inline constexpr std::size_t max_dtrack_bodies = 256;
-inline constexpr double rotation_tolerance = 0.01;  // of dot products of columns; packets may have few digits
+// The largest error of a dot product of two columns of a rotation matrix. Packets may have few digits.
+inline constexpr double rotation_tolerance = 0.01;
 
 // None if the packet is damaged: no frame number, or a malformed fr, ts, 6dcal, 6d, 6df or 6df2 line. Other
 // lines, such as those of markers (3d), are skipped.

@@ -29,7 +29,7 @@ struct HeadsetFrame {
     HeadView view;  // without eyes: nothing can be drawn
     Hands hands;
     bool focused = false;      // Session::focused(); false: pause the lesson, output no force, hide the hands
-    bool passthrough = false;  // set by the caller; see Session::Drawn
+    bool passthrough = false;  // set by the caller: show the real room behind the pictures, if possible
     // Events since the last frame. Recentred comes with the first frame whose poses are in the new space.
     std::vector<SessionEvent> events;
 };

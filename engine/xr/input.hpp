@@ -111,7 +111,7 @@ class XrInput {
     TrackerRoles connected_roles_;                     // at the last query
     bool roles_outdated_ = true;
     std::vector<std::string> profiles_;
-    std::array<const ControllerProfile*, 2> controllers_{};  // by Side; null: HandInput::controller
+    std::array<const ControllerProfile*, 2> controllers_{};  // by Side; null: none, or an unknown one
     std::uint32_t reads_ = 0;                                // number of calls of read() with focus
 };
 

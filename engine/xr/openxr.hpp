@@ -30,8 +30,8 @@ std::string_view name(XrResult result);
 // session was lost, after which only destroying it succeeds.
 Status check(XrResult result, std::string_view function);
 
-// Keeps the loader from printing its own messages to stderr, in addition to the results that are reported
-// here.
+// Keeps the loader from printing messages of its own to stderr; callers get the same failures as errors. Sets
+// an environment variable, so no other thread may read the environment meanwhile.
 void quiet_loader();
 
 // Return the extensions that the runtime offers (fails with ErrorCode::no_device if there is no runtime), and

@@ -50,9 +50,9 @@ class Runtime final : public gpu::VulkanCreator {
     // Fails with ErrorCode::no_device if there is no runtime, the runtime lacks Vulkan, or no headset is
     // connected; trying again later may then succeed.
     static Result<std::unique_ptr<Runtime>> open();
-    // As open(), in two steps, so that find_headset() can be repeated: that costs the runtime nothing, while
-    // each new instance may start its service. Call quiet_loader() before start(), while no other thread
-    // reads the environment.
+    // open() in two steps: start() creates the instance, and find_headset() searches for a headset. Repeat
+    // only find_headset(): it is cheap, while the runtime may start a service for each new instance. Call
+    // quiet_loader() before start(), while no other thread reads the environment.
     static Result<std::unique_ptr<Runtime>> start();
     Status find_headset();
 
@@ -74,6 +74,7 @@ class Runtime final : public gpu::VulkanCreator {
     // The blend mode that shows the real room behind what is drawn; none: the headset cannot show it, or only
     // as a layer (Extensions::passthrough).
     [[nodiscard]] std::optional<XrEnvironmentBlendMode> passthrough() const { return passthrough_; }
+    // The blend mode that hides the real room; the one that the headset prefers if none does.
     [[nodiscard]] XrEnvironmentBlendMode opaque() const { return opaque_; }
     [[nodiscard]] XrViewConfigurationType view_configuration() const { return view_configuration_; }
     // One entry per eye: one for a mono display, else two.

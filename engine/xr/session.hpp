@@ -38,7 +38,7 @@ struct EyeView {
 // The poses of the head and the eyes when a frame is displayed.
 struct HeadView {
     Pose head;
-    std::vector<EyeView> eyes;  // left, right; one for a mono display
+    std::vector<EyeView> eyes;  // left, right; one for a mono display; none: the poses are not known
     bool tracked = false;       // false: estimated or held; draw with it, but do not rely on it otherwise
 };
 
@@ -83,7 +83,8 @@ constexpr const char* name(BaseSpace space) {
 }
 
 struct SessionOptions {
-    bool seated = false;         // prefer BaseSpace::seated, else stage, then floor
+    // True: the base space is `seated`. False: it is the first available of stage, floor and seated.
+    bool seated = false;
     bool submit_depth = true;    // if the runtime uses depth to correct the picture
     bool separate_eyes = false;  // a swapchain for each eye even if one with two layers can be created
 };

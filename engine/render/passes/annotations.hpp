@@ -12,8 +12,9 @@
 
 namespace bolt::render {
 
-// Draws outlines of objects, visible through occluders. First draws the objects' shapes in one colour (the
-// marks), then searches for marks on rings around each pixel of the area that the outlines may cover.
+// Draws outlines of objects, visible through occluders. First draws each object's shape, its mark, in the
+// colour of its outline. Then searches for marks on rings around each pixel of the area that the outlines may
+// cover.
 class OutlinePass {
   public:
     static Result<OutlinePass> create(const PassSetup& setup, std::uint32_t views);
@@ -28,8 +29,8 @@ class OutlinePass {
     gpu::Sampler clamped_;
 };
 
-// Labels prepared for the GPU, the farthest label first. The quads of a label: its background, the outlines
-// of its glyphs, its glyphs.
+// Labels prepared for the GPU, the farthest label first. The quads of a label are in drawing order: its
+// background, the outlines of its glyphs, its glyphs.
 struct LabelBatch {
     std::vector<shared::LabelFrame> labels;
     std::vector<shared::LabelQuad> quads;

@@ -8,7 +8,7 @@ namespace bolt::render {
 // Images that both lighting passes read in addition to their own inputs.
 struct LightInputs {
     const gpu::Image* shadow_map = nullptr;
-    VkImageView occlusion = VK_NULL_HANDLE;  // null: none
+    VkImageView occlusion = VK_NULL_HANDLE;  // ambient occlusion; null: none
 };
 
 // Deferred lighting: shades the geometry buffer and the background. Reads four samples per pixel and writes

@@ -13,7 +13,7 @@ namespace bolt::render {
 class PanelPicture {
   public:
     static Result<PanelPicture> create(gpu::Device& device, VkExtent2D extent);
-    // Makes it transparent. Call it once a frame, before the overlay is drawn.
+    // Makes the picture transparent. Call it once a frame, before the overlay is drawn.
     void clear(gpu::FrameContext& frame);
     [[nodiscard]] ImageLayer layer() const { return {&image_, 0}; }
     [[nodiscard]] const gpu::Image& image() const { return image_; }

@@ -24,14 +24,16 @@ struct RenderTargets {
     gpu::Image marks;             // optional, one sample: shapes of outlined objects
     gpu::Image small_depth, raw_occlusion, occlusion;  // optional, one sample, half size
     VkExtent2D extent{};
-    std::uint32_t layers = 1;
+    std::uint32_t layers = 1;  // views of the batch
 };
 
 // The stage that runs the passes over the whole picture: ambient occlusion and lighting.
 enum class ScreenStage : std::uint8_t { fragment, compute };
 
+// Creates the images that are not optional.
 Result<RenderTargets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers,
                                    ScreenStage stage);
+// Create optional images, unless they exist.
 Status add_material_targets(gpu::Device& device, RenderTargets& targets);
 Status add_forward_targets(gpu::Device& device, RenderTargets& targets);
 Status add_mark_target(gpu::Device& device, RenderTargets& targets);
@@ -44,7 +46,6 @@ struct ImageLayer {
     std::uint32_t layer = 0;
 };
 
-// The render targets of views of one size, kept from frame to frame.
 // Counts of the last call of Renderer::render for a group.
 struct Statistics {
     std::uint64_t triangles = 0;
@@ -52,6 +53,7 @@ struct Statistics {
     bool static_shadow_redrawn = false;
 };
 
+// The render targets of a group of views, kept from frame to frame.
 struct ViewGroup {
     std::vector<RenderTargets> targets;             // one per batch
     std::vector<gpu::TransientRange> frame_blocks;  // shared::FrameData of the last frame, one per batch
@@ -122,7 +124,7 @@ struct PassContext {
     VkImageView white_array;                   // the same texture, viewed as an array
     const DeformedParts& deformed;
     std::span<const Eye> eyes;  // of the views
-    float margin;               // RendererOptions::margin
+    float margin;               // RendererOptions::margin, in half widths and half heights of the picture
 };
 
 // Uploads values for this frame's shaders. The range is at least as large as one value, because empty ranges
@@ -185,8 +187,8 @@ VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkA
 // Returns true if an eye has an area that is never seen.
 bool has_hidden_area(std::span<const Eye> eyes);
 
-// Returns the rectangle of pixels that the boxes may cover in any of the context's views, widened by a margin
-// and clamped to the picture.
+// Returns the rectangle of pixels that the boxes may cover in any of the context's views, widened by
+// `margin_px` and by the context's margin, and clamped to the picture.
 VkRect2D area_of(const PassContext& context, std::span<const BoundingBox> boxes, float margin_px);
 
 // Returns rendering info for the whole area of the attached images.
@@ -202,7 +204,8 @@ void draw_screen(VkCommandBuffer commands);
 void dispatch_screen(VkCommandBuffer commands, const gpu::Pipeline& pipeline, VkDescriptorSet set,
                      VkExtent2D extent, std::uint32_t views);
 
-// Returns the vertex stage of a pipeline that draws parts with scene.vert.
+// Describes a pipeline that draws parts with scene.vert; the caller adds the fragment shader and the colour
+// formats.
 gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const PipelineKind& kind, std::uint32_t views);
 
 // The state with which a pass draws parts.
@@ -210,11 +213,11 @@ struct PartDrawing {
     std::function<bool(const PipelineKind&)> wanted;  // false: the part is skipped
     std::function<Result<const gpu::Pipeline*>(const PipelineKind&)> pipeline;
     std::function<Result<VkDescriptorSet>(const gpu::Pipeline&)> frame_set;  // creates descriptor set 0
-    std::function<VkRect2D(const PipelineKind&)> area;  // scissor rectangle; null: the whole picture
+    std::function<VkRect2D(const PipelineKind&)> area;  // scissor rectangle; empty: the caller's stays set
 };
 
-// Draws parts with their materials, in the order of the list. Set 1 holds a material's maps, the push
-// constant its index.
+// Draws parts with their materials, in the order of the list. Set 1 holds the maps of a material, and the
+// push constant is the index of the material.
 Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing& drawing);
 
 }  // namespace bolt::render

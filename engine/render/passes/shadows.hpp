@@ -12,9 +12,10 @@ class ShadowPass {
     static Result<ShadowPass> create(const PassSetup& setup, std::uint32_t size);
 
     // If light 0 casts a shadow, sets the shadow view in `frame`; returns false if it casts none. The view is
-    // fitted to the static objects, or to the moving ones if there are no static objects.
+    // fitted to the static objects that cast shadows, or to the moving ones if there are no static ones.
     static bool set_shadow_view(const Scene& scene, shared::FrameData& frame);
 
+    // Redraws the maps if necessary. Does nothing if light 0 casts no shadow.
     Status draw(PassContext& context);
     // Returns the map for shaders, in ResourceUse::depth_read.
     [[nodiscard]] const gpu::Image& map() const { return moving_ ? combined_map_ : static_map_; }
