@@ -112,11 +112,12 @@ struct DeferredContact {
 struct ContactCollector {
     std::span<Contact> buffer;
     std::size_t count = 0;
-    double complete_within;  // m; all contacts nearer than this are in the buffer
+    double complete_within;  // m; all contacts nearer than this are in the buffer or deferred
     std::span<DeferredContact> deferred;
     std::size_t deferred_count = 0;
     std::uint32_t query_cost = 0;
 
+    // Returns false if there is no room; the caller must then compute the contact and call add().
     bool defer(const DeferredContact& one) {
         if (deferred_count == deferred.size()) return false;
         deferred[deferred_count++] = one;

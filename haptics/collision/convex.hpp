@@ -31,7 +31,7 @@ struct ConvexFace {
 
 struct ConvexEdge {
     std::uint32_t from = 0, to = 0;     // indices of points
-    std::uint32_t left = 0, right = 0;  // indices of faces
+    std::uint32_t left = 0, right = 0;  // indices of the faces on either side, seen from outside
     // Index in `directions`; parallel edges share it, and edges are sorted by it.
     std::uint32_t direction = 0;
 };
@@ -45,12 +45,12 @@ struct Convex {
     std::vector<Vec3> points;
     std::vector<ConvexFace> faces;
     std::vector<ConvexEdge> edges;
-    std::vector<std::uint32_t> loops;
+    std::vector<std::uint32_t> loops;        // indices of points: the corners of each face in turn
     std::vector<EdgeSet> left_of, right_of;  // by face: the edges that have it on their left or right side
     std::vector<Vec3> directions;            // unit, distinct directions of edges
     std::vector<EdgeSet> in_direction;       // by direction: the edges that have it
-    Vec3 middle{0.0};
-    double radius = 0.0;  // m, of the bounding sphere about `middle`
+    Vec3 middle{0.0};                        // m, mean of the points
+    double radius = 0.0;                     // m, of the bounding sphere about `middle`
 };
 
 // The intersection of the half spaces, which must be bounded. Half spaces that cut nothing off give no face.

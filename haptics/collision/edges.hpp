@@ -9,10 +9,11 @@ namespace bolt::collision {
 // A straight piece of a convex edge, in the frame of the solid that it is compared with.
 struct EdgePiece {
     Vec3 middle{0.0}, half{0.0};   // m; the piece extends from middle − half to middle + half
-    std::array<Vec3, 2> inward{};  // as in SharpEdge
+    std::array<Vec3, 2> inward{};  // unit, in each of the two faces and away from the edge
 };
 
-// Without initial values, because each query of an edge has room for many and uses few.
+// The feet of the common perpendicular of a piece and an edge that face each other. Without initial values,
+// because each query of an edge has room for many and uses few.
 struct Crossing {
     double distance;         // m, signed; negative: the edges have passed through each other
     Vec3 on_piece, on_edge;  // m
@@ -29,8 +30,8 @@ inline constexpr double ambiguous_depth = 0.1e-3;
 inline constexpr double rounding_in_float = 1e-6;
 
 struct EdgeQueryResult {
-    std::size_t count = 0;
-    double complete_within = 0.0;  // as in PointQueryResult
+    std::size_t count = 0;         // crossings written
+    double complete_within = 0.0;  // m; all nearer crossings were written
     // As long as the piece's points move by less than (clear_distance − band), m, and it turns by less than
     // clear_turn, rad, no further crossing enters the band.
     double clear_distance = 0.0, clear_turn = 0.0;
@@ -67,9 +68,9 @@ struct EdgeCache {
 // of the next search, so that its candidates stay valid longer.
 inline constexpr double short_lookahead = 2e-3;
 
-// As `query_edges`, with the cached candidates while they are valid. `turned`: rad, the piece's accumulated
-// turn. `near_before`: an edge was within `short_lookahead` at the last query. Sets `searched`: true if the
-// candidates were no longer valid, so that the edges were searched again.
+// Returns the result of query_edges(), from the cached candidates while they are valid. `turned`: rad, the
+// piece's accumulated turn. `near_before`: an edge was within `short_lookahead` at the last query. Sets
+// `searched`: true if the candidates were no longer valid, so that the edges were searched again.
 EdgeQueryResult query_edges_cached(const Solid& solid, const EdgePiece& piece, const Solid& other,
                                    const Pose& to_other, double turned, double band, bool near_before,
                                    EdgeCache& cache, bool& searched, std::span<Crossing> crossings);

@@ -63,7 +63,9 @@ struct HeadFit {
     // of the hexagon.
     double toward_throat = 0.0, toward_mouth = 0.0;
     double lateral_offset = 0.0;  // m, from the middle of the slot, ring or key to the bolt's axis
-    double tilt = 0.0;            // rad, rotation of the jaw about the direction along its flats
+    // rad, rotation of the jaw about the direction along its flats; with a ring, socket or key the angle
+    // between the axes of tool and turned part.
+    double tilt = 0.0;
 
     // Returns true if the hexagon is between the flats of the head. The misalignment may have any value.
     [[nodiscard]] bool surrounds(double opening) const {

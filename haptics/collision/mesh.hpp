@@ -29,8 +29,8 @@ struct SharpEdge {
 // A long edge between facets of a round face: it exceeds the permitted spacing of samples.
 struct RoundEdge {
     std::array<std::uint32_t, 2> vertices;
-    std::uint32_t triangle;
-    float spacing;  // m, see `spacing_on_round`
+    std::uint32_t triangle;  // one of its faces
+    float spacing;           // m, largest spacing of samples along the edge (spacing_on_round())
 };
 
 struct ContactMesh {
@@ -62,7 +62,7 @@ struct ContactMesh {
     [[nodiscard]] bool watertight() const { return open_edges == 0 && forked_edges == 0; }
 };
 
-inline constexpr double edge_rise = 30e-6;  // m, see SharpEdge
+inline constexpr double edge_rise = 30e-6;  // m; an edge that stands out further is sharp
 // rad; edges sharper than this get sample points along them, because a round face may touch such an edge
 // anywhere.
 inline constexpr double sampled_edge_angle = 20.0 * pi / 180.0;

@@ -35,11 +35,11 @@ struct CachedQuery {
 
 // The cache of one solid's samples against the other's surface.
 struct SurfaceQueryCache {
-    std::vector<std::vector<DistanceBound>> levels;  // by level and cluster; valid for all samples in it
-    std::vector<std::vector<CachedQuery>> level_queries;
-    std::vector<DistanceBound> samples;       // by sample
-    std::vector<CachedQuery> sample_queries;  // by sample
-    std::vector<EdgeCache> edges;             // by piece
+    std::vector<std::vector<DistanceBound>> levels;       // by level and cluster; valid for all samples in it
+    std::vector<std::vector<CachedQuery>> level_queries;  // by level and cluster
+    std::vector<DistanceBound> samples;                   // by sample
+    std::vector<CachedQuery> sample_queries;              // by sample
+    std::vector<EdgeCache> edges;                         // by piece
 };
 
 // The cache of the tool and one body.

@@ -24,7 +24,7 @@ struct SurfaceSample {
 struct PieceExtent {
     Vec3 half{0.0};                // m, from the middle to the end
     double half_length = 0.0;      // m
-    std::array<Vec3, 2> inward{};  // as in SharpEdge
+    std::array<Vec3, 2> inward{};  // unit, in each of the two faces and away from the edge
 };
 
 // A bounding sphere of samples, including the ends of edge pieces.

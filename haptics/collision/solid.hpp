@@ -27,8 +27,8 @@ struct BoundingBox {
 // A convex sharp edge, copied from the mesh into one contiguous record.
 struct Ridge {
     std::array<glm::vec3, 2> ends;     // m
-    std::array<glm::vec3, 2> normals;  // as in SharpEdge
-    std::array<glm::vec3, 2> inward;   // as in SharpEdge
+    std::array<glm::vec3, 2> normals;  // unit, of the two faces
+    std::array<glm::vec3, 2> inward;   // unit, in each of the two faces and away from the edge
     glm::vec3 along;                   // unit
     std::uint32_t sharp_edge;          // index in `ContactMesh::sharp_edges`
 };
@@ -38,6 +38,7 @@ struct Solid {
     std::vector<std::array<glm::vec3, 3>> corners;  // by triangle, contiguous for the distance loop
     std::vector<std::uint32_t> part;                // by triangle: index of the part that it came from
     std::vector<Ridge> ridges;                      // in the order of `edge_scene`
+    // Embree's scenes of the triangles and of the ridges. `edge_scene` is null if there are no ridges.
     SceneHandle scene, edge_scene;
     BoundingBox box;
     Vec3 middle{0.0};            // of the box
@@ -46,7 +47,8 @@ struct Solid {
 };
 
 // Joins closed surfaces in the order given. Parts may touch but must not overlap: in an overlap the normal of
-// the nearest surface does not point out of the solid.
+// the nearest surface does not point out of the solid. Fails if there are no triangles or more than 65535
+// parts, or if Embree cannot build the scenes.
 Result<Solid> make_solid(std::span<const ContactMesh> parts);
 
 // The tangent plane at the closest point of a surface. As a constraint this plane keeps the query point on
@@ -62,7 +64,7 @@ inline constexpr double infinite_distance = std::numeric_limits<double>::infinit
 
 struct PointQueryResult {
     double distance = infinite_distance;  // m, signed, to the nearest surface within the radius
-    std::size_t planes = 0;               // written
+    std::size_t planes = 0;               // number of planes written
     // m; up to this distance the planes in the output cover every surface. Equals the band if the output
     // had room for all planes.
     double complete_within = 0.0;
@@ -70,7 +72,7 @@ struct PointQueryResult {
 
 // m; a surface that rises at most this far above a plane gets no plane of its own.
 inline constexpr double plane_tolerance = 20e-6;
-inline constexpr std::size_t max_planes = 8;
+inline constexpr std::size_t max_planes = 8;  // for which a query of the narrow phase has room
 
 // The signed distance of `point` to the surface within `radius` (may be infinite), and the separating planes
 // within `band` ≤ radius, nearest first. A point further than `radius` from the surface counts as outside.

@@ -36,7 +36,7 @@ struct HexKey {
     double tip = 0.0;          // m, height of the key's end along Z; negative
     double chamfer = 0.0;      // m, legs of the 45° chamfer at the end
     double length = 0.0;       // m of straight hexagon from the end
-    double tooth_angle = 0.0;  // as Ring::tooth_angle
+    double tooth_angle = 0.0;  // rad between two teeth of the ratchet; 0: no ratchet
 };
 
 using ToolHead = std::variant<Jaw, Ring, HexKey>;
@@ -62,10 +62,11 @@ double width_across_flats(const TurnedShape& shape);
 // with a ratchet, otherwise 30° for a ring with 12 points and 60° for all other heads.
 double fitting_angle(const ToolHead& head);
 
-// rad; 0 without a ratchet.
+// rad between two teeth of the ratchet; 0 without a ratchet.
 double tooth_angle(const ToolHead& head);
 
-// m, extent of the gripping region along the bolt: the thickness of a jaw or a ring.
+// m, extent of the gripping region along the bolt: the thickness of a jaw or a ring, the engaged length of a
+// key.
 double thickness(const ToolHead& head);
 
 // m, height of the head's origin above the bearing face when the head is on the shape: the flats overlap as

@@ -10,7 +10,7 @@
 
 namespace bolt::collision {
 
-inline constexpr double listing_distance = 0.7e-3;  // m; see above
+inline constexpr double listing_distance = 0.7e-3;  // m; triangles this near to a leaf are listed in it
 inline constexpr int octree_levels = 5;             // of subdivision below the root cells
 inline constexpr std::size_t max_listed = 256;      // triangles of a leaf; a leaf with more lists none
 
@@ -45,8 +45,8 @@ struct TriangleOctree {
     std::array<int, 3> root_counts{};               // root cells along each axis; 0: the octree is empty
     std::vector<OctreeNode> nodes;                  // root cells first, x fastest
     std::vector<OctreeLeaf> leaves;                 // the first is not used: index 0 means empty
-    std::vector<std::uint32_t> triangles;
-    std::vector<float> boxes;
+    std::vector<std::uint32_t> triangles;           // indices of the listed triangles, leaf by leaf
+    std::vector<float> boxes;                       // m, bounding boxes of the listed triangles (OctreeLeaf)
 };
 
 // `cell`: m, size of the smallest cells; 0 gives an empty octree. The octree extends beyond the solid's box
@@ -58,20 +58,23 @@ TriangleOctree make_triangle_octree(const Solid& solid, double cell);
 struct OctreeQuery {
     double lower = -infinite_distance, upper = infinite_distance;  // m
     const OctreeLeaf* leaf = nullptr;                              // null: no triangles are listed
-    double unlisted = 0.0;  // m; lower bound of the distance to any triangle that is not listed
+    // m; lower bound of the distance to any triangle that `leaf` does not list. Without a leaf it is valid
+    // only if the cell has no triangles, not if it has more than max_listed.
+    double unlisted = 0.0;
 };
 OctreeQuery query(const TriangleOctree& octree, const Vec3& point);
 
 // The leaf of the last query. Queries at nearby points reuse it instead of descending from the root.
 struct OctreeCursor {
     Vec3 middle{0.0};    // m, from `TriangleOctree::low`
-    double half = -1.0;  // m, half the cell's size
+    double half = -1.0;  // m, half the cell's size; negative: no cell
     const OctreeNode* node = nullptr;
 };
 OctreeQuery query(const TriangleOctree& octree, const Vec3& point, OctreeCursor& last);
 
-// As `query_point`, among the listed triangles of `found.leaf`, which must not be null. Empty if the nearest
-// listed triangle is further than `found.unlisted`. `band` must not exceed listing_distance.
+// The signed distance and the separating planes of query_point(), from the triangles that `found.leaf` lists.
+// `found.leaf` must not be null. Empty if the nearest listed triangle is further than `found.unlisted`.
+// `band` must not exceed listing_distance.
 std::optional<PointQueryResult> query_listed(const Solid& solid, const TriangleOctree& octree,
                                              const OctreeQuery& found, const Vec3& point, double band,
                                              std::span<SeparatingPlane> planes);

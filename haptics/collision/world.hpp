@@ -1,5 +1,5 @@
-// The world that the tool collides with, the tool's own shape, and the visible fraction of a body. Fixed
-// obstacles are joined into one solid; bodies that move keep frames of their own. World and tool are built at
+// The world that the tool collides with, the tool's own shape, and the visible fraction of a body. Obstacles
+// without a body of their own (Obstacle::own_body) are joined into one solid. World and tool are built at
 // load; Body::pose and Body::enabled may change between ticks, which does not allocate.
 #pragma once
 
@@ -46,25 +46,26 @@ struct CollisionShape {
     Solid solid;
     TriangleOctree octree;
     SurfaceSamples samples;
-    std::vector<ObstacleId> part_ids;  // of the fixed obstacles; empty for the shape of any other body
+    // By part of `solid`, if this is the union of obstacles without a body of their own; otherwise empty.
+    std::vector<ObstacleId> part_ids;
 };
 
 struct Body {
-    ObstacleId id;
-    std::size_t shape = 0;
-    Pose pose;  // to the assembly
+    ObstacleId id;          // none for the union of obstacles without a body of their own
+    std::size_t shape = 0;  // index in `CollisionWorld::shapes`
+    Pose pose;              // to the assembly
     bool enabled = true;
 };
 
 struct CollisionWorld {
     std::vector<CollisionShape> shapes;
-    std::vector<Body> bodies;  // the first is the union of the fixed obstacles, if there are any
+    std::vector<Body> bodies;  // the first is the union of obstacles without a body of their own, if any
 };
 
 // Fails if an obstacle has no mesh or its mesh has no triangles.
 Result<CollisionWorld> make_world(std::span<const Obstacle> obstacles, const WorldOptions& options = {});
 
-// The index in `bodies` of the body with this id; not of the fixed obstacles.
+// The index in `bodies` of the body with this id. None for an obstacle without a body of its own.
 std::optional<std::size_t> find_body(const CollisionWorld& world, ObstacleId id);
 
 // The obstacle that a triangle of a body's mesh belongs to.
@@ -87,8 +88,8 @@ struct SurfacePoint {
 // Spreads `count` points over a mesh evenly by area. Deterministic.
 std::vector<SurfacePoint> sample_surface(const ContactMesh& mesh, std::size_t count);
 
-// As sample_surface, without points that face another surface of the solid, such as the points in a bore,
-// which a bolt fills.
+// Spreads `count` points as sample_surface() does, and drops those that face another surface of the solid,
+// such as the points in a bore, which a bolt fills.
 std::vector<SurfacePoint> sample_outer_surface(const Solid& solid, std::size_t count);
 
 struct Visibility {
@@ -96,9 +97,10 @@ struct Visibility {
     double angle = 0.0;  // sr, visible solid angle
 };
 
-// Visibility of the body with this index in the world's current state, by rays. Used to choose views and to
-// decide what a simulated trainee sees. Other bodies that are not enabled hide nothing; the body itself need
-// not be enabled. With n points the error of the share is about 1/√n.
+// Visibility of the body with this index in the world's current state, by rays. `points`: samples of its
+// surface. `eye`: m, in the assembly's frame. Used to choose views and to decide what a simulated trainee
+// sees. Other bodies that are not enabled hide nothing; the body itself need not be enabled. With n points
+// the error of the share is about 1/√n.
 Visibility visibility_of(const CollisionWorld& world, std::size_t body, std::span<const SurfacePoint> points,
                          const Vec3& eye);
 

@@ -36,7 +36,8 @@ struct WorkspaceState {
     Vec3 centre{0.0};  // m: lever end = centre + scale · heading · rotation · device position
     // Tool orientation = heading · rotation · device orientation · tool_to_device.
     Quat tool_to_device{1.0, 0.0, 0.0, 0.0};
-    // Unit, about the assembly's y: turns with the view, so that the hand's right stays right in the picture.
+    // Unit, a rotation about the assembly's y. It follows the view, so that the hand's right stays right in
+    // the picture.
     Quat heading{1.0, 0.0, 0.0, 0.0};
     // m from the tool's origin along its x to the point that follows the device: 0 for fingers and for a
     // device with torque; the length of the wrench for a device whose force acts at the end of the handle.
@@ -48,14 +49,15 @@ struct WorkspaceState {
 // Returns the state in which the device pose `device` maps to the tool pose `tool`.
 WorkspaceState align_workspace(const WorkspaceMap& workspace, const Pose& device, const Pose& tool);
 
-// As align_workspace(), and keeps heading, lever arm and share.
+// Changes `state` so that the device pose `device` maps to the tool pose `tool`; keeps heading, lever arm and
+// share.
 void realign(const WorkspaceMap& workspace, WorkspaceState& state, const Pose& device, const Pose& tool);
 
 // The end of the lever arm, in the assembly's frame: the point of the tool that follows the device.
 Vec3 lever_end(const WorkspaceState& state, const Pose& tool);
 
-// The pose of the device's frame in the assembly's, at a scale of 1: takes the device's position to the end
-// of the lever arm.
+// The pose of the device's frame in the assembly's. At a scale of 1 it maps the device's position to the end
+// of the lever arm; at other scales it does not.
 Pose device_in_assembly(const WorkspaceMap& workspace, const WorkspaceState& state);
 
 // One tick of dt. Returns the tool's pose in the assembly's frame. Releasing the clutch does not move the
@@ -65,8 +67,8 @@ Pose to_assembly(const WorkspaceMap& workspace, WorkspaceState& state, const Pos
 
 // A bolt that holds a wrench, in the assembly's frame.
 struct Pivot {
-    Vec3 centre{0.0};  // m, a point on its axis
-    Vec3 axis{0.0, 1.0, 0.0};
+    Vec3 centre{0.0};          // m, a point on its axis
+    Vec3 axis{0.0, 1.0, 0.0};  // unit
 };
 
 // The pose of a wrench that sits on a bolt, while the hand holds its handle at `lever_end`, `lever_arm` m
@@ -84,6 +86,8 @@ double fitted_scale(const Vec3& reach, double handle_length);
 // the device's frame. 0 if the reach along a device axis that contributes is unknown.
 Vec3 rotated_half_workspace(const Quat& rotation, const Vec3& reach);
 
+// The command, in the device's frame, that renders the force and torque `on_tool` (assembly's frame), times
+// WorkspaceState::force_share.
 OutputCommand to_device(const WorkspaceMap& workspace, const WorkspaceState& state,
                         const OutputCommand& on_tool);
 

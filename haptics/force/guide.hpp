@@ -19,7 +19,7 @@ struct GuidingParameters {
     double stiffness = 500.0;          // K_max, N/m, largest stiffness that the device renders stably
     double fade_distance = 1.0;        // m; from here to twice this distance the force fades to zero
     double max_force = 3.0;            // N
-    double max_torque = 0.2;           // N·m, of the aligning torque
+    double max_torque = 0.2;           // N·m, of each of the two parts of aligning_torque()
     double alignment_distance = 0.08;  // m to the target within which the torque acts
     double mode_share = 1.0;           // 0 … 1, share of the force that the lesson's mode allows
     double fade_rate = 4.0;            // 1/s, at which the force fades in and out
@@ -28,8 +28,8 @@ struct GuidingParameters {
 // The force k/d has the local stiffness k/d². Below d_min = √(k/K_max) the spring force K_max d replaces k/d,
 // and `max_force` caps both. Force and potential are continuous; the largest force is √(k K_max) or the cap.
 // `distance` in m.
-double guiding_pull(const GuidingParameters& guiding, double distance);  // N
-Vec3 guiding_force(const GuidingParameters& guiding, const Vec3& tool, const Vec3& target);
+double guiding_pull(const GuidingParameters& guiding, double distance);                      // N
+Vec3 guiding_force(const GuidingParameters& guiding, const Vec3& tool, const Vec3& target);  // N
 
 // Potential of guiding_pull, J, 0 at the target.
 double guiding_potential(const GuidingParameters& guiding, double distance);
@@ -37,16 +37,20 @@ double guiding_potential(const GuidingParameters& guiding, double distance);
 // Orientation of a nut's hexagon: orthogonal unit vectors. A jaw fits with its direction along `flat` or
 // turned from it about `axis` by a multiple of 60°.
 struct Hexagon {
-    Vec3 axis{0.0, 1.0, 0.0};
-    Vec3 flat{1.0, 0.0, 0.0};
-    Vec3 across{0.0, 0.0, -1.0};
+    Vec3 axis{0.0, 1.0, 0.0};     // of the bolt, away from the members
+    Vec3 flat{1.0, 0.0, 0.0};     // along a flat
+    Vec3 across{0.0, 0.0, -1.0};  // axis × flat
 };
 
-// The torque, N·m, that turns the jaw to the nearest of the six orientations and its normal parallel or
-// antiparallel to the axis. Gradient of a smooth potential, so it is continuous where the nearest orientation
-// changes: with z the jaw's direction projected along the axis as a complex number, n the normal and a the
-// axis, V = max_torque/6 (1 − Re z⁶) + max_torque (1 − (n·a)²).
+// The torque, N·m, with two parts: one turns the jaw to the nearest of the six orientations, the other turns
+// its normal parallel or antiparallel to the axis. It is the gradient of a smooth potential V, and therefore
+// continuous where the nearest orientation changes:
+//
+//   V = max_torque/6 (1 − Re z⁶) + max_torque (1 − (n·a)²)
+//
+// n is the normal, a the axis, and z = jaw·flat + i jaw·across. Each part is at most `max_torque`.
 Vec3 aligning_torque(double max_torque, const Hexagon& hexagon, const Vec3& jaw, const Vec3& normal);
+// V, J.
 double aligning_potential(double max_torque, const Hexagon& hexagon, const Vec3& jaw, const Vec3& normal);
 
 // Plans a path for the guiding force around obstacles. The caller supplies the line-of-sight query (Embree,
@@ -88,7 +92,7 @@ double lowest_permitted_height(const GuideTarget& target, const Vec3& tool);
 // Moves the end of the path, and the approach point if there is one, to the target's present position.
 void move_end(GuidePath& path, const GuideTarget& target);
 
-double length(const GuidePath& path);
+double length(const GuidePath& path);                // m
 Vec3 point_at(const GuidePath& path, double along);  // `along` in m from the start, clamped
 
 // Returns true if the parts of the segment outside the ball of GuideTarget::bounding_radius are free.
@@ -98,10 +102,11 @@ bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegm
 // tool's line of sight and aligns the jaw at the end. The force is continuous: it fades in and out, and
 // target or path change only while the force is zero.
 
+// The tool's jaw in the assembly's frame.
 struct GuidedTool {
-    Vec3 position{0.0};
+    Vec3 position{0.0};          // m
     Vec3 jaw{1.0, 0.0, 0.0};     // unit, direction that aligns with a flat of the hexagon
-    Vec3 normal{0.0, 0.0, 1.0};  // unit
+    Vec3 normal{0.0, 0.0, 1.0};  // unit, normal of the jaw's plane
 };
 
 struct GuideState {

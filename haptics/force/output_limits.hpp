@@ -24,7 +24,7 @@ struct OutputLimits {
     double release = 0.02;            // s from releasing the dead-man switch to zero output, at most
 
     double stiffness = 2000.0;     // N/m, largest stiffness that the device renders stably
-    double torsion = 40.0;         // N·m/rad
+    double torsion = 40.0;         // N·m/rad, largest torsional stiffness, likewise
     double damping = 20.0;         // N·s/m that the device renders without oscillation; 0: no damping
     double angular_damping = 0.1;  // N·m·s/rad
     int delay = 1;                 // ticks from a command to the force on the hand, 0 … 3

@@ -20,7 +20,7 @@ enum class Fault : std::uint8_t {
     no_pose,      // the pose is not finite or has no unit quaternion
     jumped,       // moved further than a hand can in a tick
     too_fast,     // faster than OutputLimits::speed: a runaway or a falling device
-    bad_request,  // the requested force is not finite
+    bad_request,  // the requested force or one of its energies is not finite
     stopped,      // emergency stop
 };
 inline constexpr std::size_t fault_kinds = 7;
@@ -59,8 +59,8 @@ struct WatchdogState {
     Vec3 mean_velocity{0.0}, mean_angular_velocity{0.0};
 };
 
-// The watchdog. One tick of dt. Returns true if the output may be rendered. `request_is_finite`: the
-// requested force is finite.
+// The watchdog. One tick of dt. Returns true if no fault blocks the output; render() checks the dead-man
+// switch. `request_is_finite`: the requested force and its energies are finite.
 bool update_watchdog(const OutputLimits& limits, WatchdogState& state, const DeviceInput& input,
                      bool request_is_finite, double dt);
 
@@ -85,7 +85,7 @@ struct PassivityState {
     double balance = 0.0;
     double stored_energy = 0.0;  // J, of the last request
     double removed = 0.0;        // J removed by the controller since the start
-    double damping = 0.0;        // 0 … 1, active share of the permitted damping
+    double damping = 0.0;        // 0 … 1, active share of the permitted damping (damping_share)
 
     std::array<OutputCommand, 4> sent{};  // commands sent, newest first
     OutputCommand applied;                // sum of the commands of the ticks since the last sample
@@ -116,7 +116,8 @@ void add_applied_work(const OutputLimits& limits, PassivityState& state, const M
 OutputCommand control_passivity(const OutputLimits& limits, PassivityState& state, const Motion& motion,
                                 const ForceRequest& request, double ramp, double ramp_before, double dt);
 
-// Call after each tick with the command that was sent.
+// Stores the command that was sent, for add_applied_work() in the ticks in which it acts on the hand. Call at
+// the end of each tick.
 void record_sent(PassivityState& state, const OutputCommand& sent);
 
 // The limiter, the last step. Its output is finite, within the device's limits and, except while it is

@@ -23,10 +23,12 @@ enum class Lubrication { as_received, dry, oiled, mos2 };
 
 struct FrictionDesign {
     double thread = 0.12;                  // μ_G, running
-    double bearing = 0.12;                 // μ_K, running, under the turned nut
+    double bearing = 0.12;                 // μ_K, running, under the turned part
     std::optional<double> held_bearing{};  // running, under the part that is not turned; none: as `bearing`
     double static_ratio = 1.15;            // breakaway / running
-    double scatter = 0.0;                  // standard deviation of both from bolt to bolt, relative
+    // Standard deviation from bolt to bolt, as a share of the coefficient. The coefficients scatter
+    // independently.
+    double scatter = 0.0;
     Lubrication lubrication = Lubrication::as_received;
 };
 
@@ -102,14 +104,14 @@ struct TappedHole {
 };
 
 struct JointDesign {
-    std::string id;
+    std::string id;  // of the joint, from assembly.json
     JointForm form = JointForm::through_bolt;
     HeadShape head = HeadShape::hexagon;
     TurnedPart turned = TurnedPart::nut;            // a screw in a tapped hole: head
-    TappedHole hole;                                // of a tapped hole or a stud
-    CounterHold counter_hold = CounterHold::fixed;  // of a through-bolt
+    TappedHole hole;                                // used if the form is tapped_hole or stud
+    CounterHold counter_hold = CounterHold::fixed;  // second_wrench only with a through-bolt
     ThreadSize thread;
-    // The joint laws do not depend on it: their angle is positive in the direction that tightens.
+    // Does not affect the joint laws: their angle is positive in the direction that tightens.
     ThreadDirection thread_direction = ThreadDirection::right;
     PropertyClass bolt_class;
     double nut_strength = 0.0;      // Pa, proof stress of the nut (ISO 898-2); 0: matched to the bolt
@@ -120,7 +122,7 @@ struct JointDesign {
     std::vector<Member> members;   // clamped parts, without washers
     double member_diameter = 0.0;  // m, D_A of VDI 2230 (outer diameter of the clamped part); 0: unlimited
     FrictionDesign friction;
-    double roughness_Rz = 16e-6;   // m, of the faces; determines the amount of embedding
+    double roughness_Rz = 16e-6;   // m, of the faces; determines the embedding, by which load flattens them
     double misfit = 5e-6;          // m, scale over which the seat closes (non-parallel faces, thread draw-in)
     double embedding_time = 5.0;   // s, time constant of embedding
     double prevailing_torque = 0;  // N·m, of a locking nut
@@ -144,7 +146,8 @@ struct JointDesign {
                    ? thread.size.washer_thickness
                    : 0.0;
     }
-    [[nodiscard]] double thread_on_bolt() const;  // m, bolt_thread_length or its standard's
+    // Length of the thread on the bolt, m: bolt_thread_length, or that of the standard if it is 0.
+    [[nodiscard]] double thread_on_bolt() const;
     // Mean diameter of the bearing under the turned part, m: (d_w + d_h)/2.
     [[nodiscard]] double bearing_diameter() const;
 };
@@ -162,15 +165,17 @@ TurnedPartSize turned_part_size(const JointDesign& design);
 // Height of the nut, m; a locking nut is higher.
 double nut_height(const JointDesign& design);
 
-// The lever arms of T = F (P/2π + μ_G r_t/cos β + μ_K r_b), m. Motosh, J. Eng. Ind. 98 (1976) 849.
+// The lever arms of T = F (P/2π + μ_G r_t/cos β + μ_K r_b), m: T torque, F clamp force, r_t = d2/2, r_b
+// effective bearing radius. Motosh, J. Eng. Ind. 98 (1976) 849.
 struct TorqueLevers {
     double lead = 0.0;     // P/2π, the part that stretches the bolt
-    double thread = 0.0;   // μ_G (d2/2) / cos β
-    double bearing = 0.0;  // μ_K r_b, r_b effective bearing radius
+    double thread = 0.0;   // μ_G r_t / cos β
+    double bearing = 0.0;  // μ_K r_b
 
     [[nodiscard]] double friction() const { return thread + bearing; }
     [[nodiscard]] double tighten() const { return lead + friction(); }
-    [[nodiscard]] double loosen() const { return -lead + friction(); }  // torque against the nut's motion
+    // Positive: loosening needs a torque. Negative: the nut loosens by itself.
+    [[nodiscard]] double loosen() const { return -lead + friction(); }
 };
 
 TorqueLevers torque_levers(const ScrewThread& thread, double mu_thread, double mu_bearing,
@@ -231,12 +236,13 @@ struct BoltEnds {
 };
 BoltEnds bolt_ends(const JointDesign& design);
 
-// Elastic compliance of the bolt, m/N, VDI 2230-1 section 5.1.1. δ_S: ends, shank, free thread, engaged
-// threads.
+// Elastic compliance δ_S of the bolt, m/N, VDI 2230-1 section 5.1.1: the sum of those of its ends, its shank,
+// the free thread and the engaged threads. `grip`: grip length, m. `shank`: length without thread, m.
 double bolt_compliance(const ScrewThread& thread, double E, double grip, double shank,
                        const BoltEnds& ends = {});
 
-enum class DeformationCones : std::uint8_t { two = 1, one = 2 };  // w of VDI 2230
+// Number of deformation cones in the members. The value of an enumerator is w of VDI 2230.
+enum class DeformationCones : std::uint8_t { two = 1, one = 2 };
 
 // Elastic compliance of the clamped members, m/N, VDI 2230-1 section 5.1.2. δ_P of a stack of layers under
 // the concentric deformation cones of head and nut. The outer diameter D_A may cut the cones; 0: unlimited,

@@ -57,6 +57,7 @@ struct FastenerSize {
     double hole = 0.0;  // d_h, medium series
 };
 
+// All sizes, the smallest first.
 std::span<const FastenerSize> fastener_sizes();
 
 // The head of a hexagon socket head cap screw, ISO 4762 (= DIN 912). Metres, symbols as the standard writes
@@ -122,7 +123,8 @@ Result<PropertyClass> property_class(std::string_view name, double d);
 
 std::vector<std::string> property_class_names();
 
-// Length of thread b of an ISO 4014 bolt of length l: 2d + 6, 2d + 12 or 2d + 25 mm; never more than l.
+// Length of thread b, m, of an ISO 4014 bolt of length l: 2d + 6 mm up to l = 125 mm, 2d + 12 mm up to
+// 200 mm, 2d + 25 mm above; never more than l.
 double thread_length(double d, double l);
 
 // Length of thread b of an ISO 4762 screw of length l: 2d + 12 mm; never more than l.

@@ -29,6 +29,7 @@ struct FlangePlate {
     double rigidity = 0.0;    // D, N·m
     double foundation = 0.0;  // k, Pa/m
 
+    // `thickness` in m, `E` in Pa, `interface_stiffness` (k) in Pa/m.
     static FlangePlate make(double thickness, double E, double poisson, double interface_stiffness);
     [[nodiscard]] double length() const;                        // ℓ, m
     [[nodiscard]] double deflection_per_force(double r) const;  // w/F, m/N
@@ -47,13 +48,14 @@ struct InteractionMatrix {
     std::vector<double> value;  // m/N
 };
 
+// `seats`: m, position of each joint.
 InteractionMatrix interaction_matrix(const FlangePlate& plate, std::span<const Vec3> seats);
 
 struct GroupParameters {
     Law law = Law::mechanistic;
-    std::vector<MechanisticParameters> joints;   // mechanistic
-    std::vector<PublishedParameters> published;  // published; without interaction
-    InteractionMatrix interaction;               // mechanistic; empty: none
+    std::vector<MechanisticParameters> joints;   // by joint under Law::mechanistic, otherwise empty
+    std::vector<PublishedParameters> published;  // by joint under Law::published, otherwise empty
+    InteractionMatrix interaction;               // empty under Law::published and without a flange
 };
 
 struct JointState {
@@ -72,15 +74,17 @@ struct JointState {
     [[nodiscard]] double rotation() const { return nut.angle + common_turn; }
 };
 
-// Derives the joints (seeded scatter, one random stream per joint) and their interaction through the flange,
-// if any.
+// Parameters under the mechanistic law: derives the joints (seeded scatter, one random stream per joint) and
+// their interaction through the flange. `flange` may be null: no interaction.
 GroupParameters make_group(std::span<const JointDesign> designs, const FlangePlate* flange,
                            std::uint64_t seed);
-// One set of parameters for each joint.
+// Parameters under the published law, one element for each joint.
 GroupParameters make_published_group(std::vector<PublishedParameters> joints);
 
+// The states of new joints with their nuts at angle 0. `joints`: number of joints in the group.
 std::vector<JointState> initial_state(const GroupParameters& group, std::size_t joints);
 
+// The resistance of a nut on its thread under the group's law. `joint`: index in the group.
 Resistance resistance(const GroupParameters& group, std::size_t joint, const JointState& state);
 
 // One step of dt: moves the nut `driven` (−1: none) with the drive, then updates every joint's clamp force.
@@ -96,16 +100,16 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
                      const NutDrive& drive, double dt);
 
-// Turns one nut to an angle kinematically, as a machine does. `friction_share`: as in
-// MechanisticState, +1 while the nut slides tightening, −1 loosening.
+// Turns one nut to an angle (rad) kinematically, as a machine does. `friction_share`: +1 while the nut slides
+// tightening, −1 loosening (MechanisticState).
 void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::size_t joint, double angle,
               double friction_share, double dt);
 
 struct CurveSample {
     double angle = 0.0;  // rad from the start of the run
     Stage stage = Stage::navigation;
-    double torque =
-        0.0;  // N·m; loosening negative, under the law `published` with the signs of its equations
+    // N·m. Mechanistic law: negative while loosening. Published law: with the signs of its equations.
+    double torque = 0.0;
     double clamp = 0.0;  // N
 };
 

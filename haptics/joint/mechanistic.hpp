@@ -35,7 +35,7 @@ namespace bolt::joint {
 // elongation is half the elongation after fracture.
 struct PlasticCurve {
     double elastic_load = 0.0;   // L_e, N, at u = 0: equivalent stress times A_s
-    double ultimate_load = 0.0;  // L_m
+    double ultimate_load = 0.0;  // L_m, N, at u = u_u
     double scale = 0.0;          // u_c, m
     double uniform = 0.0;        // u_u, m
     double spread = 0.0;         // 1 / (1 − e^{−(u_u/u_c)^¾})
@@ -57,22 +57,22 @@ struct PlasticCurve {
 struct MechanisticParameters {
     ScrewThread thread;
     TorqueLevers levers;     // of this bolt, with scatter and without wear
-    double mu_thread = 0.0;  // of this bolt
-    double kappa = 1.5;      // of the bolt's property class (PropertyClass::kappa)
+    double mu_thread = 0.0;  // μ_G of this bolt, with scatter and without wear
+    double kappa = 1.5;      // factor of the torsion in the equivalent stress (PropertyClass::kappa)
     double start_gap = 0.0;  // m, nut face to seat at angle 0
     SeatSpring seat;
     PlasticCurve bolt;
-    double strip_load = 0.0;      // N, axial load at which the threads in the nut or hole shear
-    double strip_length = 0.0;    // m of travel until the threads are sheared off completely
-    double flow_time = 0.0;       // s, time constant of plastic flow (flow() in mechanistic.cpp)
-    double embedding = 0.0;       // m, f_Z of VDI 2230, at the reference load and above
-    double embedding_time = 0.0;  // s
-    double reference_load = 0.0;  // N, preload at 90 % yield; scales embedding and wear
-    double static_ratio = 1.0;    // breakaway/running friction
-    double breakaway_angle = 0;   // rad of sliding over which breakaway wears off
-    double healing_time = 0.0;    // s of rest over which it recovers
-    double wear_early = 0.0;      // relative change of friction that saturates over the first re-uses
-    double wear_early_uses = 1;
+    double strip_load = 0.0;         // N, axial load at which the threads in the nut or hole shear
+    double strip_length = 0.0;       // m of travel until the threads are sheared off completely
+    double flow_time = 0.0;          // s, time constant of plastic flow (flow() in mechanistic.cpp)
+    double embedding = 0.0;          // m, f_Z of VDI 2230, at the reference load and above
+    double embedding_time = 0.0;     // s, time constant of embedding
+    double reference_load = 0.0;     // N, preload at 90 % yield; scales embedding and wear
+    double static_ratio = 1.0;       // breakaway/running friction
+    double breakaway_angle = 0;      // rad of sliding over which breakaway wears off
+    double healing_time = 0.0;       // s of rest over which it recovers
+    double wear_early = 0.0;         // relative change of friction that saturates over the first re-uses
+    double wear_early_uses = 1;      // re-uses; scale on which that change saturates exponentially
     double wear_per_use = 0.0;       // relative change of friction with every use, without end
     double prevailing_torque = 0.0;  // N·m, of a locking nut in its first use
     double insert_angle = 0.0;   // rad, nut angle at which the bolt's end reaches a locking insert; 0: none
@@ -81,7 +81,8 @@ struct MechanisticParameters {
     double running_drag = 0.0;   // N·m, mean drag of the free thread
     double weight_lead = 0.0;    // N·m, weight of the nut along the lead; negative if it helps tightening
     double weight_friction = 0;  // N·m, friction of the nut's weight on the thread
-    double ripple_phase[3] = {0.0, 0.0, 0.0};  // of the running drag over the angle
+    // rad, phases of the three sine waves by which the running drag fluctuates with the angle.
+    double ripple_phase[3] = {0.0, 0.0, 0.0};
     // Only friction or a second wrench keeps the held part from turning (CounterHold::second_wrench). False:
     // it cannot turn, and the next two members are 0.
     bool held_part_can_turn = false;
@@ -120,10 +121,11 @@ struct Resistance {
     double tighten = 0.0;        // N·m
     double loosen = 0.0;         // N·m, negative if the nut holds by itself
     double tighten_slope = 0.0;  // N·m/rad, of the elastic joint
-    double loosen_slope = 0.0;
-    double lead_torque = 0.0;  // N·m, the part that is not friction
+    double loosen_slope = 0.0;   // N·m/rad, likewise
+    double lead_torque = 0.0;    // N·m, the part that is not friction
 };
 
+// The resistance while the nut turns on the thread and the bolt stands.
 Resistance resistance(const MechanisticParameters& p, const MechanisticState& s);
 
 // The resistance while nut and bolt turn together: the faces under nut and head slide, the thread does not,
@@ -134,7 +136,7 @@ Resistance resistance_together(const MechanisticParameters& p, const Mechanistic
 // The motion of a nut in a step.
 struct NutTurn {
     double angle = 0.0;           // rad, on the thread, after the step
-    double friction_share = 0.0;  // as in MechanisticState
+    double friction_share = 0.0;  // −1…1, friction torque ÷ its maximum; +1: slides tightening
     double common = 0.0;          // rad by which nut and bolt have turned together in the step
 };
 

@@ -70,8 +70,8 @@ struct NutDrive {
 struct NutStep {
     NutMotion nut;
     double torque = 0.0;          // N·m on the nut, tightening positive
-    double friction_share = 0.0;  // after the step, as in MechanisticState
-    bool slipped = false;         // the grip's torque limit was reached
+    double friction_share = 0.0;  // −1…1, friction torque ÷ its maximum after the step; +1: slides tightening
+    bool slipped = false;         // the drive's torque limit was reached
     ClickStep click;
 };
 
@@ -113,13 +113,14 @@ inline double drive_inertia(double stiffness, double dt) { return stiffness * dt
 // Modelling assumptions: rigid and ideally plastic, the jaw harder than the nut, no friction; if the jaw is
 // tilted, the length of contact is the part where the gap is smaller than the clearance on one side.
 
-// Pa, minimum Vickers hardness of the nut that matches a bolt of this class (ISO 898-2, table of classes 5
-// to 12: a nut's class is the first number of the bolt's). For stainless nuts, which have no such table,
-// three times the tensile strength of their grade.
+// Pa, minimum Vickers hardness of the nut that matches a bolt of this class and of the nominal diameter `d`
+// (m). ISO 898-2, table of classes 5 to 12: a nut's class is the first number of the bolt's, and 5 for bolts
+// of 4.6 and 4.8. For stainless nuts, which have no such table, three times the tensile strength of their
+// grade.
 double nut_hardness(const PropertyClass& bolt_class, double d);
 
-// Pa, minimum Vickers hardness of a bolt (ISO 898-1 table 3). For stainless bolts three times the tensile
-// strength of their grade.
+// Pa, minimum Vickers hardness of a bolt of the nominal diameter `d` (m; ISO 898-1 table 3). For stainless
+// bolts three times the tensile strength of their grade.
 double bolt_hardness(const PropertyClass& bolt_class, double d);
 
 // Pa, of the part whose corners the tool grips.
@@ -140,7 +141,7 @@ struct CornerGrip {
     double rounded = 0.0;                            // m that the corner has lost along each of its two flats
 };
 
-// N·m at which the jaw slips.
+// N·m at which the jaw slips. `pressure`: corner_pressure().
 double corner_torque(double pressure, const CornerGrip& grip);
 
 // A ring, a socket or a key bears at all six corners. On each flat it bears on the strip from the corner, at
@@ -159,7 +160,7 @@ struct RingGrip {
     double rounded = 0.0;       // m that each corner has lost along each flat
 };
 
-// N·m at which the ring, socket or key slips.
+// N·m at which the ring, socket or key slips. `pressure`: corner_pressure(), for a key socket_pressure().
 double ring_torque(double pressure, const RingGrip& grip);
 
 // Play to either side, rad, of a jaw on a nut whose corners are rounded (CornerGrip::rounded); 30° if the jaw

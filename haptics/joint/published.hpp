@@ -14,7 +14,7 @@ namespace bolt::joint {
 
 struct PublishedParameters {
     double nut_mass_g = 33.3;
-    // rad; the paper calls α the helix angle but gives it the value of the profile angle.
+    // rad. The paper calls α the helix angle but gives it the value of β, the flank angle of the thread.
     double alpha = pi / 6, beta = pi / 6;
     // Friction coefficients: of the free thread (stage 1), of the bearing face, of the loaded thread.
     double mu = 0.3, mu1 = 0.4, mu2 = 0.3;
@@ -24,17 +24,18 @@ struct PublishedParameters {
     double r_t_mm = 14.7, r_b_mm = 24.0;    // lever arms of thread and bearing friction, as printed
     double E1_GPa = 117.0, E2_GPa = 117.0;  // Young's moduli of the two faces; printed "Pa"
     double nu1 = 0.25, nu2 = 0.25;          // their Poisson's ratios
-    double kappa = 2.0;                     // κ of the contact force in stage 2
+    double kappa = 2.0;                     // κ of the contact force F_c in stage 2
     // 10⁶ N/mm, of the seven springs in series that the paper makes of bolt, nut and members.
     double spring_rates_1e6[7] = {1.47, 1.46, 1.51, 1.53, 1.40, 1.38, 1.42};
-    double T_max_Nm = 72.126;
-    double kappa1 = 0.0015;  // N·m per square degree
+    double T_max_Nm = 72.126;  // torque at the end of the yield stage
+    double kappa1 = 0.0015;    // κ1 of the torque in stage 4, N·m per square degree
     // 40.1 π rad: the end of the yield stage, measured from where the nut is started on its thread.
     double theta_max_deg = 7218.0;
-    double yield_width_deg = 90.0;
+    double yield_width_deg = 90.0;  // width of the yield stage
 
-    // Ours, because the paper gives no A(θ): A·h' grows with the square of the angle, over
-    // transition_width_deg, to contact_end_mm2, where the contact force is 0.3 kN.
+    // Ours, because the paper does not give the real contact area A as a function of the angle. In stage 2
+    // the product of A and the RMS slope h' grows with the square of the angle, over transition_width_deg, to
+    // contact_end_mm2, where the contact force is 0.3 kN.
     double transition_width_deg = 30.0;
     double contact_end_mm2 = 0.01;  // A·h' at the end of the transition
 };

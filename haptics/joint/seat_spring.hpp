@@ -53,16 +53,16 @@ inline double wright_omega(double x, double near) {
 // δ is the compliance of bolt and members (VDI 2230). The second part is the approach of rough faces: the
 // real area of contact is proportional to the load and the load falls exponentially with the gap (Persson,
 // Phys. Rev. Lett. 99 (2007) 125502; u0 ≈ 0.5 h_rms), with u0 widened by the misfit of the faces. F0 is the
-// load at nominal touch, x = 0. The inverse has a closed form: F = (u0/δ) ω(x/u0 + ln(F0 δ/u0)) with the
-// Wright omega function. F is positive, infinitely differentiable and increasing from a wide gap (F → 0) to
-// the elastic line (dF/dx → 1/δ). One formula covers navigation, transition and linearity without a
-// discontinuity.
+// load at nominal touch, where the second part is 0. The inverse has a closed form: F = (u0/δ)
+// ω(x/u0 + ln(F0 δ/u0)) with the Wright omega function. F is positive, infinitely differentiable and
+// increasing from a wide gap (F → 0) to the elastic line (dF/dx → 1/δ). One formula covers navigation,
+// transition and linearity without a discontinuity.
 
 struct SeatSpring {
     double compliance = 0.0;                                     // δ, m/N
     double scale = 0.0;                                          // u0, m
     double touch_force = 0.0;                                    // F0, N
-    double origin = std::log(touch_force * compliance / scale);  // ln(F0 δ/u0): ω's argument at touch
+    double origin = std::log(touch_force * compliance / scale);  // ln(F0 δ/u0): ω's argument at x = 0
 
     struct Load {
         double force = 0.0;      // N

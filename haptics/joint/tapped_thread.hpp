@@ -53,7 +53,8 @@ struct StrippingForces {
     [[nodiscard]] double least() const { return std::min(internal, external); }
 };
 
-// `engagement`: length of the engaged thread, m, with its idle pitches. Zero at and below those.
+// `engagement`: length of the engaged thread, m, including its idle pitches. The forces are 0 if all engaged
+// pitches are idle.
 StrippingForces stripping_forces(const ScrewThread& thread, const PropertyClass& bolt,
                                  const TappedMaterial& part, double engagement);
 

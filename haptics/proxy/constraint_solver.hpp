@@ -89,7 +89,7 @@ struct ConstrainedMotion {
 // sliding contact; a contact inside its cone does not slip. Redundant, degenerate and contradicting
 // constraints are allowed. Without friction the result is unique and continuous in all inputs. Bounded work,
 // no allocation; the same inputs give the same bits. `forces`, if not empty, receives the force of each
-// contact, N. A good `initial_guess` of the result saves work.
+// contact on the body, N. A good `initial_guess` of the result saves work.
 ConstrainedMotion constrain(const Metric& metric, const Twist& wanted,
                             std::span<const Constraint> constraints, std::span<Vec3> forces = {},
                             const std::optional<Twist>& initial_guess = {});

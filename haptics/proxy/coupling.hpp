@@ -9,7 +9,7 @@ namespace bolt::proxy {
 
 struct Coupling {
     double stiffness = 1000.0;     // N/m
-    double torsion = 10.0;         // N·m/rad
+    double torsion = 10.0;         // N·m/rad, torsional stiffness
     double damping = 0.0;          // N·s/m
     double torsion_damping = 0.0;  // N·m·s/rad
     // N and N·m at which the output saturates smoothly. 0: none is rendered.
@@ -22,7 +22,7 @@ struct CouplingRange {
     double max_force = 20.0;        // N
     double max_torque = 2.0;        // N·m; 0: renders none
     double stiffness = 3000.0;      // N/m, greatest stiffness that it may render
-    double torsion = 30.0;          // N·m/rad
+    double torsion = 30.0;          // N·m/rad, greatest torsional stiffness
     double damping = 2.0;           // N·s/m, of device and hand together
     double torsion_damping = 0.02;  // N·m·s/rad
     double dt = 0.001;              // s
@@ -44,7 +44,7 @@ struct Offset {
 
 Offset offset_between(const Pose& commanded_tool, const Pose& constrained_tool);
 
-// The force and torque on the hand, at the tool's origin. `before`: the offset of the last tick.
+// The force and torque on the hand, at the tool's origin. `before`: the offset of the last tick. `dt` in s.
 force::OutputCommand coupling_force(const Coupling& coupling, const Offset& offset, const Offset& before,
                                     double dt);
 

@@ -50,17 +50,18 @@ struct GodObjectParameters {
     std::optional<collision::BoundingBox> box;  // bounds the tool as well, in its own frame
     double friction_coefficient = 0.15;
     // m, kept between tool and obstacles. The finder samples the surfaces. Between two samples the tool can
-    // be up to 0.19 mm nearer than the finder reports (measured by bolt-contact-validation, on the ZQ350). Of
-    // these the skin leaves 0.08 mm of penetration.
+    // be up to 0.19 mm nearer than the finder reports (measured by bolt-contact-validation, on the ZQ350).
+    // With this skin it penetrates by at most 0.08 mm.
     double skin = 110e-6;
     // m, how far a point of the tool may move until the next query. It may move further only if the last
     // query found no obstacle on that longer way.
     double stride = 0.4e-3;
     double max_band = 5e-3;        // m, widest band of a query
     double recovery_speed = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
-    // A tool nearer to obstacles than the skin must retreat from them. If it is between two obstacles and
-    // cannot retreat from both, it need not, provided that it penetrates neither. False (sessions before
-    // format 11): it must; the contact forces then grow, and their friction holds the tool.
+    // A tool nearer to an obstacle than the skin must retreat. Between two obstacles a retreat from both can
+    // be impossible. True: this demand is then dropped, unless the tool penetrates an obstacle. False
+    // (sessions before format 11): the demand remains, the contact forces grow, and their friction holds the
+    // tool.
     bool allows_narrow_gaps = true;
     // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The first
     // query of a tick, at the pose where the last tick ended, is free if it searches no further than one
@@ -86,7 +87,7 @@ struct GodObjectState {
 // Result of a step.
 struct GodObjectStep {
     double nearest = 0.0;      // m; lower bound of the distance at the end of the step
-    std::size_t contacts = 0;  // within the band, at the last pose that the tool took
+    std::size_t contacts = 0;  // within the band, at the last of the tool's poses that was queried
     int queries = 0;
     std::uint32_t query_cost = 0;
     int solves = 0;
@@ -94,14 +95,14 @@ struct GodObjectStep {
     bool rate_limited = false;  // the motion was shortened to limit the change of force
 };
 
-// The tool must not penetrate anything at `pose`.
+// The state with commanded and constrained tool at `pose`, where the tool must not penetrate anything.
 GodObjectState start_god_object(const Pose& pose);
 
 // Advances by one tick of `dt` (s). A motion is accepted in one of two cases:
 //
 //   free    no point of the tool travels further than the distance to the nearest obstacle, less the skin
 //   short   no point travels further than `stride`, and at the end every contact that the motion approached
-//           is at least a fifth of the skin away
+//           is at least a fifth of the skin away, or no nearer than the nearest contact was at the start
 //
 // In the second case a contact that did not come nearer is tolerated if it was at most 0.25 mm deep at the
 // start, because the finder can have missed it there. Ignores a pose that is not finite. Does not allocate.
