@@ -56,7 +56,7 @@ struct IncompleteForm {
     std::string form;                     // title
     std::vector<std::string> declined;    // items that the participant chose not to answer
     std::vector<std::string> unanswered;  // items that were not reached, because the study was left there
-    std::vector<std::string> scales;      // titles of those that have no value therefore
+    std::vector<std::string> scales;      // titles of the scales that therefore have no value
 };
 std::vector<IncompleteForm> incomplete_forms(const content::Study& study,
                                              const std::vector<ParticipantState>& states);
