@@ -28,9 +28,10 @@ std::string_view name(ObservationTime time);
 struct Observation {
     std::size_t participant = 0;  // index into StudyData::participants
     ObservationTime time = ObservationTime::condition;
-    std::size_t condition = no_index;  // set for values in a condition; at other times only between subjects
-    std::size_t part = no_index;       // in the order of the participant; none at other times
-    std::size_t lesson = no_index;     // of the part or the training; none: a form after the whole part
+    // Set for values in a condition. Between subjects it is set for all values except those of the training.
+    std::size_t condition = no_index;
+    std::size_t part = no_index;    // in the order of the participant; none at other times
+    std::size_t lesson = no_index;  // of the part or the training; none: a form after the whole part
     std::string measure;
     double value = 0.0;
 };
