@@ -71,15 +71,17 @@ inline constexpr double default_alignment_share = 0.5;
 
 // The shift that aligns a measured curve with a simulated one; a rig may count its angle from any origin.
 struct Alignment {
-    double shift = 0.0;            // rad, added to the measured angle
-    double simulated_angle = 0.0;  // rad, of the common point
+    double shift = 0.0;  // rad, added to the measured angle
+    // The point of each curve at which both are aligned: its angles, rad, and its torque, N·m, on the
+    // measured curve.
+    double simulated_angle = 0.0;
     double measured_angle = 0.0;
-    double torque = 0.0;  // N·m, of the common point on the measured curve
+    double torque = 0.0;
 };
 
 // Aligns curves from make_torque_curve(). Tightening: where the running maximum of the torque passes `share`
 // of the highest torque that both reach, so that a ripple or a re-grip does not move the point. Loosening: at
-// the breakaway peak.
+// the breakaway peak. Fails if a curve is empty, or if tightening curves share no positive torque.
 Result<Alignment> align(const TorqueCurve& simulated, const TorqueCurve& measured,
                         double share = default_alignment_share);
 
@@ -87,8 +89,8 @@ Result<Alignment> align(const TorqueCurve& simulated, const TorqueCurve& measure
 // relative error |T_v − T_a| / T_a, MRE its maximum and MAPE its mean.
 struct StageError {
     std::size_t count = 0;  // samples used for the relative errors
-    std::size_t below = 0;  // samples without one: |T_a| is below the floor, so it is meaningless
-    double mre = nan;       // of the samples that are not near zero; NaN without any
+    std::size_t below = 0;  // samples without a relative error, because |T_a| is below the floor
+    double mre = nan;       // maximum over the samples that are not near zero; NaN without any
     double mape = 0.0;      // NaN without samples
     double rmse = 0.0;      // N·m, root of the mean of (T_v − T_a)² of all samples, below the floor too
 };
@@ -97,7 +99,8 @@ struct TorqueErrors {
     std::array<StageError, joint::stage_count> stage;
     StageError all;
     std::size_t outside = 0;  // samples excluded: angles outside the simulated curve
-    double floor = 0.0;       // N·m; pooled: the largest
+    // N·m; a sample with a smaller |T_a| has no relative error. After pool(): the largest floor.
+    double floor = 0.0;
 };
 
 // Share of a run's highest |T_a| below which a sample has no relative error: 1 %, the resolution of a good
@@ -109,8 +112,8 @@ inline constexpr double default_floor_share = 0.01;
 inline constexpr double near_zero_share = 0.05;
 
 // Errors at the measured samples. Interpolates the simulated torque; the stage is that of the simulated
-// sample before. Adds `shift` in rad to the measured angles; `floor` and `mre_floor`: N·m; the second one
-// applies to the MRE only.
+// sample before. `shift`: rad, added to the measured angles. `floor`: N·m; a sample with a smaller |T_a| has
+// no relative error. `mre_floor`: N·m; a sample with a smaller |T_a| does not enter the MRE.
 TorqueErrors torque_errors(const TorqueCurve& simulated, const TorqueCurve& measured, double shift,
                            double floor, double mre_floor = 0.0);
 
@@ -121,7 +124,8 @@ TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b);
 double share_of_peak(const TorqueCurve& curve, double share = default_floor_share);
 
 struct ComparisonOptions {
-    double share = default_alignment_share;
+    double share = default_alignment_share;  // of the highest common torque, for align()
+    // Shares of the measured peak that give `floor` and `mre_floor` of torque_errors().
     double floor_share = default_floor_share;
     double mre_floor_share = near_zero_share;
     bool same_joint = false;  // the user asserts that the record is of this joint: its curves are not judged
@@ -145,8 +149,8 @@ struct JointComparison {
     TorqueCurve simulated;
     std::vector<CycleComparison> cycles;  // one for each measured curve
     TorqueErrors errors;                  // over all cycles
-    // Why the record is of another joint; its errors are then not computed, because they would have no
-    // meaning. Empty: it may be this joint.
+    // Why the record is of another joint than this one. The errors are then not computed, because they would
+    // have no meaning. Empty: the record may be of this joint.
     std::string other_joint;
 };
 
@@ -166,7 +170,7 @@ struct Comparison {
     ComparisonOptions options;
 };
 
-// Compares a joint's curve with the measured curves.
+// Compares a joint's curve with the measured curves. Fails if a curve cannot be aligned.
 Result<JointComparison> compare_joint(std::string joint, TorqueCurve simulated,
                                       const std::vector<MeasuredCurve>& measured,
                                       const ComparisonOptions& options = {});

@@ -44,7 +44,14 @@ struct ChangeStatistics {
 };
 
 // The activity of the tool in a tick. activity_of() returns the first that applies.
-enum class ToolActivity : std::uint8_t { output_off, releasing, engaging, on_nut, touching, free };
+enum class ToolActivity : std::uint8_t {
+    output_off,  // a fault released the force
+    releasing,   // released a nut within the last 10 ms
+    engaging,    // engaged a nut within the last 10 ms
+    on_nut,
+    touching,  // a contact without a nut, or one that ended within the last 10 ms
+    free
+};
 inline constexpr std::size_t activity_count = 6;
 
 // Visible fraction from which a nut counts as visible.
@@ -53,14 +60,15 @@ inline constexpr double visible_fraction = 0.6;
 // The time from a step's beginning until the tool engages its nut.
 struct Arrival {
     int joint = 0;
-    bool wrench = false;
+    bool wrench = false;       // engaged with the wrench, otherwise with the fingers
     double duration = 0.0;     // s
-    double near_nut = 0.0;     // s within `duration` near the nut
+    double near_nut = 0.0;     // s within `duration` in which the tool was within 40 mm of the nut's seat
     double nut_visible = 0.0;  // s within `near_nut` with a visible nut (visible_fraction); NaN: not recorded
 };
 
 struct HapticMetrics {
     bool recorded = false;  // format 2 or later; format 1 has no contacts and faults
+    // `obstacles`: the session had contact models. `guided`: the guiding force was on.
     bool obstacles = false, guided = false;
     std::optional<force::OutputLimits> device_limits;
     std::vector<ObstacleContact> obstacle_contacts;  // in order of time
@@ -70,7 +78,7 @@ struct HapticMetrics {
     std::vector<ForceJump> force_jumps;  // the largest ones, largest first
     std::vector<Arrival> arrivals;
     std::array<double, force::fault_kinds> faults{};  // s for which each fault released the output
-    std::string servo_text;                           // session::servo_text(Header::servo_rate)
+    std::string servo_text;  // "1000 Hz" or "virtual time"; empty if `recorded` is false
     std::optional<servo::Timing> timing;
 };
 

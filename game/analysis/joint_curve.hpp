@@ -80,10 +80,10 @@ struct JointCurve {
     std::vector<Visit> visits;
     std::vector<StageSpan> stages;
     RunDown run_down;
-    // rad, from which the tightening angle counts: where the snug torque was first met. In a lesson that
-    // turns nuts by an angle: where the first visit in such a pass began, or, if the nut was off its seat
-    // then, where that pass first met the snug torque. A nut that leaves its seat loses its mark, as in the
-    // lesson. NaN: no mark.
+    // rad, nut angle from which the tightening angle counts: where the torque first reached the snug torque.
+    // With a pass that turns nuts by an angle: where the first visit in that pass began or, if the nut was
+    // off its seat then, where the torque first reached the snug torque in that pass. A nut that leaves its
+    // seat loses its mark, as in the lesson. NaN: no mark.
     double mark = std::numeric_limits<double>::quiet_NaN();
     double start_angle = 0.0;  // rad, when first held
     double end_angle = 0.0;    // rad, furthest in the direction of work

@@ -33,6 +33,7 @@ struct RepetitionBands {
     statistics::ConfidenceInterval slope_interval, breakaway_interval;
 };
 
+// Each cycle is one repetition.
 RepetitionBands repetition_bands(std::span<const CycleComparison> cycles);
 
 // The mean measured torque with its interval, at evenly spaced angles that all repetitions reach, counted as

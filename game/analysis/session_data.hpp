@@ -20,15 +20,15 @@ struct SessionData {
     std::string file;
     session::Header header;
     bool complete = true;                     // false: cut short
-    double recorded = 0.0;                    // s
+    double recorded = 0.0;                    // s, length of the recorded ticks
     content::Assembly assembly;               // as stored in the session; its law is the header's
     std::vector<lesson::JointResult> joints;  // one for each of assembly.joints, in their order
-    double duration = 0.0;                    // s
-    double score = 0.0;
-    bool finished = false;
-    std::vector<lesson::Deduction> reasons;
-    std::vector<std::string> pass_texts;  // texts of the pass_begin events, in order
-    std::vector<JointCurve> curves;       // one for each of assembly.joints
+    double duration = 0.0;                    // s, of the lesson by its result; without one: `recorded`
+    double score = 0.0;                       // 0…100
+    bool finished = false;                    // every step is done
+    std::vector<lesson::Deduction> reasons;   // for which points were deducted from the score
+    std::vector<std::string> pass_texts;      // texts of the pass_begin events, in order
+    std::vector<JointCurve> curves;           // one for each of assembly.joints
     HapticMetrics metrics;
 
     [[nodiscard]] joint::Direction direction() const {
@@ -65,8 +65,10 @@ std::string title_of(const content::Assembly& assembly);
 // A visit in the actual order of the joints.
 struct OrderEntry {
     std::size_t joint = 0;
-    bool out_of_turn = false;  // in the smallest set of visits without which the rest is in the planned order
-    bool repeated = false;     // the joint was visited before in this pass
+    // Without the visits that are out of turn, the first visits of the joints are in the planned order; as
+    // few visits as possible are marked. A repeated visit is never out of turn.
+    bool out_of_turn = false;
+    bool repeated = false;  // the joint was visited before in this pass
 };
 
 // The planned and the actual order of the joints in one pass.
@@ -97,6 +99,7 @@ struct OrderDrawing {
 };
 std::vector<OrderDrawing> order_drawings(const std::vector<PassOrder>& orders);
 
+// English label as in PassOrder::label.
 std::string pass_label(const content::Pass& pass);
 
 }  // namespace bolt::analysis

@@ -13,7 +13,7 @@
 //
 // With yield, (2) gives the friction μ (one coefficient for thread and bearing) and (1) the compliance δ.
 // Without yield, the friction stays that of the design and (1) gives δ. A loosening run gives the preload at
-// the design's friction only: T_off = r F L_off.
+// the design's friction only: T_off = F L_off, where L_off is the lever of loosening with static friction.
 #pragma once
 
 #include <optional>
@@ -29,21 +29,21 @@ namespace bolt::measure {
 
 // Measured values are means over the runs, with the standard deviation between them.
 struct JointFit {
-    joint::JointDesign design;                           // with the fitted values
-    std::optional<statistics::MeanDeviation> slope;      // N·m/rad
-    std::optional<statistics::MeanDeviation> yield;      // N·m at which yield begins
+    joint::JointDesign design;                       // with the fitted values
+    std::optional<statistics::MeanDeviation> slope;  // N·m/rad
+    std::optional<statistics::MeanDeviation> yield;  // N·m at which yield begins; only if most runs yield
     std::optional<statistics::MeanDeviation> breakaway;  // N·m, positive
     std::optional<statistics::MeanDeviation> running;    // N·m, of the free nut
-    double friction = 0.0;                               // of thread and bearing
-    bool friction_fitted = false;                        // otherwise it is the design's
-    double compliance = 0.0;                             // m/N; 0: not fitted
+    double friction = 0.0;                               // one coefficient for thread and bearing
+    bool friction_fitted = false;      // false: `friction` is the mean of the design's two coefficients
+    double compliance = 0.0;           // m/N; 0: not fitted
     double members_E = 0.0;            // Pa, of all members, that gives the compliance; 0: none gives it
     double preload = 0.0;              // N, from the breakaway at the design's friction; loosening only
     std::vector<std::string> unknown;  // what the data cannot tell, one sentence each
 };
 
-// The torque at which the mechanistic law of this design begins to yield (half of the linear slope), N·m, if
-// thread and bearing have this friction.
+// The torque, N·m, at which the mechanistic law's curve of this design begins to yield (landmarks.hpp defines
+// it), if thread and bearing have this friction. The highest torque of the curve if it does not yield.
 double yield_torque(const joint::JointDesign& design, double friction);
 
 // `runs`: landmarks of the runs of one direction. Fails for tightening without a linear part or members, and

@@ -4,8 +4,9 @@
 // Order: values of the channels, low pass, torque from force and lever, tare, angle, checks, uncertainty.
 //
 // The uncertainty is a combined standard uncertainty after JCGM 100:2008 (GUM), from independent parts: the
-// resolution a as a uniform distribution (a/√12), the calibration (its expanded uncertainty over k = 2), a
-// share of the value, and the lever. For a force F at the lever r, T = F r:
+// resolution a as a uniform distribution (a/√12), the calibration (U/2, where U is its expanded uncertainty
+// with k = 2), a share of the value (U%/2, where U% is also expanded), and the lever. For a force F at the
+// lever r, T = F r:
 //
 //   u(F)² = a²/12 + (U/2)² + (U% F/2)²,   u(T)² = (r u(F))² + (F u(r))²
 //
@@ -34,7 +35,7 @@ struct RigRun {
     double rate = 0.0;               // Hz
     double noise = 0.0;              // N·m, standard deviation, of what the low pass removed; 0 without one
     double zero = 0.0;               // N·m that the tare subtracted
-    double u_angle = 0.0;            // rad, standard
+    double u_angle = 0.0;            // rad, standard uncertainty of the angle
     std::size_t unjoined = 0;        // samples dropped: the angle's source does not cover their time
     std::vector<std::string> notes;  // what a person should check
     Landmarks landmarks;

@@ -43,15 +43,20 @@ struct PlausibleRange {
 // near zero (0.05 d). Without a thread: the range of all threads.
 PlausibleRange plausible_torque(const Rig& rig);
 
-// The slope of torque over angle, N·m/rad: K d c P/2π with the joint's stiffness c. High: K = 0.31 (friction
-// 0.24) and rigid members, as thin as the rig's bolt length permits, or else as thick as the bolt's diameter.
-// Low: K = 0.08 and a tenth of the stiffness of a bolt of the rig's length, or else of 20 diameters. None
-// without a thread.
+// The slope of torque over angle, N·m/rad: K d c P/2π with the torque coefficient K = T/(F d), the diameter
+// d, the pitch P and the joint's stiffness c. High: K = 0.31 (friction 0.24) and rigid members, as thin as
+// the rig's bolt length permits, or else as thick as the bolt's diameter. Low: K = 0.08 and a tenth of the
+// stiffness of a bolt of the rig's length, or else of 20 diameters. None without a thread.
 std::optional<PlausibleRange> plausible_slope(const Rig& rig);
 
+// Each check fails if the values of a run are implausible, with the place in the rig's description where the
+// mistake probably is.
+//
+// Checks range and sign of the largest torque.
 Status check_torque(const Rig& rig, const RigRun& run);
+// Checks that the nut turns by 1 degree to 1000 turns; tightening: that the angle rises up to the peak.
 Status check_angle(const Rig& rig, const RigRun& run);
-// Needs the landmarks.
+// Checks the slope of torque over angle; needs the landmarks of a tightening run.
 Status check_slope(const Rig& rig, const RigRun& run);
 
 }  // namespace bolt::measure

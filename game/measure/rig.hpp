@@ -49,16 +49,18 @@ struct TorqueChannel {
     Channel channel;               // torque in N·m, or force in N
     double lever = 0.0;            // m; 0: the channel is a torque
     double lever_uncertainty = 0;  // m, standard
-    double tare = 0.0;             // s at rest at the beginning of a run
+    // s at the beginning of a run in which the rig is at rest; the mean torque of this time is subtracted.
+    double tare = 0.0;
 
-    [[nodiscard]] double factor() const { return lever > 0.0 ? lever : 1.0; }  // of the channel's value
+    // Torque / value of the channel.
+    [[nodiscard]] double factor() const { return lever > 0.0 ? lever : 1.0; }
 };
 
 struct TimeSource {
     std::string column;        // empty: samples come at `rate`
-    double unit = 1.0;         // s
+    double unit = 1.0;         // s, unit of the column
     double rate = 0.0;         // Hz; 0: there is a column
-    double longest_gap = 0.0;  // s; 0: five times the median step
+    double longest_gap = 0.0;  // s; a longer gap between samples is an error; 0: five times the median step
 };
 
 struct AnglePoint {
@@ -66,7 +68,12 @@ struct AnglePoint {
     double angle = 0.0;  // rad
 };
 
-enum class AngleKind { column, second_file, speed, points };
+enum class AngleKind {
+    column,       // of the file of the run
+    second_file,  // a column of another file, with its own times
+    speed,        // constant from the end of the tare on
+    points        // angles at given times, straight in between
+};
 
 struct AngleSource {
     AngleKind kind = AngleKind::column;

@@ -19,8 +19,8 @@ struct Table {
     std::string file;
     std::vector<std::vector<double>> columns;  // those requested, in their order
     std::vector<std::string> labels;           // of the text column, one for each row; empty without one
-    std::vector<int> lines;                    // of each row
-    std::vector<std::vector<int>> places;      // column in the line of each number in `columns`
+    std::vector<int> lines;                    // line of each row in the file, from 1
+    std::vector<std::vector<int>> places;      // position in its line of each number in `columns`
 
     [[nodiscard]] std::size_t rows() const { return lines.size(); }
     // An error in a row, or at a number.

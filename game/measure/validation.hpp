@@ -44,7 +44,8 @@ struct Validation {
 };
 
 // Re-tightening: a table with the columns lube, tightening_no and "K=T/(F d)". The friction of each state of
-// lubrication is fitted to its first tightening; the change with re-use is a test. K = T/(F d).
+// lubrication is fitted to its first tightening; the change with re-use is a test. K = T/(F d). `torque`:
+// N·m, of every tightening. `table`: text of the file.
 Result<Validation> validate_retightening(const joint::JointDesign& design, double torque,
                                          std::string_view table, const std::string& file);
 

@@ -18,7 +18,7 @@
 namespace bolt::people {
 
 struct DataFolders {
-    content::PersonFolders own;
+    content::PersonFolders own;  // the user's folders of names.json, settings and calibrations
     std::vector<std::filesystem::path> sessions;  // searched with their subfolders
     std::vector<Error> missing;  // studies that people took part in here, and whose folders are not there now
 };
@@ -68,9 +68,10 @@ Inventory take_inventory(const DataFolders& folders);
 Result<PersonData> find(const Inventory& inventory, std::string_view who);
 
 // The person of a session; empty texts if it has none (a simulated trainee, or a person without a name).
+// `registered`: the people in names.json.
 content::Person person_of(const session::Header& header, std::span<const content::Person> registered);
 
-// The person whose code or typed name is recorded.
+// The person whose code or typed name is recorded. A person who is not registered has only that code or name.
 content::Person person_of(std::string_view recorded, std::span<const content::Person> registered);
 
 }  // namespace bolt::people

@@ -1,4 +1,5 @@
-// An x–y plot, described as data and drawn in one call.
+// An x–y plot, described as data and drawn in one call. A style is the name of a CSS class
+// (game/plot/html.cpp).
 #pragma once
 
 #include <optional>
@@ -10,7 +11,6 @@
 
 namespace bolt::plot {
 
-// Styles are names of CSS classes (game/plot/html.cpp).
 struct PlotAxis {
     AxisTicks ticks;
     std::string label;

@@ -17,7 +17,7 @@ struct AxisRange {
 struct AxisTicks {
     std::vector<double> values;  // ascending
     int decimals = 0;            // for the labels, so that neighbouring ticks differ
-    AxisRange range;             // to be drawn; set by the ticks or by the caller
+    AxisRange range;             // the drawn range of the axis
 };
 
 // Returns about `count` ticks, 1, 2, 2.5 or 5 · 10ⁿ apart. The first and last one cover [low, high].

@@ -1,4 +1,4 @@
-// Drawings of all joints of an assembly: maps, seen along the bolts, and rows of clamp forces.
+// SVG drawings of all joints of an assembly: maps, seen along the bolts, and rows of clamp forces.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace bolt::report {
 
-// Positions of the joints, seen from the nuts and scaled to the width; the height follows from them.
+// Positions of the joints in the units of a drawing, seen from the nuts and scaled to the width; the height
+// follows. `margin`: between the outermost positions and the border.
 struct JointMapLayout {
     std::vector<plot::SvgPoint> positions;  // by joint
     double width = 480.0, height = 200.0;

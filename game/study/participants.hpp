@@ -21,8 +21,8 @@ struct NewParticipant {
 };
 // Makes the folder and the journal of the next participant, and returns the folder. Takes the smallest place
 // that no active participant has. Fails if the person takes part already, if active participants follow
-// another plan, or if people and simulated participants would be mixed. A call fails while another program
-// enrols.
+// another plan, or if people and simulated participants would be mixed. Waits while another program enrols a
+// participant; fails if that takes more than three seconds.
 Result<std::filesystem::path> add_participant(const content::Study& study,
                                               const std::filesystem::path& study_folder,
                                               const NewParticipant& participant);

@@ -36,9 +36,10 @@ inline constexpr std::size_t no_index = std::numeric_limits<std::size_t>::max();
 
 struct Step {
     StudyStepKind kind = StudyStepKind::information;
-    std::string id;                    // unique in the study: "part-2/lesson-1"
-    std::size_t form = no_index;       // index into Study::forms
-    std::size_t part = no_index;       // counts the participant's conditions from 0; none outside of them
+    std::string id;               // unique in the study: "part-2/lesson-1"
+    std::size_t form = no_index;  // index into Study::forms
+    // Counts the participant's conditions from 0; of a break: the part after it; none outside of the parts.
+    std::size_t part = no_index;
     std::size_t condition = no_index;  // index into Study::conditions
     std::size_t lesson = no_index;     // counts the lessons of a part from 0
 };
@@ -55,21 +56,23 @@ struct Progress {
     std::size_t plan_changes = 0;         // accepted since the participant began
     bool simulated = false;
     std::string language;
-    // When each step was done, s since 1970-01-01 UTC. A following clock_set_back entry lowers a later time
-    // to its own.
+    // When each step was done, s since 1970-01-01 UTC. A time later than that of a following clock_set_back
+    // entry is wrong, and is replaced by the time of that entry.
     std::map<std::string, std::int64_t> done;
     std::map<std::string, content::Answers> answers;                // by step
     std::map<std::string, std::map<std::string, double>> measures;  // of lessons, by step
     std::map<std::string, std::string> lesson_folders;              // by step; relative
-    std::vector<std::string>
-        begun_again;                      // steps of interrupted lessons that began again, once for each time
-    std::vector<std::string> continued;   // and of those that were continued at the point reached
+    // Steps whose interrupted lesson began again, once for each time.
+    std::vector<std::string> begun_again;
+    // Steps whose interrupted lesson was continued at the point reached, once for each time.
+    std::vector<std::string> continued;
     std::size_t interrupted_lessons = 0;  // each counted once
     std::string comment;
     double training = 0.0;                                        // s in finished lessons of the training
     std::vector<std::map<std::string, double>> training_lessons;  // the measures of each of them
-    std::int64_t begun = 0, latest = 0;                           // s since 1970-01-01 UTC
-    double clock_set_back = 0.0;                                  // s in total
+    // Times of the first and of the last entry, s since 1970-01-01 UTC.
+    std::int64_t begun = 0, latest = 0;
+    double clock_set_back = 0.0;  // s in total
 };
 Progress progress_of(std::span<const JournalEntry> entries, bool simulated);
 

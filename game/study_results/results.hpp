@@ -28,9 +28,10 @@ std::string_view name(ObservationTime time);
 struct Observation {
     std::size_t participant = 0;  // index into StudyData::participants
     ObservationTime time = ObservationTime::condition;
-    std::size_t condition = no_index;  // set for values in a condition; at other times only between subjects
-    std::size_t part = no_index;       // in the order of the participant; none at other times
-    std::size_t lesson = no_index;     // of the part or the training; none: a form after the whole part
+    // Set for values in a condition. Between subjects it is set for all values except those of the training.
+    std::size_t condition = no_index;
+    std::size_t part = no_index;    // in the order of the participant; none at other times
+    std::size_t lesson = no_index;  // of the part or the training; none: a form after the whole part
     std::string measure;
     double value = 0.0;
 };
@@ -56,7 +57,7 @@ struct IncompleteForm {
     std::string form;                     // title
     std::vector<std::string> declined;    // items that the participant chose not to answer
     std::vector<std::string> unanswered;  // items that were not reached, because the study was left there
-    std::vector<std::string> scales;      // titles of those that have no value therefore
+    std::vector<std::string> scales;      // titles of the scales that therefore have no value
 };
 std::vector<IncompleteForm> incomplete_forms(const content::Study& study,
                                              const std::vector<ParticipantState>& states);

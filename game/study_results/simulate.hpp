@@ -28,8 +28,9 @@ struct SimulatedLesson {
 struct SimulationOptions {
     std::size_t participants = 20;
     std::uint64_t seed = 1;
-    std::vector<double> effects;  // by condition, as PowerOptions::effects
-    std::size_t threads = 1;      // lessons at once
+    // By condition: shift of the answers in standard deviations, as PowerOptions::effects.
+    std::vector<double> effects;
+    std::size_t threads = 1;  // lessons at once
     // Plays a lesson to its end; called from several threads. The caller supplies it, because this library
     // does not link game/trainees.
     std::function<Result<session::LessonOutcome>(const SimulatedLesson&)> play;

@@ -23,7 +23,8 @@ struct EmulatedGloveOptions {
     hand::Side hand = hand::Side::right;
     std::string version = "1.2";
     bool plugged = true;
-    // Settings that the previous program left in the glove.
+    // Settings that the previous program left in the glove: if a frame contains the status byte, if it
+    // contains the time, and if the glove sends frames without a request.
     bool status = false, time = false;
     bool streaming = false;
     bool old_firmware = false;  // rejects the optional commands

@@ -46,6 +46,7 @@ struct FieldMesh {
     std::vector<FieldFace> faces;
 };
 
+// Returns the surface r(θ, z) between the ends as plane polygons.
 FieldMesh polygons(const ThreadField& field);
 
 // Returns θ of a vertex within the range of a sector: sector 1 ends at 2π, not at 0.

@@ -32,7 +32,7 @@ double smooth_step(double low, double high, double x);
 // Estimates the gradient from four samples at the corners of a tetrahedron of size h (m).
 Vec3 gradient(const SignedDistanceField& field, const Vec3& p, double h);
 
-// Moves p towards the zero surface by Newton steps.
+// Moves p towards the zero surface by at most `steps` Newton steps. `h`: m, size for gradient().
 Vec3 project(const SignedDistanceField& field, Vec3 p, double h, int steps);
 
 struct FieldBounds {

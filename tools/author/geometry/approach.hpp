@@ -10,10 +10,10 @@ namespace bolt::geometry {
 
 // The paths by which an open end can leave the nut: up along the bolt, or sideways out of the jaw.
 struct ExitPaths {
-    double height = 0.0;     // m, of the tool on the joint above the joint's origin
+    double height = 0.0;     // m, of the tool's origin above the joint's, while the tool is on the joint
     double jaw_angle = 0.0;  // rad about +Y, from the handle to the jaw
-    double head_size = 0.0;  // m
-    double reach = 0.0;      // m, of the tool
+    double head_size = 0.0;  // m, from the middle of the jaw to the outside of the head
+    double reach = 0.0;      // m, largest distance of the tool from the axis
 };
 
 // Returns no_part if at least one path is free, otherwise a part that blocks a path.
@@ -22,9 +22,9 @@ std::uint32_t find_obstruction(const Obstacles& surroundings, const Bvh& tool, c
 
 // The path by which a ring, a socket or a key leaves: `lift` along the bolt, then up or to any side.
 struct AxialExit {
-    double height = 0.0;  // m, of the tool on the joint above the joint's origin
+    double height = 0.0;  // m, of the tool's origin above the joint's, while the tool is on the joint
     double lift = 0.0;    // m by which the tool has to rise to clear the turned part and the bolt's end
-    double reach = 0.0;   // m, of the tool
+    double reach = 0.0;   // m, largest distance of the tool from the axis
 };
 
 // Returns no_part if the path is free at some angle of the swing, otherwise a part that blocks it.

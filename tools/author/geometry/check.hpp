@@ -34,8 +34,9 @@ Findings check_geometry(const content::Assembly& assembly, std::optional<DrawnTo
 // one that check_geometry has checked, and whose torques may differ.
 Findings check_tool_choice(const content::Assembly& assembly);
 
-// Checks the file's references that reading it does not: that the pictures of all instructions can be shown,
-// those of every variant included. Notes joint types that no joint has. Implemented in check_references.cpp.
+// Checks references of the file that the reader of assembly.json does not check: the pictures of all
+// instructions, also those of the variants, can be shown. Notes joint types that no joint has. Implemented in
+// check_references.cpp.
 Findings check_references(const content::Assembly& assembly);
 
 }  // namespace bolt::geometry

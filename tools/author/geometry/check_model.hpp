@@ -55,10 +55,14 @@ std::vector<int> check_nodes(const content::Assembly& assembly, const FlattenedM
 inline constexpr std::size_t near_budget = 250'000, far_budget = 60'000;  // triangles, counting instances
 inline constexpr std::uintmax_t file_budget = 8'000'000;                  // bytes
 
+// Report a model file above `file_budget`, and a model with more than `budget` triangles. `pointer`: JSON
+// pointer of the model in the assembly file.
 void check_file_size(const std::string& path, std::string_view pointer, const Messages& messages);
 void check_triangles(const FlattenedModel& scene, std::size_t budget, std::string_view pointer,
                      const Messages& messages);
+// Reports node names that only one of the two levels has.
 void check_names(const FlattenedModel& near, const FlattenedModel& far, const Messages& messages);
+// Reports parts of the contact model that are not closed, or whose names the near model lacks.
 void check_contact(const FlattenedModel& contact, const FlattenedModel& near, const Messages& messages);
 
 // An open end: its name for messages, and its opening, m.

@@ -67,8 +67,8 @@ struct FaceHit {
     std::uint32_t part = 0;
 };
 
-// Casts rays from a ring about the axis at `height` along ±Y and returns the hit at the median distance;
-// nullopt if fewer than half of them hit.
+// Casts rays from a ring about the axis at `height` and returns the hit at the median distance; nullopt if
+// fewer than half of them hit. `direction`: +1 along +Y, −1 along −Y.
 std::optional<FaceHit> find_face(const JointCheck& s, double radius, double height, double direction,
                                  double reach);
 

@@ -34,7 +34,7 @@ struct ModelPart {
 struct FlattenedModel {
     std::vector<ModelNode> nodes;  // a parent before its children
     std::vector<ModelPart> parts;
-    std::map<std::string, std::vector<int>, std::less<>> by_name;
+    std::map<std::string, std::vector<int>, std::less<>> by_name;  // indices into `nodes`
 
     [[nodiscard]] bool is_under(int node, int ancestor) const;  // true also for node == ancestor
     [[nodiscard]] std::size_t triangle_count() const;
@@ -63,11 +63,11 @@ struct JointParts {
     Fastener turned;         // the nut, or the head of a bolt that is turned at its head
     Fastener turned_washer;  // under that part
 
-    [[nodiscard]] bool owns(std::uint32_t part) const;
+    [[nodiscard]] bool owns(std::uint32_t part) const;  // the part is in one of the fasteners
 };
 
-// The frame of a joint at its node, in the assembly's frame. A node that is the screw itself, a mesh, may
-// point along the screw or against it.
+// The frame of a joint at its node, in the assembly's frame. If the node is the screw itself, a mesh, its +Y
+// may point against the axis of the design; the frame is then turned over.
 glm::dmat4 joint_frame(const FlattenedModel& scene, int joint_node, const joint::JointDesign& design);
 
 // Finds the nodes ID_bolt, ID_washer_head, ID_washer_nut and ID_nut under the joint's node; a missing node

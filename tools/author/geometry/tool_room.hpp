@@ -14,7 +14,7 @@ namespace bolt::geometry {
 // The swing of a tool as it is and turned over; only an open end can be turned over.
 struct SwingPair {
     FreeSwing plain, turned_over;
-    bool reversible = true;
+    bool reversible = true;  // the tool can be turned over
 
     [[nodiscard]] double most() const { return std::max(plain.width(), turned_over.width()); }
     [[nodiscard]] double least() const { return std::min(plain.width(), turned_over.width()); }
@@ -40,7 +40,7 @@ struct ToolRoom {
     SwingPair seated;
     std::optional<SwingPair> at_start;    // if the thread starts more than 1 mm above the seat
     std::uint32_t obstruction = no_part;  // a part in the path onto the tightened joint
-    bool enough = false;                  // swing and path
+    bool enough = false;                  // the swings are wide enough, and a path is free
 };
 
 // A joint and the obstacles around it.

@@ -27,7 +27,9 @@ struct InstalledBolt {
     Vec3 origin, axis;
     double diameter = 0.0;
     double head = 0.0;  // under the head and its washers
-    double end = 0.0;   // its meaning: at find_members() and find_tapped_part()
+    // For find_members(): under the nut and its washers, or at the tapped part. For find_tapped_part(): the
+    // end of the bolt.
+    double end = 0.0;
 };
 
 inline constexpr double coaxial_distance = 0.1 * mm;

@@ -46,6 +46,8 @@ struct ImportReport {
     std::vector<std::string> materials;
     std::size_t joints = 0, joints_drafted = 0;
     std::vector<std::string> tools, joint_types;  // of the draft in words
+    // Deflections of the near, the contact and the far mesh, 0 without a far mesh, and the error that the
+    // simplification adds to the far mesh.
     double deflection_mm = 0.0, contact_deflection_mm = 0.0, far_deflection_mm = 0.0, far_error_mm = 0.0;
     std::size_t renamed = 0;  // nodes with a duplicate name
     std::vector<FileReport> files;

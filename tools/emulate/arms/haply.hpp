@@ -30,7 +30,7 @@ class EmulatedHaply {
     [[nodiscard]] std::uint64_t rejected() const;  // other messages
     // True once the fault has taken effect: in an answer, as a missing answer, or as an event that was sent.
     [[nodiscard]] bool fault_shown() const;
-    // s from that moment until the force on the hand ended; 0 if it had ended before.
+    // s from when the fault took effect until the force on the hand ended; 0 if the force had ended before.
     [[nodiscard]] double force_after_fault() const;
 
   private:

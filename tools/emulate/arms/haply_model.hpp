@@ -44,11 +44,11 @@ struct EmulatedHaplyOptions {
     // not served.
     std::string version = "3.5.0.0";
     HaplyGrip grip = HaplyGrip::wireless;
-    bool arm = true;
+    bool arm = true;  // an arm is connected
     bool calibrated = true;
-    bool centred = false;           // positions are from the middle of the reach, not from the base
-    std::string type = "inverse3";  // empty: not reported
-    std::string basis = "XYZ";
+    bool centred = false;            // positions are from the middle of the reach, not from the base
+    std::string type = "inverse3";   // empty: not reported
+    std::string basis = "XYZ";       // the permutation of the axes that the service reports
     double command_lifetime = 5e-3;  // s that one message keeps a force
     double answer_delay = 0.0;       // s from a message to its answer
     // The hand that holds the arm.

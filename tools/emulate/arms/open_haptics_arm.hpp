@@ -16,6 +16,7 @@ constexpr double hd_time_step = 25e-6;  // s, of step()
 
 struct HdArm {
     EmulatedHdHand hand{0.5, 300.0, 12.0, 0.2};
+    // The description that the arm reports, in the vendor's units.
     EmulatedHdReport report{"Touch", 6, 3, {-80, -50, -50, 80, 70, 70}, 0.5, 3.3, 0.88};
     std::string model{"Touch"};
     HdVector intention{}, position{};  // m; the hand's spring pulls the stylus to `intention`

@@ -28,9 +28,9 @@ struct Fact {
 
 // SI units. The inertia and the resolution of the rotation matter only for arms that sense rotations.
 struct ArmFacts {
-    std::string_view key;   // for the command line
-    std::string_view name;  // for the tables
-    device::Description (*announced)() = nullptr;
+    std::string_view key;                          // for the command line
+    std::string_view name;                         // for the tables
+    device::Description (*announced)() = nullptr;  // the description that the driver announces
     bool senses_rotation = true;
     Fact mass;             // kg, apparent at the handle
     Fact friction;         // N, dry

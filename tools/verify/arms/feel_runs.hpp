@@ -40,9 +40,9 @@ struct Press {
     Vec3 direction{0.0};    // unit
     double distance = 0.0;  // m from the start to the contact
 };
-// One press each: a level wrench onto the casing, a corner of its jaw, its handle over an edge, sideways
-// against the casing, and near a bolt.
 inline constexpr std::uint64_t default_press_seed = 2018;
+// Searches at random for one press of each kind: a level wrench onto the casing, a corner of its jaw, its
+// handle over an edge, sideways against the casing, and near a bolt. Leaves out a kind that it does not find.
 std::vector<Press> find_presses(TightenedAssembly& tightened, std::uint64_t seed = default_press_seed);
 
 // A motion of the wrench on a nut.

@@ -14,7 +14,7 @@ inline constexpr std::string_view tables_end = "<!-- bolt-arm-validation ends --
 // The rows of one arm, one for each of the first four tables: its facts, contact, the nut, and its feel at
 // the announced limits. Deterministic; tests/feel compares them with the page.
 std::vector<std::string> rows_of(const ArmResult& result);
-// Without and with guiding.
+// The two rows of one arm in the table of approaches: without and with the guiding force.
 std::vector<std::string> rows_of(const ApproachResult& result);
 
 std::string to_markdown(const ValidationResult& result);

@@ -50,8 +50,10 @@ ExactContact exact_contact(const ContactScene& scene, const collision::Collision
 ExactContact exact_contact(const ContactScene& scene, std::size_t part, const Pose& tool_to_part,
                            const OracleQuery& query);
 
-// The same for the sample points alone, each against the other's surface. A contact query is expected to
-// report this gap or a smaller one, and this depth or a greater one.
+// The same with only the sample points of the tool against the obstacles' surfaces, and those of the
+// obstacles against the tool's surface. `crosses`: the surfaces cross; then only the depth is measured,
+// otherwise only the gap. A contact query is expected to report this gap or a smaller one, and this depth or
+// a greater one.
 ExactContact exact_contact_of_points(const ContactScene& scene, const collision::CollisionWorld& world,
                                      const Pose& tool, bool crosses, const OracleQuery& query);
 

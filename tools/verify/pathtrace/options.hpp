@@ -15,8 +15,8 @@ namespace bolt::pathtrace {
 
 struct PathTraceOptions {
     std::string file, png, write_env;
-    std::string light = "studio";  // studio, none or an .hdr file
-    std::vector<std::string> nodes, hide;
+    std::string light = "studio";          // studio, none or an .hdr file
+    std::vector<std::string> nodes, hide;  // patterns of node names to show and to hide (NodeFilter)
     bool floor = false;
     bool no_lights = false;
     float exposure = 0.0F;                            // stops

@@ -88,6 +88,7 @@ class TracedScene {
     [[nodiscard]] glm::vec3 normal(const SurfaceHit& hit) const;
     // Returns an origin for rays from the hit towards `side` that do not hit the same surface again.
     [[nodiscard]] glm::vec3 ray_origin(const SurfaceHit& hit, const glm::vec3& side) const;
+    // Returns true if a material has an alpha mode other than opaque.
     [[nodiscard]] bool transparent() const { return transparent_; }
 
     [[nodiscard]] const std::vector<PunctualLight>& lights() const { return lights_; }

@@ -23,7 +23,9 @@ struct CapSpec {
 };
 
 CapSpec cap_spec(const ShaftLayout& shaft, double through_shaft, double seal_outer, double seal_width);
+// The angle, rad about the cap's +Z, at which screw `i` lies.
 double cap_screw_angle(const CapSpec& cap, int i);
+// Each ..._frame() function returns the placement of a part's local frame in the reducer.
 gp_Trsf cap_frame(const ShaftLayout& shaft, bool front);  // `front`: on the -Y side
 
 Result<TopoDS_Shape> end_cap(const CapSpec& cap);
@@ -43,7 +45,8 @@ Result<TopoDS_Shape> hatch_cover();
 Result<TopoDS_Shape> breather();  // z = 0 is the cover's outer face
 
 // The oil sight glass is on the -Y side, the drain plug in the wall at the output end. +Z points out of the
-// casing.
+// casing. glass_x: position of the glass; glass_boss: radius of its boss; boss_face: height of both bosses
+// above the wall.
 inline constexpr double glass_x = 478.0, glass_boss = 29.0, boss_face = 5.0;
 gp_Trsf glass_frame();
 gp_Trsf drain_frame();
