@@ -38,10 +38,10 @@ struct ReportField {
     std::int64_t physical_low = 0, physical_high = 0;  // both 0: same as logical
     std::int32_t exponent = 0;                         // power of ten of the physical unit
     std::uint32_t unit = 0;                            // code of the HID standard; 0: no unit
-    bool array = false;                                // a slot of an array
-    bool relative = false;                             // the change since the last report
-    bool null_state = false;                           // a value outside the logical range means no value
-    std::uint32_t collection = 0;                      // index of the innermost collection
+    // array: the field is a slot of an array. relative: the value is the change since the last report.
+    // null_state: a value outside the logical range means that there is no value.
+    bool array = false, relative = false, null_state = false;
+    std::uint32_t collection = 0;  // index of the innermost collection
 };
 
 // A group of fields, such as all fields of a joystick.

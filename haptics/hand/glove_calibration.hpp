@@ -82,8 +82,8 @@ enum class CalibrationPhase : std::uint8_t {
 
 enum class CalibrationProblem : std::uint8_t {
     none,
-    silent,    // the glove sends no frames
-    restless,  // the hand has not held the posture still
+    silent,   // the glove sends no frames
+    restless  // the hand has not held the posture still
 };
 
 struct CalibrationSessionOptions {
