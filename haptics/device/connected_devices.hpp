@@ -14,11 +14,11 @@ namespace bolt::device {
 class UnfinishedCalibrations;  // plugin_arms.hpp
 
 enum class DeviceKind : std::uint8_t {
-    arm,   // through its vendor's library or service (arms.hpp); renders forces
-    puck,  // six axes that spring back; SpaceMouse class
-    open_ffboard,
-    wheel,  // any other device with USB force feedback
-    other,  // unsupported
+    arm,           // through its vendor's library or service (arms.hpp); renders forces
+    puck,          // six axes that spring back; SpaceMouse class
+    open_ffboard,  // a wheel driven by an OpenFFBoard, an open-source motor controller
+    wheel,         // any other device with USB force feedback
+    other,         // unsupported
 };
 
 struct HidIdentity {
@@ -44,7 +44,8 @@ struct ListedDevice {
 // The devices connected now; with `others` also unsupported ones such as keyboards.
 std::vector<ListedDevice> list_devices(bool others = false);
 
-// kg. The arms can lift 1 to 2 kg, depending on the model; this limit leaves a part for rendered forces.
+// kg, largest mass of a handle or tool that is mounted on an arm. The arms can lift 1 to 2 kg, depending on
+// the model; this limit leaves a part for rendered forces.
 inline constexpr double max_effector_mass = 1.0;
 
 struct OpenOptions {

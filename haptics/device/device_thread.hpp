@@ -24,7 +24,7 @@ struct SupervisorOptions {
 // The force to render. Commands issued before the device was opened are never rendered.
 struct ForceCommand {
     force::OutputCommand command;
-    bool enabled = false;
+    bool enabled = false;      // false: the device renders no force
     std::uint64_t number = 0;  // a new number marks a new command
 };
 

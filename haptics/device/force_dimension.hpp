@@ -52,7 +52,7 @@ Result<ForceDimensionApi> load_force_dimension(const std::vector<std::filesystem
 struct ForceDimensionOptions {
     int index = 0;               // of the arm, from 0
     bool may_move = false;       // the arm may move by itself to find its position, if it has not done so yet
-    double effector_mass = 0.0;  // kg, OpenOptions::effector_mass
+    double effector_mass = 0.0;  // kg, of the mounted handle or tool; 0: that of the factory
 };
 
 // Opens arm `index`, which then compensates its weight; the brakes hold it when it is closed. If the arm must

@@ -1,5 +1,6 @@
-// Haply's Inverse3, with a VerseGrip, through the vendor's service: messages over a WebSocket on this
-// computer (haply_messages.hpp). Not tried on hardware.
+// Haply's arm Inverse3 through the vendor's service: messages over a WebSocket on this computer
+// (haply_messages.hpp). The arm may have a VerseGrip, a handle that senses rotation and has buttons. Not
+// tried on hardware.
 #pragma once
 
 #include <vector>
@@ -9,9 +10,10 @@
 
 namespace bolt::device {
 
+// The addresses of the service.
 struct HaplyService {
-    SocketAddress states{.port = 10001};
-    SocketAddress events{.port = 10020};
+    SocketAddress states{.port = 10001};  // takes forces and sends states
+    SocketAddress events{.port = 10020};  // sends events, such as an arm that has braked
 };
 
 // The service that BOLTWRIGHT_HAPLY names as ADDRESS:PORT, or the one on this computer. The events have the

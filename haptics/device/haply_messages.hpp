@@ -19,6 +19,7 @@ struct HaplyArmEntry {
     Vec3 middle{0.0};         // m, middle of the reach, in the service's frame
 };
 
+// A VerseGrip (haply.hpp).
 struct HaplyGripEntry {
     std::string id;
     bool wireless = false;  // three buttons instead of one
@@ -38,10 +39,10 @@ struct HaplyState {
     Vec3 position{0.0};               // m, from the middle of the reach
     Vec3 velocity{0.0};               // m/s
     std::optional<Quat> orientation;  // unit, of the grip; nullopt: the message has none
-    std::uint32_t buttons = 0;        // bit 0: the wired grip's button or a, bit 1: b, bit 2: c
+    std::uint32_t buttons = 0;        // bit 0: a wired grip's button, or button a; bits 1, 2: b, c
 };
 
-// `grip` may be null. Error::lost is set if the arm is missing, or no longer calibrated.
+// A null `grip`: the arm has none. Error::lost is set if the arm is missing, or no longer calibrated.
 Result<HaplyState> parse_haply_state(std::string_view message, const HaplyArmEntry& arm,
                                      const HaplyGripEntry* grip);
 

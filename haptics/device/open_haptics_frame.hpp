@@ -11,6 +11,7 @@
 
 namespace bolt::device::open_haptics {
 
+// Results of check_calibration(), and the capability that switches the forces on and off.
 inline constexpr unsigned calibrated = 0x5000, needs_update = 0x5001, force_output = 0x4000;
 // Errors. Those below first_fault end the forces for a while, the others until the arm is opened again.
 inline constexpr unsigned warm_motors = 0x200, first_fault = 0x300, already_initiated = 0x301,
@@ -22,7 +23,8 @@ inline constexpr int max_buttons = 4;
 
 using Doubles = std::array<double, 16>;  // room for the longest value, the transform
 
-// Returns the 16 values, NaN where the library reports none.
+// The values of parameter `what` of hdDefines.h: 16 values, NaN where the library reports none; and the first
+// integer value, 0 if the library reports none.
 Doubles get_doubles(const OpenHapticsApi& api, unsigned what);
 int get_integer(const OpenHapticsApi& api, unsigned what);
 

@@ -17,7 +17,7 @@ namespace bolt::device {
 enum class DeviceNeed : std::uint8_t {
     none,
     permission,  // to move by itself, so that it finds its position
-    inkwell,     // its stylus or handle in the inkwell, which calibrates the arm
+    inkwell,     // its stylus or handle in the inkwell (the holder on its base), where it is calibrated
     user,        // the action that Preparation::instruction names
     wait,        // it calibrates itself without a visible movement
 };

@@ -18,12 +18,14 @@ namespace bolt::device {
 
 enum class ReportKind : std::uint8_t { input, output, feature };
 
+// The meaning of a value, as a page and a number of the HID Usage Tables.
 struct Usage {
     std::uint16_t page = 0, id = 0;
     friend bool operator==(const Usage&, const Usage&) = default;
 };
 
-// One value in a report, or one slot of an array of usages.
+// One value in a report, or one slot of an array. A slot of an array holds the number of one of the array's
+// usages, such as the key that is pressed.
 struct ReportField {
     ReportKind kind = ReportKind::input;
     std::uint8_t report = 0;  // report id; 0: reports are not numbered
@@ -35,15 +37,18 @@ struct ReportField {
     std::int64_t low = 0, high = 0;                    // logical range
     std::int64_t physical_low = 0, physical_high = 0;  // both 0: same as logical
     std::int32_t exponent = 0;                         // power of ten of the physical unit
-    std::uint32_t unit = 0;
+    std::uint32_t unit = 0;                            // code of the HID standard; 0: no unit
+    // array: the field is a slot of an array. relative: the value is the change since the last report.
+    // null_state: a value outside the logical range means that there is no value.
     bool array = false, relative = false, null_state = false;
     std::uint32_t collection = 0;  // index of the innermost collection
 };
 
+// A group of fields, such as all fields of a joystick.
 struct Collection {
     Usage usage;
-    std::uint8_t type = 0;  // 0 physical, 1 application, 2 logical, …
-    std::optional<std::uint32_t> parent;
+    std::uint8_t type = 0;                // 0 physical, 1 application, 2 logical, …
+    std::optional<std::uint32_t> parent;  // index of the collection that contains this one
 };
 
 struct ReportLength {
@@ -54,7 +59,7 @@ struct ReportLength {
 
 struct ReportDescriptor {
     std::vector<Collection> collections;
-    std::vector<ReportField> fields;  // without padding and fields wider than 32 bits
+    std::vector<ReportField> fields;  // padding and fields wider than 32 bits are left out
     std::vector<Usage> slots;         // usages that array slots can hold
     std::vector<ReportLength> reports;
     bool numbered = false;  // reports begin with an id
@@ -75,6 +80,7 @@ struct Selector {
     ReportField field;
     std::int64_t value = 0;  // value that selects it
 };
+// The first option with this kind and usage, inside a collection of usage `within` if given; nullopt if none.
 std::optional<Selector> find_selector(const ReportDescriptor& descriptor, ReportKind kind, Usage option,
                                       std::optional<Usage> within = std::nullopt);
 

@@ -30,15 +30,15 @@ struct HandAndArmParameters {
 
 struct ArmModel {
     HandAndArmParameters parameters;
-    Pose pose;       // of the handle, device frame
-    Pose intention;  // intended pose
-    Vec3 velocity{0.0};
-    Vec3 angular_velocity{0.0};
+    Pose pose;                   // of the handle, device frame
+    Pose intention;              // pose to which the hand's spring pulls
+    Vec3 velocity{0.0};          // m/s
+    Vec3 angular_velocity{0.0};  // rad/s
     // m/s and rad/s of the intention. The hand's damper acts on the difference, so that an arm whose
     // intention moves steadily does not lag behind it.
     Vec3 intention_velocity{0.0}, intention_angular_velocity{0.0};
     double energy_out = 0.0;  // J delivered to the hand: force times motion, integrated every 25 µs
-    std::array<force::OutputCommand, 4> sent{};
+    std::array<force::OutputCommand, 4> sent{};  // the latest commands, newest first
 };
 
 // The pose that the encoders measure.

@@ -16,10 +16,12 @@ namespace bolt::device {
 // program.
 constexpr double effect_life = 1.0;
 
+// A report to the device. An effect, such as a constant force, occupies a block of the device's memory, and
+// messages name the effect by the index of its block.
 struct ForceFeedbackMessage {
     ReportKind kind = ReportKind::output;
     std::vector<std::uint8_t> bytes;   // begins with the id; empty: the device has no such message
-    std::optional<ReportField> block;  // index of the effect
+    std::optional<ReportField> block;  // field that holds the block's index; none: the message has none
 };
 
 struct ForceFeedbackLayout {
@@ -29,7 +31,7 @@ struct ForceFeedbackLayout {
     ForceFeedbackMessage block_load;         // feature to read: block index and status of the new effect
     ForceFeedbackMessage set_effect;         // effect parameters: duration and direction (from the right)
     ForceFeedbackMessage set_force;          // magnitude of the constant force
-    ForceFeedbackMessage start, stop, free;  // effect operation
+    ForceFeedbackMessage start, stop, free;  // start and stop the effect; free its block
     ReportField magnitude;                   // in `set_force`
     std::optional<ReportField> status;       // in `block_load`
     std::int64_t load_success = 0;           // value of `status` after a successful load

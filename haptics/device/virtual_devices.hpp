@@ -47,7 +47,8 @@ class VirtualPuck {
 using RecordedSamples = std::function<std::optional<Sample>(std::size_t index)>;
 
 // A device that plays recorded samples at their recorded times; restarts at each opening. After the last
-// sample the pose stays and all buttons are released. Rendered force has no effect.
+// sample the pose stays and all buttons are released. Rendered force has no effect. Opening fails if there is
+// no sample.
 DeviceFactory recorded(Description description, RecordedSamples recording, Timer timer);
 
 enum class InjectedFault : std::uint8_t {

@@ -80,7 +80,11 @@ enum class CalibrationPhase : std::uint8_t {
     failed,   // `failure` is set; start again
 };
 
-enum class CalibrationProblem : std::uint8_t { none, silent, restless };
+enum class CalibrationProblem : std::uint8_t {
+    none,
+    silent,   // the glove sends no frames
+    restless  // the hand has not held the posture still
+};
 
 struct CalibrationSessionOptions {
     double settle = 0.3;          // s of rest before sampling starts
@@ -88,7 +92,7 @@ struct CalibrationSessionOptions {
     double still = 8.0;           // counts that a sensor may deviate while the hand is still
     double moved = 12.0;          // counts by which at least one sensor must differ from the last posture
     double silence = 0.25;        // s without a frame until sampling restarts
-    double problem_delay = 20.0;  // s in one posture until the problem is shown
+    double problem_delay = 20.0;  // s in one posture until `restless` is reported
 };
 
 // Guides a trainee through the four calibration postures. Each is sampled while the hand is still; the result
@@ -102,10 +106,12 @@ struct CalibrationSession {
     std::optional<CalibrationResult> result;
     std::optional<Error> failure;
 
-    std::vector<PostureSamples> taken;
-    PerSensor<std::uint8_t> rest{};  // readings when the hand came to rest
+    std::vector<PostureSamples> taken;  // the postures sampled so far
+    PerSensor<std::uint8_t> rest{};     // readings when the hand came to rest
+    // s, times on the clock of update(). `still_since`: the hand came to rest or, while `holding`, sampling
+    // began.
     double still_since = 0.0, last_frame = 0.0, requested_since = 0.0;
-    bool started = false;
+    bool started = false;  // update() has been called
 };
 
 // The instruction for a posture.

@@ -18,10 +18,12 @@ struct GloveSample {
 };
 
 struct GloveReport {
-    bool open = false;  // the port
-    GloveState state = GloveState::handshake;
+    bool open = false;                         // the port is open
+    GloveState state = GloveState::handshake;  // `silent` while the port is not open
     GloveIdentity identity;
     std::array<char, 200> fault_message{};  // zero-terminated text; empty: none
+    // Totals since the start: frames, bytes outside valid frames, successful handshakes, and successful
+    // openings of the port.
     std::uint64_t frames = 0, lost_bytes = 0, handshakes = 0, openings = 0;
     // s: time of the latest frame on the steady clock, and the longest gap between frames up to now.
     double newest = 0.0, longest_silence = 0.0;

@@ -96,7 +96,8 @@ void read_frames(GloveFrameReader& reader, std::span<const std::uint8_t> bytes,
                  FunctionRef<void(const GloveFrame&)> on_frame);
 
 // The reply to a query ('?' and a letter) repeats both and adds the value; the reply to a setting is its
-// letter. Each ends with a zero. The reply to an unknown command is "e?", a newline and a zero.
+// letter. Each ends with a zero. The reply to an unknown command is "e?", a carriage return, a
+// newline and a zero.
 
 struct GloveIdentity {
     std::size_t sensors = 0;  // 18 or 22

@@ -25,7 +25,8 @@ struct GraspInput {
 
 // Reported once each.
 enum class GraspEvent : std::uint8_t { none, grasped, released, glove_lost, glove_back };
-// Text for the trainee, empty for none. For a lost glove it depends on whether the tool is held.
+// Text for the trainee; empty for `none`. The texts of glove_lost and glove_back depend on `held`: the tool
+// is held.
 const char* message_for(GraspEvent event, bool held);
 
 struct GraspState {
@@ -43,6 +44,8 @@ struct GraspState {
     double release_blocked_for = 0.0;  // s left of release_block_time
 };
 
+// Updates the grasp by `dt` s. Returns what changed. Call it also without a fresh frame, so that a lost glove
+// is detected.
 GraspEvent update_grasp(GraspState& grasp, const GraspOptions& options, const collision::ToolShape& tool,
                         const hand::Hand& hand, const GraspInput& input, double dt);
 

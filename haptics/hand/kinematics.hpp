@@ -46,6 +46,7 @@ struct AngleRange {
 
 inline constexpr double range_margin = to_radians(10.0);
 
+// The range from `low` to `high`, both in degrees, widened by `range_margin` at both ends.
 constexpr AngleRange degrees(double low, double high) {
     return {to_radians(low) - range_margin, to_radians(high) + range_margin};
 }

@@ -44,12 +44,13 @@ inline double filtered(OneEuro& filter, const OneEuroOptions& options, double va
     return filter.value;
 }
 
-// Angle of each sensor's joint, rad, signs as in glove_calibration.hpp. A DIJ without a sensor follows its
-// PIJ; other joints without a calibrated sensor are 0, for example the wrist after a calibration by postures.
+// Angle of each sensor's joint, rad, signs as in glove_calibration.hpp. The outer joint of a finger
+// (DIJ), if it has no sensor, follows the middle joint (PIJ). Other joints without a calibrated sensor are 0,
+// for example the wrist after a calibration by postures.
 PerSensor<double> sensor_angles(const Calibration& calibration, const GloveFrame& frame);
 
-// Ratio of DIP to PIP flexion (H. Rijpkema, M. Girard, Computer animation of knowledge-based human grasping,
-// SIGGRAPH 1991).
+// Ratio of the flexion of a finger's outer joint (DIP) to that of its middle joint (PIP) (H. Rijpkema, M.
+// Girard, Computer animation of knowledge-based human grasping, SIGGRAPH 1991).
 inline constexpr double dip_of_pip = 2.0 / 3.0;
 
 // Abduction sensors measure the angle between neighbouring fingers. They are summed outward from the middle

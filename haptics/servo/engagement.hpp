@@ -10,15 +10,17 @@
 
 namespace bolt::servo {
 
+// The pose of a tool and its axes, in the assembly's frame.
 struct ToolPose {
-    Vec3 position{0.0};
+    Vec3 position{0.0};                    // m
     Quat orientation{1.0, 0.0, 0.0, 0.0};  // unit
     Vec3 handle{1.0, 0.0, 0.0};            // x axis of the tool
     Vec3 normal{0.0, 0.0, 1.0};            // z axis of the tool
     bool valid = true;                     // false: the command is not a pose; such a tool engages nothing
 };
 
-// `valid` is false if the command is not finite, is beyond 1 km or has no unit quaternion.
+// Normalises the quaternion. `valid` is false if the command is not finite, is beyond 1 km or has a
+// quaternion whose length is outside 0.5 … 2.
 ToolPose tool_pose(const CommandedTool& commanded);
 ToolPose tool_pose(const Pose& pose);
 
@@ -44,13 +46,15 @@ struct Engagement {
     collision::HeadFit fit;
     // 0 … 1, share of the corner torque (joint/nut.hpp) that the corners still bear while the head slips.
     double corner_torque_share = 1.0;
-    double turned_beyond_corner_torque = 0.0;  // rad
+    // rad that the tool has turned beyond the angle at which it reaches the corner torque.
+    double turned_beyond_corner_torque = 0.0;
 };
 
 // Centre of the nut in the assembly's frame, m, at `nut_angle` rad.
 Vec3 nut_centre(const NutGeometry& nut, double nut_angle);
 
-// Angle of the jaw or of the fingers about the bolt, rad, tightening positive, in −π … π.
+// Angle of the head or of the fingers about the bolt, from NutGeometry::e1: rad, tightening positive,
+// in −π … π.
 double tool_azimuth(const Setup& setup, const NutGeometry& nut, const ToolPose& tool, Grip grip);
 
 // One tick. Releases the nut if the grip changes, the tool moves or tilts away, its angle changes by more
@@ -102,7 +106,8 @@ Pose pose_in_nut_frame(const NutGeometry& nut, const joint::JointState& joint, c
 void update_contact_engagement(const Setup& setup, std::span<const joint::JointState> joints,
                                std::span<const double> rounded, const ToolPose& tool, Engagement& engagement);
 
-// The engaged wrench as the joint law's drive. `rounded` in m.
+// The engaged wrench as the joint law's drive. `rounded`: m that the nut's corners have lost along each flat
+// (joint::CornerGrip::rounded).
 joint::NutDrive contact_drive(const Setup& setup, const NutGeometry& nut, double rounded,
                               const Engagement& engagement);
 

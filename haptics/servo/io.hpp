@@ -68,10 +68,12 @@ struct Output {
 
     force::Fault fault = force::Fault::none;  // reason for which the output is zero
 
-    Pose constrained_tool;       // pose that contacts permit, in the assembly's frame
-    std::uint16_t contacts = 0;  // within the band, in the last query at a pose of the tool
-    // The obstacle in contact at the pose of the tick's last contact query. That pose can differ
-    // from `constrained_tool`.
+    Pose constrained_tool;  // pose that contacts permit, in the assembly's frame
+    // Number of contacts that the query at the tool's last pose found. The query also reports obstacles that
+    // the tool only comes near to (GodObjectStep::contacts).
+    std::uint16_t contacts = 0;
+    // The nearest obstacle in contact at the pose of the tick's last contact query; none without a contact.
+    // That pose can differ from `constrained_tool`.
     collision::ObstacleId touched;
 
     // Physical values, before scaling to the device.
@@ -81,7 +83,7 @@ struct Output {
     double nut_angle = 0.0;      // rad, tightening positive; 0 where the hand starts the nut on its thread
     double clamp = 0.0;          // clamp force, N
 
-    std::int16_t slipped = -1;  // joint over whose corners the jaw slipped in this tick; −1: none
+    std::int16_t slipped = -1;  // joint over whose corners the tool's head slipped in this tick; −1: none
     bool clicked = false;       // the torque wrench clicked in this tick
     std::uint8_t undone = 0;    // checkpoint that was restored in this tick, 1: the newest; 0: none
     // m that the corners of the engaged or slipped nut have lost along each flat (joint::CornerGrip::rounded)

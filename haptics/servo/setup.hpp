@@ -22,16 +22,16 @@ namespace bolt::servo {
 // joint laws do not depend on the direction; only the functions below map these angles to rotations about
 // `axis`.
 struct NutGeometry {
-    bool is_head = false;  // its shank lies below the bearing face
+    bool is_head = false;  // a head is turned, not a nut; its shank lies below the bearing face
     // +1: a right-hand thread, which a rotation about −axis tightens; −1: a left-hand thread, which a
     // rotation about +axis tightens.
     double sense = 1.0;
-    Vec3 seat{0.0};
+    Vec3 seat{0.0};  // m, centre of the seat
     Vec3 axis{0.0, 1.0, 0.0};
     Vec3 e1{1.0, 0.0, 0.0};
     Vec3 e2{0.0, 0.0, -1.0};
     double height = 0.0;            // m
-    double across_flats = 0.0;      // m, width that the tool must have: s in ISO 4032, or of a head's socket
+    double across_flats = 0.0;      // m, of the hexagon (s in ISO 4032) or of the head's hexagonal socket
     double bearing_diameter = 0.0;  // m, of the bearing face inside the chamfer
     double socket_depth = 0.0;      // m, of the head's hexagonal socket; 0: the tool grips it from outside
     double head_diameter = 0.0;     // m, of a head with a socket
@@ -105,9 +105,9 @@ struct LessonTool {
 // The constants of the tick. `wrench`, `tool` and the nuts' grip heights are those of the tool in use;
 // change_tool() (tick.hpp) replaces them between two ticks.
 struct Setup {
-    double dt = 0.001;
+    double dt = 0.001;  // s, duration of a tick
     joint::GroupParameters group;
-    std::vector<NutGeometry> nuts;
+    std::vector<NutGeometry> nuts;  // by joint
     std::vector<LessonTool> tools;
     std::size_t tool = 0;  // index in `tools`
     Wrench wrench;
@@ -132,29 +132,30 @@ struct Setup {
     }
 };
 
+// The tool from which make_setup() makes a Wrench.
 struct ToolDescription {
     collision::ToolHead head;
-    double head_angle = 0.0;       // rad, see Wrench
+    double head_angle = 0.0;       // rad from the handle to the direction of the head (Wrench::head_angle)
     double twist_stiffness = 0.0;  // N·m/rad, of an extension bar; 0: none
-    double yield_torque = 0.0;     // N·m, as Wrench::yield_torque
+    double yield_torque = 0.0;     // N·m at which the tool bends for good; 0: never
     double handle_length = 0.0;    // m
     double click_swing = 0.0;    // rad that a click-type torque wrench swings at its click; 0: a plain wrench
-    double adaptor_ratio = 1.0;  // as Wrench::adaptor_ratio
-    double click_accuracy = 0.0;  // relative bound of Wrench::deviation, which is drawn from the seed
+    double adaptor_ratio = 1.0;  // torque at the nut / torque on the scale
+    double click_accuracy = 0.0;  // largest relative deviation of the click torque; the seed determines it
 };
 
 struct SetupDescription {
     std::span<const joint::JointDesign> joints;
     joint::Law law = joint::Law::mechanistic;
     std::vector<joint::PublishedParameters> published;  // law `published`: one set for each joint
-    const joint::FlangePlate* flange = nullptr;
-    ToolDescription tool;  // in use at the beginning
+    const joint::FlangePlate* flange = nullptr;  // plate through which joints interact; null: they do not
+    ToolDescription tool;                        // in use at the beginning
     std::vector<ToolDescription> more_tools;
     std::vector<std::size_t> tool_of_joint;  // 0: `tool`, i + 1: more_tools[i]; empty: all 0
-    double max_torque = 0.0;  // N·m, the largest torque of the lesson; maps to the device's range
-    force::OutputLimits limits;
-    std::uint64_t seed = 0;
-    double dt = 0.001;
+    double max_torque = 0.0;     // N·m, the largest torque of the lesson; maps to the device's range
+    force::OutputLimits limits;  // of the devices, in the assembly's units
+    std::uint64_t seed = 0;      // of the scatter of joints and tools
+    double dt = 0.001;           // s, duration of a tick
 };
 
 Setup make_setup(const SetupDescription& description);

@@ -21,23 +21,25 @@
 
 namespace bolt::servo {
 
-// After a release the spring between tool and nut fades out within 50 ms instead of in one step.
+// The hold spring pulls an engaged tool to the centre of the nut. Contacts replace it for a wrench with
+// contact simulation. After a release the spring fades out within 50 ms instead of in one step.
 struct ReleaseFade {
-    Vec3 hold_target{0.0};
-    double share = 0.0;  // remaining share of Setup::hold_stiffness, 0 … 1
+    Vec3 hold_target{0.0};  // m, point to which the fading spring pulls the tool
+    double share = 0.0;     // remaining share of Setup::hold_stiffness, 0 … 1
 };
 
 // A stored state of all joints and nuts, for undo.
 struct Checkpoint {
     std::vector<joint::JointState> joints;
-    std::vector<double> rounded;
+    std::vector<double> rounded;  // by joint: m, State::rounded
 };
 
 struct State {
-    std::uint64_t tick = 0;
+    std::uint64_t tick = 0;  // number of ticks since the beginning
     std::vector<joint::JointState> joints;
-    std::vector<double> rounded;  // by joint: m that slipping jaws removed (joint::CornerGrip::rounded)
-    double bent = 0.0;            // rad by which tools were bent for good; undo does not reduce it
+    // By joint: m that slipping heads removed along each flat (joint::CornerGrip::rounded).
+    std::vector<double> rounded;
+    double bent = 0.0;  // rad by which tools were bent for good; undo does not reduce it
     Engagement engagement;
     Vec3 hold_target{0.0};  // m, point to which the hold spring pulls an engaged tool
     ReleaseFade release_fade;
@@ -51,8 +53,8 @@ struct State {
 
 State initial_state(const Setup& setup);
 
-// Puts the tool that the input names into use, if it is a tool of the lesson and the hand holds neither a
-// tool nor a nut. Call it before each tick. Does not allocate.
+// Puts the tool that TickInput::tool names into use, if it is a tool of the lesson and the hand holds neither
+// a tool nor a nut. Call it before each tick. Does not allocate.
 void change_tool(Setup& setup, State& state, const TickInput& input);
 
 // One tick. `free` returns true if the straight segment between two points crosses no obstacle; the guiding
@@ -61,11 +63,11 @@ void change_tool(Setup& setup, State& state, const TickInput& input);
 Output tick(const Setup& setup, State& state, const TickInput& input);
 Output tick(const Setup& setup, State& state, const TickInput& input, force::IsSegmentFree free);
 
-// The tool as the guiding force sees it (haptics/force/guide.hpp).
+// The position of a tool, the direction of its head and its normal, which the guiding force needs.
 force::GuidedTool guided_tool(const Setup& setup, const ToolPose& tool);
 
-// The nut of `joint` at its present angle. Returns a target with id −1 if `joint` is not an index of
-// setup.nuts.
+// The nut of `joint`, at its present angle, as the target of the guiding force. Returns a target with id −1
+// if `joint` is not an index of setup.nuts.
 force::GuideTarget guide_target(const Setup& setup, std::span<const joint::JointState> joints, int joint);
 
 }  // namespace bolt::servo

@@ -36,9 +36,9 @@ struct ContactCache {
     // No body has moved, been enabled or been disabled since the query, so the mesh contacts are still valid.
     bool meshes_unchanged = false;
     Pose pose;
-    double band = 0.0;  // m
-    collision::ContactQueryResult nuts, meshes;
-    std::size_t count = 0;
+    double band = 0.0;                           // m, distance up to which contacts were searched
+    collision::ContactQueryResult nuts, meshes;  // results for the head with nuts, and for the meshes
+    std::size_t count = 0;                       // number of `contacts`
     std::array<collision::Contact, proxy::max_contacts> contacts;
 };
 
@@ -46,8 +46,9 @@ struct ContactCache {
 struct ToolInContact {
     collision::ToolShape shape;
     collision::NarrowPhaseState narrow_phase;
-    std::vector<collision::Convex> head;
-    std::vector<std::vector<collision::Convex>> shape_solids;  // by joint; empty: the head cannot turn it
+    std::vector<collision::Convex> head;  // convex solids of the tool's head
+    // By joint: convex solids of the nut or of the screw's socket. Empty: the head cannot turn it.
+    std::vector<std::vector<collision::Convex>> shape_solids;
 };
 
 struct ToolContact {
@@ -56,15 +57,16 @@ struct ToolContact {
     collision::ToolShape wrench;
     collision::NarrowPhaseState narrow_phase;
     std::vector<collision::Convex> head;
-    std::vector<std::vector<collision::Convex>> shape_solids;  // by joint; empty: the head cannot turn it
-    // By tool of the setup. The members of the tool in use are those above, and empty here.
+    std::vector<std::vector<collision::Convex>> shape_solids;
+    // By tool of the setup. The entry of the tool in use is empty: its data are in the four members above.
     std::vector<ToolInContact> tools;
     proxy::GodObjectParameters parameters;
     proxy::GodObjectState god_object;
     std::vector<std::optional<std::size_t>> nut_bodies;  // by joint: index into world.bodies; none: no mesh
-    std::vector<collision::TurnedShape> shapes;          // by joint
+    std::vector<collision::TurnedShape> shapes;          // by joint: the hexagon or socket that a tool turns
     std::vector<Pose> nut_poses;                         // by joint, in the assembly's frame
-    int joint_in_tool = -1;          // joint that the tool's head holds, or over which it slips; −1: none
+    // Joint whose nut the tool's head holds, or has released and is not yet clear of; −1: none.
+    int joint_in_tool = -1;
     proxy::GodObjectStep last_step;  // result of the last tick
     ContactCache cache;
     bool in_hand = false;           // the wrench was held in the last tick
@@ -75,7 +77,8 @@ struct ToolContact {
 // of a tool is not closed.
 Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescription& description);
 
-// Makes tool `to` the one in use instead of `from`. The hand must not hold a tool. Does not allocate.
+// Makes tool `to` the one in use instead of tool `from`, both indices in Setup::tools. The hand must not hold
+// a tool. Does not allocate.
 void use_tool(ToolContact& contact, std::size_t from, std::size_t to);
 
 // Derives the coupling from the device's limits and the tick's dt. Call it again when either changes.

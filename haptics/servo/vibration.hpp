@@ -50,10 +50,10 @@ struct VibrationOptions {
     double yield_frequency = 60.0;  // Hz, of `load_pulse` in the yield stage
 
     double detent_angle = to_radians(30.0);  // rad
-    double full_strike = 0.5;                // m/s
+    double full_strike = 0.5;                // m/s, speed of a strike with the full amplitude
     // Exponent of the growth of sensation with amplitude, up to 350 Hz: R. T. Verrillo et al., Subjective
     // magnitude functions for vibrotaction, IEEE Trans. Man-Machine Systems 11 (1970). Amplitude =
-    // share^(1/0.89), so that the sensation grows in proportion to torque / target.
+    // (torque / target)^(1/0.89), so that the sensation grows in proportion to torque / target.
     double sensation_exponent = 0.89;
     double max_share = 1.2;  // torque / target from which the amplitude grows no more
 
@@ -88,14 +88,15 @@ struct VibrationInput {
     double strike_speed = 0.0;  // m/s at which the wrench struck something in this tick; 0: it did not
 };
 
-// `strike_speed`: see VibrationInput; the servo does not detect strikes.
+// The input of a tick from its output. `target`: N·m, target torque of the step. `strike_speed`: m/s, at
+// which the wrench struck something; the caller determines it, because the servo does not detect strikes.
 VibrationInput vibration_input(const Output& output, double target, double strike_speed);
 
 struct VibrationState {
     // An event that no command has rendered yet.
     struct PendingCue {
         double amplitude = 0.0;  // 0: none
-        double time = 0.0;       // s
+        double time = 0.0;       // s, when it occurred
     };
 
     double time = 0.0;  // s since the first tick
@@ -107,19 +108,20 @@ struct VibrationState {
     double growth = 0.0;                    // 1/s, smoothed rate of `share`
     double speed = 0.0;                     // rad/s, smoothed
     double detent_angle_at_last_cue = 0.0;  // rad, multiple of detent_angle
+    // rad and s: the nut's angle and the time when it last moved by more than 0.02°.
     double rest_angle = 0.0, rest_since = 0.0;
-    bool stuck = false;  // stands still under load
+    bool stuck = false;  // the nut has stood still for 0.1 s or more
 
     std::int16_t seated_joint = -1;  // joint whose seat cue is not repeated; −1: none
-    double seat_angle = 0.0;
-    double last_yield = -1e9;  // s, last tick in the yield stage
+    double seat_angle = 0.0;         // rad, angle of that nut at its seat cue
+    double last_yield = -1e9;        // s, last tick in the yield stage
 
     std::array<PendingCue, vibration_cue_count> pending{};
     VibrationPulse load_pulse{};  // in this tick; amplitude 0: none
 
-    double sent_at = -1e9;     // s, time of the last command
-    double busy_until = -1e9;  // s, end of the event that the controller renders
-    VibrationCue rendered = VibrationCue::load_pulse;
+    double sent_at = -1e9;                             // s, time of the last command
+    double busy_until = -1e9;                          // s, end of the event that the controller renders
+    VibrationCue rendered = VibrationCue::load_pulse;  // cue of the last command
 };
 
 // Adds a tick. A tick with a value that is not finite only advances the time and ends the load pulse. A nut

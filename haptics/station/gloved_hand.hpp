@@ -48,15 +48,15 @@ constexpr servo::Grip grip_of(const HandState& state) {
 struct DisplayedHand {
     hand::Skeleton finger_joints;
     hand::Side side = hand::Side::right;
-    bool has_angles = false;  // the glove has sent the angles of the finger joints at least once
-    bool held = false, lost = false;
+    bool has_angles = false;          // the glove has sent the angles of the finger joints at least once
+    bool held = false, lost = false;  // the hand holds the tool; the glove is lost
 };
 DisplayedHand displayed_hand(const HandSetup& setup, const HandState& state);
 
 struct HandStatus {
-    bool held = false, lost = false;
+    bool held = false, lost = false;  // the hand holds the tool; the glove is lost
 };
-// Messages on faults of the glove, its connection or its wearer.
+// Messages on faults: the glove is lost, reports a fault, or is not of the side for which it was calibrated.
 std::vector<std::string> messages(const HandStatus& hand, hand::Side calibrated_side,
                                   const hand::GloveReport& report);
 

@@ -14,9 +14,8 @@ using force::Pivot;
 
 // m. The wrench pivots about a bolt while its jaw is within pivot_radius of the axis, at most pivot_below
 // below the nut's range of travel and at most pivot_above above it. Pivoting ends at 1.5 times these
-// distances. Further
-// down the jaw is beside the workpiece, and a rotation would push it under the workpiece's edge. The guiding
-// force aligns the jaw from the same distance (GuidingParameters::alignment_distance).
+// distances. Further down the jaw is beside the workpiece, and a rotation would push it under the workpiece's
+// edge. The guiding force aligns the jaw from the same distance (GuidingParameters::alignment_distance).
 constexpr double pivot_radius = 0.08, pivot_above = 0.06, pivot_below = 0.002;
 constexpr double pivot_alignment = 0.7;  // cosine of the largest angle between the tool's normal and the bolt
 constexpr double pivot_rate = 1.0;  // rad/s, largest rate at which the wrench turns square to a near bolt

@@ -40,7 +40,7 @@ struct WorkspaceOptions {
     // Unit, from the device's frame to the user's. The identity, unless the device is mounted at an angle
     // that its maker did not intend.
     Quat rotation{1.0, 0.0, 0.0, 0.0};
-    std::optional<double> scale;  // none: fitted to the mover's reach
+    std::optional<double> scale;  // m of the tool per m of the device; none: fitted to the mover's reach
     // Power at the device / power at the tool (force::WorkspaceMap); none: 1/scale, so that forces keep their
     // magnitude.
     std::optional<double> power_ratio;
@@ -53,12 +53,12 @@ struct StationOptions {
     device::DeviceFactory mover, wheel;  // empty: no such device
     Buttons mover_buttons, wheel_buttons;
     WorkspaceOptions workspace;
-    force::LimitBounds mover_limits;  // lower than those that the mover reports
+    force::LimitBounds mover_limits;  // upper bounds on the limits that the mover reports
     double handle_length = 0.0;       // m, of the wrench
-    Pose home;
-    std::filesystem::path glove;    // serial port; empty: no glove
-    std::optional<HandSetup> hand;  // wearer of the glove; none: the controls determine the grip
-    double open_timeout = 3.0;      // s, per device, excluding its preparation
+    Pose home;                        // initial pose of the tool in the assembly's frame
+    std::filesystem::path glove;      // serial port; empty: no glove
+    std::optional<HandSetup> hand;    // wearer of the glove; none: the controls determine the grip
+    double open_timeout = 3.0;        // s, per device, excluding its preparation
     // Called by start(); empty: a device that needs preparation is an error.
     device::PreparationHandler on_preparation;
     device::DeviceThreadOptions device_threads{{}, 70};  // priority below the servo's
@@ -70,7 +70,8 @@ struct StationOptions {
 };
 
 // The layout of these devices: workspace and lever arm from the options, or fitted to the devices. The
-// mover's limits are lowered to `mover_limits` first. Fails as check().
+// mover's limits are lowered to `mover_limits` first. Fails if there is no device or a device cannot take its
+// role.
 Result<DeviceLayout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
                                  std::optional<device::Description> wheel);
 
@@ -109,10 +110,12 @@ class Station {
     const StationLinkStats& link_stats();
 
     [[nodiscard]] const DeviceLayout& layout() const;
+    // While the servo runs, do not read what servo::change_tool() changes: `tool`, `wrench` and the nuts'
+    // grip heights.
     [[nodiscard]] const servo::Setup& setup() const;
     [[nodiscard]] hand::GloveDriver* glove();  // null: no glove, or a gloved hand uses it
     [[nodiscard]] servo::ServoThread& servo();
-    // Stops the servo; the device threads release the forces when its commands stop.
+    // Stops the servo. The device threads then release the forces, because they get no more commands.
     void stop();
 
   private:

@@ -17,7 +17,8 @@
 
 namespace bolt::station {
 
-// Bit masks of a device's buttons; 0: no button has that function.
+// Bit masks of a device's buttons; 0: no button has that function. While the clutch is held, the tool stands
+// still and the hand can move the device freely, as when a mouse is lifted.
 struct Buttons {
     std::uint32_t dead_man = 1;
     std::uint32_t clutch = 2;
@@ -38,7 +39,8 @@ struct DeviceLayout {
     Pose home;                      // initial pose of the tool in the assembly's frame
     // m from the wrench's jaw to the point of the wrench that follows the mover (lever_arm_of()).
     double lever_arm = 0.0;
-    std::optional<Pose> wrist;  // of a gloved hand that holds the tool, in the tool's frame
+    // Pose of the wrist of a gloved hand that holds the tool, in the tool's frame; none: no gloved hand.
+    std::optional<Pose> wrist;
 };
 
 // Fails with ErrorCode::no_device if there is no device or a device cannot take its role.
@@ -65,15 +67,15 @@ bool renders_torque(const device::Description& description);
 
 struct StationControls {
     servo::Grip grip = servo::Grip::none;  // `wrench` has no effect if a gloved hand determines the grip
-    bool dead_man = false;                 // held, in addition to the devices' buttons
+    bool dead_man = false;                 // held in the application; a device's button has the same effect
     // s after which `dead_man` expires unless the controls are sent again. A window that hangs thus releases
     // the dead-man switch.
     double dead_man_timeout = std::numeric_limits<double>::infinity();
-    bool clutch = false, stop = false, reset = false;
-    std::int16_t guide = -1;          // joint that the guiding force leads to; −1: none
-    float set_torque = 0.0F;          // N·m, of a click-type torque wrench
-    std::uint8_t tool = 0;            // index of the tool that the hand gets next, as servo::TickInput::tool
-    std::int16_t second_wrench = -1;  // as servo::TickInput::second_wrench
+    bool clutch = false, stop = false, reset = false;  // pressed in the application, as devices' buttons
+    std::int16_t guide = -1;                           // joint that the guiding force leads to; −1: none
+    float set_torque = 0.0F;                           // N·m, of a click-type torque wrench
+    std::uint8_t tool = 0;            // index in Setup::tools of the tool that the hand gets next
+    std::int16_t second_wrench = -1;  // joint whose held part the second wrench is on; −1: none
     // Unit, from the viewer's frame to the assembly's. A puck moves the tool in the viewer's frame, an arm in
     // the assembly's frame rotated about the vertical to face the viewer.
     Quat view{1.0, 0.0, 0.0, 0.0};
@@ -154,10 +156,10 @@ struct StationState {
     bool restarting = false;        // after a stall or a pause: no force until the output stage is at zero
     // Pose of the wrench while no hand holds it; needs StationControls::wrench_rest_pose.
     std::optional<Pose> resting_wrench;
-    int pivot_joint = -1;  // joint whose bolt the wrench pivots about; −1: none
-    force::GuideState approach_guide;
-    int followed_nut = -1;     // joint whose nut moves the tool along (see move_to_nut()); −1: none
-    Vec3 followed_point{0.0};  // m, centre of that nut at the last tick
+    int pivot_joint = -1;              // joint whose bolt the wrench pivots about; −1: none
+    force::GuideState approach_guide;  // of the approach to StationControls::approach_joint
+    int followed_nut = -1;             // joint whose nut moves the tool along (see move_to_nut()); −1: none
+    Vec3 followed_point{0.0};          // m, centre of that nut at the last tick
     // Commands received and not executed yet.
     std::optional<Pose> tool_to_place;
     std::uint32_t checkpoints_to_save = 0;
@@ -180,13 +182,15 @@ StationState initial_state(const DeviceLayout& layout);
 DeviceCommands tick(const DeviceLayout& layout, servo::Setup& setup, StationState& state, servo::State& servo,
                     const StationInputs& inputs);
 
-// The parts of tick(), in order; read_inputs() calls pivot_about_bolt(). Both functions that move the tool
-// near a nut, pivot_about_bolt() and move_to_nut(), are implemented in near_nut.cpp.
+// The parts of tick(), in order. Before the servo's tick, read_inputs() moves the tool by the devices and
+// makes the servo's input. After it, map_output() makes the devices' commands from the servo's output.
+// pivot_about_bolt(), which read_inputs() calls, and move_to_nut() are implemented in near_nut.cpp.
 servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                              const StationInputs& inputs);
 // On a bolt and near it the mover moves the end of the wrench's handle, and the wrench turns so that its jaw
 // points to the bolt. The mover's orientation has no effect, because a device without torque cannot hold the
-// wrist, and a hand cannot align a jaw with the bolt to 1°. `last`: the tool's pose before this tick.
+// wrist, and a hand cannot align a jaw with the bolt to 1°. Does nothing if the lever arm is 0
+// (lever_arm_of()). `last`: the tool's pose before this tick.
 void pivot_about_bolt(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                       const Pose& last, double dt);
 // Moves the tool if its device senses velocity and renders no force: along with a held nut, and towards the
@@ -221,7 +225,7 @@ struct StationTick {
     servo::Output output;
     Pose commanded_tool;  // in the assembly's frame
     // Pose of the mover's frame in the assembly's: maps the position of the hand to the point of the tool
-    // that it holds. Valid at a scale of 1. The clutch changes it.
+    // that the hand holds. Valid at a scale of 1. The clutch changes it.
     Pose mover_in_assembly;
     // The mover's last pose in its own frame and its buttons, also in a pause; none without a mover that
     // senses its pose, and while the mover sends no samples.

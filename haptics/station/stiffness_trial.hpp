@@ -27,7 +27,7 @@ enum class TrialEnd : std::uint8_t {
 };
 
 struct StiffnessTrial {
-    force::OutputLimits limits;  // of the arm, with the force of the trial
+    force::OutputLimits limits;  // of the arm, with the trial's lower force and no torque
     Vec3 direction{0.0};         // unit, along which the spring steps
     force::OutputStage output_stage;
 

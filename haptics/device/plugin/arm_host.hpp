@@ -20,7 +20,7 @@ struct PluginRequest {
 
 struct PluginReply {
     PluginCall call = PluginCall::count;
-    std::int32_t result = 0;
+    std::int32_t result = 0;  // what the function returned; open(): BW_ARM_DONE or BW_ARM_ERROR
     bw_arm_info_v1 info{};
     bw_arm_state_v1 state{};
     char text[256] = {};      // last_error, or why the plug-in cannot be used
