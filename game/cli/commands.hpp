@@ -67,9 +67,10 @@ void add_displays_test(CLI::App& displays, int& exit_code);
 struct TrialOptions {
     std::string assembly = "zq350";  // that the servo simulates
     std::vector<std::string> devices;
+    // `glove`: serial port, `trainee`: its wearer, `calibrations`: their folder, empty: the default one.
     std::string station_file, wheel_config_file, glove, trainee, calibrations;
-    double seconds = 5.0;
-    bool yes = false;  // answers yes to the questions before an arm moves or pushes
+    double seconds = 5.0;  // duration of the trial
+    bool yes = false;      // answers yes to the questions before an arm moves or pushes
 
     [[nodiscard]] bool any() const { return !devices.empty() || !glove.empty() || !station_file.empty(); }
 };
@@ -115,8 +116,8 @@ struct OpenDevice {
 // a question.
 Result<OpenDevice> open_device(const std::string& id, device::OpenOptions opening, bool yes);
 
-// Opens each device of the request, examines it, and prints a report; asks before an arm pushes the hand.
-// `yes`: answers all questions with yes. Fails if a device cannot be used.
+// Opens each device of the request, examines its samples for `seconds`, and prints a report; asks before an
+// arm pushes the hand. `yes`: answers all questions with yes. Fails if a device cannot be used.
 Status check_devices(const station_setup::StationRequest& request, double seconds, bool yes);
 
 // One line for boltwright doctor: the number of USB devices, of those that cannot be used, and of serial

@@ -24,8 +24,8 @@ struct OpenedWalls {
 Result<OpenedWalls> open_walls(const std::string& file, const platform::Desktop& desktop, bool quiet);
 
 struct FollowOptions {
-    std::string gpu;  // as in WindowRunOptions
-    bool validate = false;
+    std::string gpu;        // part of the name of the GPU to use; empty: the best
+    bool validate = false;  // under Vulkan's validation layers; a message is an error
 };
 
 // Shows `content` on the walls of a process that follows the first process, until the first process ends.

@@ -11,7 +11,7 @@ namespace bolt::cli {
 
 class StudyDisplay {
   public:
-    // `desktop` must outlive it. `quiet`: as in open_walls().
+    // `desktop` must outlive it. `quiet`: prints no findings about walls and no lines about the tracker.
     StudyDisplay(const platform::Desktop& desktop, bool quiet) : desktop_(desktop), quiet_(quiet) {}
 
     // Closes the display that is open, and opens this one. If that fails, only the window is open.
@@ -30,8 +30,8 @@ class StudyDisplay {
     OpenedWalls walls_;
 };
 
-// Runs the app in the window, and on each other display that it wants, until it is closed. `options`: of the
-// window alone.
+// Runs the app in the window, and on each other display that it wants, until it is closed. `options`: for a
+// run in the window alone; headset and walls are added for the other displays.
 Status run_on_displays(trainer::App& app, platform::Window& window, gpu::Instance& instance,
                        const view::WindowRunOptions& options, StudyDisplay& display);
 

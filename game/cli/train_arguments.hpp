@@ -34,11 +34,17 @@ struct TrainArguments {
     std::string mirror = "left";   // one of view::mirror_names
     std::string displays;          // display file of projection walls; empty: there are none
     bool full_resolution = false;  // of headset and window, also if the GPU is too slow for it
-    bool headless = false;
+    bool headless = false;         // no window: a simulated trainee performs the lesson
+    // `start`: without the menu. `validate`: under Vulkan's validation layers, where any message is an error.
+    // `silent`: without sound.
     bool start = false, full_screen = false, validate = false, silent = false;
-    std::string trainee, language, settings;
-    std::string size = "1280x720", gpu;
+    std::string trainee, language, settings;  // settings: a file to use instead of the trainee's
+    std::string size = "1280x720", gpu;       // WIDTHxHEIGHT of the window; part of the name of the GPU
+    // `quiet`: prints no progress. `no_pictures`: draws no pictures of the result. `no_guide`: a guided
+    // lesson has no guiding force. `view_help`: a simulated trainee requests views of the nut.
     bool quiet = false, no_pictures = false, no_guide = false, view_help = false;
+    // `obstacles`: fails if the assembly has no contact models. `no_obstacles`: simulates no contacts.
+    // Neither: simulates them if there are models.
     bool obstacles = false, no_obstacles = false;
     std::string trainee_profile = "expert";  // of a simulated trainee
     std::uint64_t seed = 1;

@@ -14,8 +14,8 @@ namespace bolt::film {
 struct ReplayScene {
     std::unique_ptr<scene::GpuLessonModels> models;
     scene::Workplace workplace;
-    std::vector<scene::Postures> postures;  // by tool of the setup
-    Vec3 shoulder{0.0};                     // m
+    std::vector<scene::Postures> postures;  // one for each of servo::Setup::tools
+    Vec3 shoulder{0.0};                     // m, the trainee's, in the assembly's frame
     render::Scene scene;
 };
 
@@ -46,9 +46,9 @@ struct FilmOptions {
 
     std::string view;  // a named view of the assembly; empty: follows the work
     VkExtent2D size{1280, 720};
-    std::string gpu;
-    bool stereo = false;  // both eyes side by side, twice as wide
-    bool validate = false;
+    std::string gpu;        // part of the name of the GPU to use; empty: the best
+    bool stereo = false;    // both eyes side by side, twice as wide
+    bool validate = false;  // under Vulkan's validation layers; see check_validation()
 };
 
 struct FilmState;

@@ -23,6 +23,7 @@ struct TrackerCounts {
 // A flystick in the viewer's hand.
 struct Wand {
     std::optional<Pose> aim;  // in the room, points along −z; none: the tracker does not see it
+    // Buttons: `select` presses on the panel, `menu` pauses, `tool` takes the wrench or lays it down.
     bool select = false, menu = false, tool = false;
     double stick_x = 0.0, stick_y = 0.0;  // −1 … 1; y away from the user
 };
@@ -45,6 +46,7 @@ class HeadSource {
     [[nodiscard]] const std::optional<Wand>& wand() const { return wand_; }
 
     [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
+    // The UDP port on which DTrack's packets arrive; 0 with another tracker.
     [[nodiscard]] int port() const { return receiver_ ? receiver_->port() : 0; }
 
   private:

@@ -22,7 +22,7 @@ assets::Model dial_model(const std::vector<DialWindow>& windows);
 // A protractor to show.
 struct Dial {
     glm::dmat4 world{1.0};  // from the meshes' frame to the assembly's
-    double angle = 0.0;     // rad, of the pointer, as in DialWindow
+    double angle = 0.0;     // rad from the mark to the pointer, with the sign of DialWindow
     DialWindow window;
     bool shows_window = false;
     glm::vec4 window_color{1.0F}, pointer_color{1.0F};

@@ -40,11 +40,11 @@ struct HandClearance {
     double cuff = 1.0;  // 0 … 1, displayed fraction of the cuff's length
 
     // State of the search. While the goal penetrates solids, other starting points are refined in turn.
-    bool started = false, settled = false;
-    HandTask task = HandTask::at_nut;
-    std::size_t start = 0;
-    int start_steps = 0;
-    HandDeparture candidate{};
+    bool started = false, settled = false;  // settled: the search rests until an input changes
+    HandTask task = HandTask::at_nut;       // in the last frame, as `at` and `posture`
+    std::size_t start = 0;                  // number of the starting point that is refined now
+    int start_steps = 0;                    // steps of that refinement so far
+    HandDeparture candidate{};              // result of that refinement so far
     Pose at;
     hand::Skeleton posture;
 };

@@ -16,8 +16,8 @@ struct ToolAndHand {
     Pose rest;                            // of a wrench that is not in the hand
     bool pinches = false;                 // without a wrench: the fingers are closed on a nut
     Pose fingers;                         // without a wrench: the frame of the hand
-    // Without a wrench: the measured pose of the joint hand::palm. It determines the drawn hand away from
-    // nuts, `fingers` at a nut.
+    // Without a wrench: the measured pose of the joint hand::palm; none: not measured. The hand is drawn at
+    // this pose, except at a nut without a glove, where it is drawn at `fingers`.
     std::optional<Pose> palm;
     bool at_nut = false;                   // a nut is within reach of the fingers
     std::size_t handle_posture_index = 0;  // in Postures::on_handle
@@ -25,7 +25,7 @@ struct ToolAndHand {
     double effort = 0.0;                   // 0 … 1, Effort::share
     double tremor = 0.0;                   // −1 … 1, Effort::tremor
     double closed_share = 0.0;             // 0 (open) … 1: the fingers of an empty hand
-    // world::GloveHand::joints; null: no glove.
+    // The measured joints of a gloved hand (world::GloveHand::joints); null: no glove.
     const hand::Skeleton* gloved = nullptr;
     // The displayed hand stays out of these solids; null: no solids.
     const collision::CollisionWorld* solids = nullptr;
@@ -35,7 +35,7 @@ struct ToolAndHand {
 void place_fasteners(SceneWorld& world, const servo::Setup& setup);
 // The second wrench on its joint: of the twelve directions in which the ring fits, the handle takes the one
 // that points away from the middle of all joints. It is no obstacle for the tool in the hand. `corner`: rad
-// about the joint's axis, from e1 to a corner of the held part.
+// about the joint's axis, from servo::NutGeometry::e1 to a corner of the held part.
 Pose second_wrench_pose(const servo::Setup& setup, std::size_t joint, double corner);
 void place_second_wrench(SceneWorld& world, const servo::Setup& setup);
 // `tool`: index in servo::Setup::tools of the one to show.
@@ -46,11 +46,11 @@ void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& 
 struct PlacementContext {
     const servo::Setup& setup;
     const Postures& postures;
-    Vec3 shoulder;                                      // m, the worker's
+    Vec3 shoulder;                                      // m, the worker's, in the assembly's frame
     std::size_t handle_posture_index = 0;               // in Postures::on_handle
-    double effort = 0.0, tremor = 0.0;                  // Effort
+    double effort = 0.0, tremor = 0.0;                  // 0 … 1 and −1 … 1, as in Effort
     double seconds = 0.0;                               // since the last frame
-    const collision::CollisionWorld* solids = nullptr;  // ToolAndHand::solids
+    const collision::CollisionWorld* solids = nullptr;  // the drawn hand stays out of them; null: none
 };
 
 // Moves nuts, wrench and hand to their poses in the components of the simulation, in a lesson and in a film.
@@ -69,7 +69,8 @@ void hide_ghosts(SceneWorld& world);
 void outline_joint(SceneWorld& world, std::size_t joint, const glm::vec4& color);
 void outline_tool(SceneWorld& world, const glm::vec4& color);
 
-// The objects that fade in front of a nut: all but its own joint, or only the hand, in a larger area.
+// The objects that fade in front of a nut. `all`: everything but the nut's own joint. `hand`: only the hand,
+// in a larger area.
 enum class Occluders : std::uint8_t { all, hand };
 void fade_occluders(SceneWorld& world, render::Scene& scene, const servo::Setup& setup, std::size_t joint,
                     Occluders occluders = Occluders::all);

@@ -42,13 +42,15 @@ struct JointPart {
 struct HeldPart {
     std::size_t joint = 0;
     glm::dmat4 assembly_from_mesh{1.0};
-    double corner = 0.0;  // rad about the joint's axis, from e1 to a corner of its hexagon, before it turns
+    // rad about the joint's axis, from servo::NutGeometry::e1 to a corner of the part's hexagon, before it
+    // turns
+    double corner = 0.0;
 };
 
 // A part of a second wrench. Only the wrench with the size of the held part is drawn.
 struct SecondWrenchPart {
     glm::dmat4 tool_from_mesh{1.0};
-    double across_flats = 0.0;  // m, as servo::NutGeometry::held_across_flats
+    double across_flats = 0.0;  // m, of the held part that the wrench fits
 };
 
 // A part of a tool, which moves with it. Only the parts of the tool in use are drawn.
@@ -76,7 +78,7 @@ struct SkinnedHand {
 struct GhostPart {
     glm::dmat4 tool_from_mesh{1.0};
     bool shown = false;
-    std::size_t tool = 0;  // as ToolPart::tool
+    std::size_t tool = 0;  // of a wrench: index in servo::Setup::tools
 };
 
 // An arrow that demonstrates a motion, or the force on the hand (annotations.hpp).
@@ -91,7 +93,8 @@ struct ArrowMarker {
 
 // A part of the protractor at a nut that is turned by an angle (angle_dial.hpp).
 enum class DialShape : std::uint8_t { scale, pointer, window };
-// rad from the mark, clockwise seen from the side of the tool: negative at a left-hand thread.
+// The angles between which to stop, rad from the mark, clockwise seen from the side of the tool: negative at
+// a left-hand thread.
 struct DialWindow {
     double low = 0.0, high = 0.0;
     friend bool operator==(const DialWindow&, const DialWindow&) = default;

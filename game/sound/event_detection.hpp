@@ -42,8 +42,8 @@ struct EventDetector {
     std::size_t history_size = 0;                       // valid entries of `history`
     std::size_t ticks_since_contact = max_history;
     StruckSurface last_surface = StruckSurface::casing;  // of the last contact
-    double since_strike = 0.0;                           // s
-    double last_strike = 0.0;                            // m/s
+    double since_strike = 0.0;                           // s since the last strike
+    double last_strike = 0.0;                            // m/s, speed of the last strike
     double pending_strike = 0.0;  // m/s, highest speed lost so far in a strike in progress; 0: none
 
     // Values of the last tick.

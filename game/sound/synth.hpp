@@ -2,7 +2,7 @@
 // recordings.
 //
 //   strike, click, slip, chimes   force pulses that excite resonators
-//   tooth                         the same; at most max_teeth a second sound
+//   tooth                         the same; no more than max_teeth sound in a second
 //   slide                         band-pass noise whose frequency rises with the speed
 //   run                           pulses, a fixed number per turn of the nut; a tone when they are fast
 //   creep                         stick-slip: the nut sticks, then slips with a pulse
@@ -35,7 +35,8 @@ struct SoundCues {
 
     float run_speed = 0.0F;    // rad/s of the unloaded nut on its thread, absolute
     float creep_speed = 0.0F;  // rad/s of the nut under load, absolute
-    // 0 … 1.5: clamp force over 90 % of the force at which the bolt yields. Published law: torque over T_max.
+    // 0 … 1.5: clamp force over 90 % of the force at which the bolt yields. With the published law, which has
+    // no clamp force: torque over the greatest torque of the joint type.
     float load = 0.0F;
 
     float slip = 0.0F;     // 0 … 1.5: strength with which the jaw slips over the nut's corners in this tick
@@ -96,7 +97,7 @@ class ForcePulses {
 
 // 1/s, limit of the output's slope: a quarter of full scale per sample at 48 kHz.
 inline constexpr double max_slope = 12e3;
-inline constexpr double max_teeth = 60.0;         // 1/s, that sound; the others are left out
+inline constexpr double max_teeth = 60.0;         // 1/s, limit of the teeth that sound; others are left out
 inline constexpr double pulses_per_turn = 120.0;  // of the nut: sets the pitch of `run`
 
 // First-order low-pass filter.
@@ -111,6 +112,8 @@ struct Synth {
     double crackle_decay = 0.0;  // factor per sample
     Random noise{1};
 
+    // Struck bodies, and `groan` for creep, `ratchet` for clicks and teeth, the bells for `done`, `gong` for
+    // `mistake`; each with the force pulses that excite it.
     ResonatorBank wrench, casing, nut, groan, ratchet, bell, second_bell, gong;
     ForcePulses wrench_pulses, casing_pulses, nut_pulses, groan_pulses, ratchet_pulses, bell_pulses,
         second_bell_pulses, gong_pulses;

@@ -22,7 +22,7 @@ struct DeviceCheck {
     std::uint64_t writes = 0;
     double mean_write = 0.0, longest_write = 0.0;
     std::optional<station::StiffnessTrial> stiffness;
-    std::string why_not_measured;  // the stiffness; empty: it was measured
+    std::string why_not_measured;  // why there is no stiffness; empty: it was measured
 };
 
 struct DeviceCheckOptions {

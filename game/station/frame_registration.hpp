@@ -40,12 +40,13 @@ struct MeasuredRegistration {
     // m, leave_one_out_residuals() of the same points: from each point to where the other points predict it.
     std::vector<std::optional<double>> leave_one_out;
     double check_error = 0.0;      // m, of the check point
-    double scale = 1.0;            // RigidAlignment::scale
-    double thickness_ratio = 0.0;  // RigidAlignment::thickness_ratio; 0: the points lie in a plane
+    double scale = 1.0;            // distances in `to` divided by those in `from`; not part of the pose
+    double thickness_ratio = 0.0;  // least to largest spread of the points; 0: they lie in a plane
 };
 
-// The last pair is the check point: it is not used for the pose. Fails with fewer than four pairs, or as
-// align_points() fails, with the same AlignmentFaultDetail. `date`: valid for content::is_utc_date().
+// Computes the pose of frame `from` in frame `to`. The last pair is the check point: it is not used for the
+// pose. Fails with fewer than four pairs, or as align_points() fails, with the same AlignmentFaultDetail.
+// `date`: of the measurement, in the form of content::is_utc_date().
 Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, content::CoordinateFrame to,
                                              std::span<const PointPair> pairs, const std::string& date);
 
@@ -54,8 +55,8 @@ constexpr content::CoordinateFrame wrist_frame(const std::optional<TrackerRole>&
     return tracker ? content::CoordinateFrame::wrist_tracker : content::CoordinateFrame::controller;
 }
 
-// The error of a registration between these frames if lessons never use one (a wheel); otherwise none. Old
-// station files may contain such a registration.
+// The error of a registration that lessons do not use, because one of its frames is that of a wheel; none for
+// other frames. Old station files may contain such a registration.
 std::optional<Error> unused_registration(content::CoordinateFrame from, content::CoordinateFrame to);
 
 // A table of the points, and the values that assess the registration.

@@ -26,6 +26,8 @@ class LessonStation {
     LessonStation& operator=(const LessonStation&) = delete;
     virtual ~LessonStation() = default;
 
+    // Sets the controls of the ticks from now on. Call it once a frame, because StationControls::dead_man
+    // expires.
     virtual void set_controls(const station::StationControls& controls) = 0;
     // Fails if the command queue is full (station::Station::send).
     [[nodiscard]] virtual Status send(const station::StationCommand& command) = 0;
@@ -34,7 +36,8 @@ class LessonStation {
     virtual void set_puck_input(const device::PuckInput& /*input*/) {}
     virtual void set_hand_motion(const device::HandMotion& /*motion*/) {}
     // From now on another hand moves the simulated arm: `arm` as in start_frame_stepped_station().
-    // `absolute`: station::WorkspaceOptions::absolute. Ignored by stations on threads.
+    // `absolute`: an offset between tool and hand decays to 0; false: it remains. Ignored by stations on
+    // threads.
     virtual void change_arm(const device::Description& /*arm*/, bool /*absolute*/) {}
     // Call once a frame with the time since the last one, s. Runs the ticks of that time if the station has
     // no threads.

@@ -116,7 +116,7 @@ struct PlannedStation {
     DeviceSelection devices;
     std::filesystem::path glove;                           // serial port; empty: no glove
     std::optional<content::GloveCalibration> calibration;  // of the glove's wearer
-    bool obstacles = false;                                // the request has them, and the assembly
+    bool obstacles = false;  // contacts are simulated: requested, and the assembly has contact models
 };
 
 // Applies the settings of a station file to those devices of `planned` whose ids it names: the workspace

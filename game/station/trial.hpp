@@ -32,14 +32,14 @@ struct DeviceTrial {
 struct GloveTrial {
     std::filesystem::path port;
     hand::GloveReport report;
-    double frames = 0.0;  // during the trial
-    double age = 0.0;     // s since the latest frame
+    double frames = 0.0;  // number of the glove's samples during the trial
+    double age = 0.0;     // s since the latest sample
     std::optional<content::GloveCalibration> calibration;
     bool held = false;  // the hand holds the wrench
 };
 
 struct StationTrial {
-    double seconds = 0.0;
+    double seconds = 0.0;  // duration
     double rate = 1000.0;  // 1/s, of the servo
     std::optional<DeviceTrial> mover, wheel;
     std::optional<GloveTrial> glove;

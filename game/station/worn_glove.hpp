@@ -16,7 +16,7 @@ namespace bolt::station_setup {
 struct WornFingers {
     hand::Skeleton joints;  // in the frame of the wrist
     hand::Side side = hand::Side::right;
-    double closed_share = 0.0;  // 0 … 1, of closed_share()
+    double closed_share = 0.0;  // 0 (open) … 1 (a fist), from closed_share()
     bool measured = false;      // the glove has sent at least one sample
     bool lost = false;          // the glove sends no valid samples; the fingers stay as they were last
 };

@@ -35,7 +35,9 @@ namespace bolt::trainer {
 struct PointerState {
     bool drags_hand = false;         // the drag of the left button moves the hand, not the view
     glm::dvec2 press_position{0.0};  // px, where the left button was pressed
-    std::optional<std::size_t> nut;  // under the pointer
+    // The nut under the pointer. With the free hand only a nut that the hand is beside counts; with a device
+    // or a tracked hand there is none.
+    std::optional<std::size_t> nut;
     // A click would take the wrench at rest. With the helped hand the wrench must be under the pointer; with
     // a device or a tracked hand it must be within reach of the hand; with the free hand both.
     bool can_take_wrench = false;
@@ -52,11 +54,12 @@ struct LessonClock {
 struct Guidance {
     lesson::HintState hints;
     lesson::MistakeState mistakes;
-    std::optional<std::pair<std::size_t, Pose>> wrench_ghost;  // cached, for a step (index) and its pose
+    // Cached for one step: its index, and the pose of the wrench's ghost on the nut. None: not computed.
+    std::optional<std::pair<std::size_t, Pose>> wrench_ghost;
     InstructionState instruction;
 };
 
-// The force on a hand that a mouse moves, as an arrow, because the mouse does not render it.
+// The force on the dragged hand, which an arrow shows because a mouse renders no force.
 struct ForceDisplay {
     bool enabled = true;  // from the trainee's settings
     Vec3 force{0.0};      // N, smoothed, on the hand, assembly frame
@@ -83,9 +86,9 @@ struct ActiveLesson {
     scene::Workplace workplace;  // contains the world
     render::Scene scene;
 
-    std::vector<scene::Postures> postures;  // by tool of the setup
-    std::size_t handle_posture_index = 0;   // the grip of the handle that the hand has: Postures::on_handle
-    Vec3 shoulder{0.0};                     // m, the trainee's
+    std::vector<scene::Postures> postures;  // one for each of servo::Setup::tools
+    std::size_t handle_posture_index = 0;   // the posture of the hand on the handle, in Postures::on_handle
+    Vec3 shoulder{0.0};                     // m, the trainee's, in the assembly's frame
     scene::Effort effort;                   // of the hand
     view::Palette palette;
 

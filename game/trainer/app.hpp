@@ -21,12 +21,14 @@ namespace bolt::trainer {
 struct AppOptions {
     LessonChoice choice;
     bool sound = false;
-    bool menu = true;  // false: a lesson starts at once
-    session::LessonOptions lesson;
-    std::filesystem::path out;                             // folder of the session
-    bool folder_per_lesson = false;                        // each lesson gets a folder of its own in `out`
-    std::filesystem::path settings_folder, settings_file;  // Preferences::folder and ::file
-    // PersonFolders::people and ::gloves. Without a folder for names each typed name gets a new code.
+    bool menu = true;                // false: a lesson starts at once
+    session::LessonOptions lesson;   // those that neither choice nor settings determine
+    std::filesystem::path out;       // folder of the session
+    bool folder_per_lesson = false;  // each lesson gets a folder of its own in `out`
+    // The folder with a settings file for each trainee, and the one file to use instead of it, unless empty.
+    std::filesystem::path settings_folder, settings_file;
+    // The folders of the names and codes, and of the glove calibrations (content::PersonFolders). Without a
+    // folder for names each typed name gets a new code.
     std::filesystem::path people_folder, gloves_folder;
     view::Mirror mirror = view::Mirror::left_eye;  // of a headset in its window, at the start
     bool first_start = false;                      // the menu offers the tour first
@@ -89,7 +91,7 @@ class App : public view::WindowContent {
 
     [[nodiscard]] bool closed() const override { return closed_; }
     [[nodiscard]] bool scales_scene() const override { return active_.has_value() && !in_room(); }
-    // Also during awaits_touch(), whatever the setting.
+    // True if the trainee's settings want it, and always while the touch check waits for a touch.
     [[nodiscard]] bool wants_passthrough() const override {
         return preferences_.settings.passthrough || awaits_touch();
     }

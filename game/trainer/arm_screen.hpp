@@ -11,14 +11,14 @@
 
 namespace bolt::trainer {
 
-// s for which the question is shown before a key answers it, because the user may press the key that started
-// the lesson twice.
+// s. The question whether the arm may move is shown for this time before a key answers it, because the user
+// may press the key that started the lesson twice.
 inline constexpr double question_time = 0.5;
 
 // The needs that the screen shows, and for how long it has shown them.
 struct ArmScreen {
     device::ArmNeeds needs;
-    bool in_lesson = false;
+    bool in_lesson = false;  // the arm was lost in a lesson; false: a lesson starts
     bool restores =
         false;  // an interrupted lesson is being restored; that may go on after the devices are open
     double shown_for = 0.0;  // s

@@ -25,9 +25,9 @@ struct AssemblyEntry {
     std::string name, default_variant;
     std::map<std::string, std::string> title;  // by language
     std::vector<VariantEntry> variants;        // at least one, the default one first
-    joint::Law law = joint::Law::mechanistic;
-    bool contact_model = false;  // the assembly has one
-    std::optional<Error> error;  // why no lesson can start
+    joint::Law law = joint::Law::mechanistic;  // the assembly's own
+    bool contact_model = false;                // the assembly has one
+    std::optional<Error> error;                // why no lesson can start
 };
 
 // All assemblies of content::assembly_names() except the tour's, also those with errors.

@@ -23,13 +23,13 @@ enum class Action : std::uint8_t {
     tool,        // takes the wrench or lays it down
     find_view,   // shows the due joint
     whole_view,  // shows the whole workpiece
-    hint,
-    clamp_map,  // shows and hides the clamp force of every joint
+    hint,        // requests a hint
+    clamp_map,   // shows and hides the clamp force of every joint
     pause,
     full_screen,
-    mute,  // mutes and unmutes the sound
-    undo,  // returns to the previous step
-    restart_step,
+    mute,           // mutes and unmutes the sound
+    undo,           // returns to the previous step
+    restart_step,   // begins the due step again
     recentre,       // at a station: moves the tool to its initial pose
     close_up,       // shows and hides the close-up
     second_wrench,  // puts the second wrench on the held or due joint, or takes it away
@@ -42,7 +42,7 @@ enum class Action : std::uint8_t {
 };
 inline constexpr std::size_t action_count = static_cast<std::size_t>(Action::mirror) + 1;  // the last one
 
-// As in settings files, whose names for clamp_map and mute are older.
+// The name of the action in settings files. They keep older names for clamp_map and mute.
 constexpr std::string_view name(Action action) {
     constexpr std::array names = std::to_array<std::string_view>(
         {"tool", "find_view", "whole_view", "hint", "flange_map", "pause", "full_screen", "quiet", "undo",
@@ -52,6 +52,7 @@ constexpr std::string_view name(Action action) {
     return names.at(static_cast<std::size_t>(action));
 }
 
+// In the order of Action.
 inline constexpr std::array default_keys = std::to_array<platform::Key>(
     {platform::Key::t, platform::Key::v, platform::Key::f, platform::Key::h, platform::Key::c,
      platform::Key::escape, platform::Key::f11, platform::Key::m, platform::Key::backspace, platform::Key::r,
@@ -89,6 +90,7 @@ struct InputFocus {
     bool pointer = true, keys = true;
 };
 
+// Updates the state with the events of a frame and returns the lesson's input.
 FrameInput apply_events(InputState& state, std::span<const platform::InputEvent> events,
                         const InputFocus& focus);
 

@@ -27,8 +27,8 @@ struct DraggedHand {
 // The view, the tool and the nut beside it, in the assembly's frame.
 struct DragScene {
     Projection projection;
-    Pose tool;  // as it is drawn
-    bool wrench = false;
+    Pose tool;            // as it is drawn
+    bool wrench = false;  // the hand holds the wrench
     // The pointer is on the wrench or the nut that the hand is beside. A press elsewhere moves the open hand,
     // so that it can leave them.
     bool points_at_reachable = false;

@@ -10,13 +10,13 @@
 
 namespace bolt::trainer {
 
-// The way in which mouse and keyboard move the hand if no device does.
+// The way in which mouse, keyboard or headset move the hand if no device does.
 enum class HandMode : std::uint8_t {
     helped,         // the mouse chooses a nut, and the hand goes there automatically (--hand helped)
-    free,           // the mouse moves a hand that feels the forces of a simulated arm; stepped by the frames
+    free,           // the mouse moves a hand that feels the forces of a simulated arm; frames run the ticks
     keyboard,       // keys move the tool like a puck
     simulated_arm,  // as `free`, on the threads of a station like a real arm
-    tracked,        // a headset measures the hand; stepped by the frames
+    tracked,        // a headset measures the hand; frames run the ticks
 };
 
 // The input of a lesson: mouse and keyboard, or a station with devices.
@@ -38,7 +38,8 @@ struct Equipment {
 };
 
 // The equipment of a study's lesson: `base`, with its devices replaced by `devices`, if there are any.
-// Accepts the values of --device except "auto". `free`: as --hand free.
+// Accepts the values of --device except "auto". `free`: the mouse moves a free hand instead of a helped one,
+// if no device moves the hand.
 Equipment equipment_for(const std::vector<std::string>& devices, bool free, Equipment base);
 
 // Applies a study's "glove": "none", "auto" or a serial port. Empty: the glove stays as it is.
@@ -46,7 +47,7 @@ void use_glove(const std::string& glove, Equipment& equipment);
 
 // An entry in the menu of devices.
 struct DeviceOption {
-    std::string name;  // names of the devices; empty: mouse and keyboard, as Equipment::hand says
+    std::string name;  // names of the devices; empty: none, and Equipment::hand says what moves the hand
     Equipment equipment;
 };
 // Mouse and keyboard with a helped and with a free hand, the combinations of the devices that are connected

@@ -21,28 +21,28 @@ using world::WorkingHand;
 struct MouseCommand {
     std::optional<std::size_t> nut;  // pressed since the last frame
     bool take_wrench = false;        // a click on the wrench at rest, or Action::tool on the keyboard
-    std::uint8_t tool = 0;           // lies ready for an empty hand; as servo::TickInput::tool
+    std::uint8_t tool = 0;           // index in servo::Setup::tools of the tool that an empty hand would take
     bool lay_down = false;
     bool retreat = false;  // move away from the nuts, with whatever the hand holds
     bool button_down = false;
     bool loosens = false;  // direction of the next pull; determines on which side the handle needs room
     double turn = 0.0;     // rad by which the handle was dragged since the last frame, tightening positive
-    double spin = 0.0;     // −1 … 1 of the fastest twist of the fingers, tightening positive
+    double spin = 0.0;     // −1 … 1, share of the fastest twist of the fingers, tightening positive
 };
 
 struct HelpedHand {
     HandAction action = HandAction::resting;
     bool wrench = false;             // in the hand
-    std::uint8_t tool = 0;           // in the hand, or ready for it
+    std::uint8_t tool = 0;           // index of the tool in the hand, or ready for it
     bool changes_tool = false;       // at rest, and about to go to `nut` with another tool
     std::optional<std::size_t> nut;  // joint that the hand moves to, is at or holds
     Pose pose;                       // of the tool, in the assembly's frame
     Pose rest;                       // where the wrench lies; an empty hand waits beside it
-    double trainee_side = -1.0;      // the trainee stands on the side of the y axis of `rest` with this sign
-    double handle_angle = 0.0;       // rad, about the bolt, tightening positive
-    bool flipped = false;            // an open-end wrench is turned over
-    double free_swing = 0.0;         // rad by which the handle can swing in this pull
-    double hover_height = 0.0;       // m above the nut, where the hand waits
+    double trainee_side = -1.0;  // −1: the trainee stands on the −y side of `rest`; +1: on the +y side
+    double handle_angle = 0.0;   // rad, about the bolt, tightening positive
+    bool flipped = false;        // an open-end wrench is turned over
+    double free_swing = 0.0;     // rad by which the handle can swing in this pull
+    double hover_height = 0.0;   // m above the nut, where the hand waits
 
     double stroke_begin = 0.0;  // rad, handle angle at the start of the pull or twist
     double twist_end = 0.0;     // rad, handle angle at which the fingers start to return
@@ -50,7 +50,7 @@ struct HelpedHand {
     // gives up a nut that it could not engage.
     bool button_down = false, loosens = false;
     double turn = 0.0, spin = 0.0;
-    // Present movement.
+    // The present movement, and what the hand does when it arrives (OnArrival).
     Pose from, to;
     Vec3 bulge{0.0};              // m, deviation from the straight line at the middle (motion::arc_pose)
     std::vector<Pose> waypoints;  // to visit after `to`, last one first
@@ -64,8 +64,8 @@ struct HelpedHand {
     } on_arrival = OnArrival::rest;
     std::optional<std::size_t> queued_nut;  // pressed while the hand was busy
     bool missed = false;                    // the last attempt did not engage the nut, or lost it
-    // Consecutive misses. Each of the first five makes the next approach start higher above the nut; from the
-    // second on the handle comes from another side.
+    // Consecutive misses. Each of the first five raises the arc of the next reach by 5 cm; from the second on
+    // the handle comes from another side.
     int misses = 0;
 };
 

@@ -16,11 +16,11 @@ inline constexpr glm::vec4 forward_color{1.0F, 0.78F, 0.1F, 1.0F}, backward_colo
 // Geometry of a motion.
 struct MotionGeometry {
     const servo::NutGeometry& nut;
-    Vec3 nut_centre{0.0};  // m
-    Pose tool;             // the tool in the hand
-    Pose rest;             // where the wrench lies
-    double handle_length = 0.0;
-    bool loosens = false;  // the step loosens the nut
+    Vec3 nut_centre{0.0};        // m
+    Pose tool;                   // the tool in the hand
+    Pose rest;                   // where the wrench lies
+    double handle_length = 0.0;  // m
+    bool loosens = false;        // the step loosens the nut
 };
 
 // The arrow of a motion; none for HintMotion::none:
@@ -35,8 +35,8 @@ std::optional<scene::MotionArrow> arrow_of(lesson::HintMotion motion, const Moti
 inline constexpr double ghost_motion_time = 1.2, ghost_rest_time = 0.6;  // s
 // The share of the motion, 0 … 1, that is done `time` seconds after a beginning.
 double ghost_share(double time);
-// The pose of a ghost at that share of the motion. `target`: of the hint's ghost at level 2, where an
-// approach ends and a turn or a lift begins.
+// The pose of a ghost at that share of the motion. `target`: the pose in which an approach ends and in which
+// a turn or a lift begins; the ghost at level 2 of the hint stands there.
 Pose animated_ghost(lesson::HintMotion motion, const Pose& target, const MotionGeometry& geometry,
                     double share);
 

@@ -53,9 +53,9 @@ struct PlotPoint {
     float torque = 0.0F;  // N·m
 };
 
-// Torque over nut angle of a pull, and the tolerance of the torque.
+// Torque over nut angle of the joint that the wrench engaged last, and the tolerance of the torque.
 struct TorquePlot {
-    std::vector<PlotPoint> points;  // of the joint that the wrench engaged last
+    std::vector<PlotPoint> points;  // since the wrench engaged this joint after another one
     int joint = -1;                 // −1: the wrench has not engaged a nut yet
     // N·m: the due step's tolerance, else the joint's final one; none when loosening.
     std::optional<content::ToleranceWindow> target;

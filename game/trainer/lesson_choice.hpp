@@ -16,8 +16,8 @@ namespace bolt::trainer {
 
 // The user's choice in the menu or on the command line.
 struct LessonChoice {
-    std::string assembly = "zq350";
-    std::string variant;  // empty: the assembly's default
+    std::string assembly = "zq350";  // name, folder or file
+    std::string variant;             // empty: the assembly's default
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     // In the menu a typed name or code; in a LessonRequest the person's code. Empty: no name.

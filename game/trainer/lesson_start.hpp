@@ -19,7 +19,8 @@
 namespace bolt::trainer {
 
 // Starts a station for the lesson, paused. `trainee` is the wearer of the glove. Fails if a device cannot be
-// opened, or if there is a glove but no trainee's name. `dialog`: for an arm that must be prepared.
+// opened, or if there is a glove but no trainee's name. `dialog`: reports what an arm needs before it can be
+// opened, and passes on the user's permission to move it.
 Result<std::unique_ptr<station_setup::LessonStation>> start_station(const content::Assembly& assembly,
                                                                     const session::LessonOptions& options,
                                                                     const Equipment& equipment,
@@ -56,8 +57,8 @@ struct LessonContext {
 struct StartedLesson {
     LessonContext context;
     ActiveLesson active;     // with session and station; its workplace is made when the models are on the GPU
-    bool continued = false;  // at the point reached by LessonRequest::interrupted
-    std::optional<Error> why_begun_again;  // why that lesson begins again instead
+    bool continued = false;  // the interrupted lesson goes on at the point that it had reached
+    std::optional<Error> why_begun_again;  // why the interrupted lesson begins again instead
 };
 
 // Creates the folder of the next session: `out` itself, or with `folder_per_lesson` a folder in it that is
@@ -65,9 +66,10 @@ struct StartedLesson {
 Result<std::filesystem::path> make_lesson_folder(const std::filesystem::path& out, bool folder_per_lesson,
                                                  const std::string& assembly);
 
-// If the interrupted lesson cannot be continued, begins it again (StartedLesson::why_begun_again).
-// Fails if the assembly cannot be loaded, a chosen device cannot be used, a model is damaged, or the session
-// file cannot be created. Close the station of an earlier lesson first, because it holds the devices.
+// Starts the requested lesson or, if the request names one, continues an interrupted lesson. If that one
+// cannot be continued, begins it again (StartedLesson::why_begun_again). Fails if the assembly cannot be
+// loaded, a chosen device cannot be used, a model is damaged, or the session file cannot be created. Close
+// the station of an earlier lesson first, because it holds the devices.
 Result<StartedLesson> start_lesson(const LessonRequest& request);
 
 // Calls start_lesson() on a thread of its own, so that the window shows what an arm needs and takes the
@@ -85,9 +87,9 @@ class LessonStartThread {
     // The result of start_lesson(), once; none: it has not returned yet, or the result was taken.
     std::optional<Result<StartedLesson>> take();
 
-    [[nodiscard]] device::ArmNeeds needs() const;
-    void permit_move();  // the arm may move by itself in its next attempt
-    void give_up();      // the devices are released as soon as possible
+    [[nodiscard]] device::ArmNeeds needs() const;  // of the arm that is being opened
+    void permit_move();                            // the arm may move by itself in its next attempt
+    void give_up();                                // the devices are released as soon as possible
 
   private:
     // Stores the needs of the arm for needs(). Returns false to end its preparation.

@@ -25,7 +25,7 @@ struct CloseUp {
     Quat chosen_orientation{1.0, 0.0, 0.0, 0.0};  // of the tool, when the eye was chosen
     Pose tool;                                    // wrench or fingers
     Vec3 eye{0.0};                                // m, in the tool's frame
-    double visibility = 0.0;                      // 0 … 1 of nut and jaw, when the eye was chosen
+    double visibility = 0.0;  // 0 … 1, visible fraction of nut and jaw, when the eye was chosen
 };
 
 struct LessonView {
@@ -36,15 +36,16 @@ struct LessonView {
     CloseUp close_up;
     bool clamp_map = false;                   // show the clamp force of every joint
     std::vector<render::Rectangle> occupied;  // px, areas of the interface in the previous picture
-    std::optional<Pose> head;     // of the user in a room, assembly frame; none: the camera shows the lesson
-    std::optional<Quat> heading;  // RoomInput::heading
+    std::optional<Pose> head;  // of the user in a room, assembly frame; none: the camera shows the lesson
+    // The rotation about the vertical from the user's frame in a room to the assembly's; none: in a window.
+    std::optional<Quat> heading;
 };
 
 // Determines whether the close-up is shown in this frame, and its eye.
 void update_close_up(ActiveLesson& active);
 
-// Position in px: in the lower left corner, above the effort bar if that is too near. None if the corner is
-// occupied.
+// The area of the close-up, px: in the lower left corner, above the effort bar if that is too near. None if
+// the corner is occupied. `scale`: px per point.
 std::optional<render::Rectangle> close_up_rectangle(const glm::dvec2& picture, float scale,
                                                     std::span<const render::Rectangle> occupied);
 

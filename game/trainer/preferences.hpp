@@ -10,9 +10,9 @@
 namespace bolt::trainer {
 
 struct Preferences {
-    std::filesystem::path folder;  // one file per trainee; empty: nothing is saved by name
-    std::filesystem::path file;    // used for all trainees instead of `folder`, unless empty
-    content::SettingsVocabulary known;
+    std::filesystem::path folder;       // one file per trainee; empty: nothing is saved by name
+    std::filesystem::path file;         // used for all trainees instead of `folder`, unless empty
+    content::SettingsVocabulary known;  // the values that a settings file may contain
 
     content::TraineeSettings settings;
     KeyMap keys;               // parsed from settings.keys

@@ -8,12 +8,13 @@
 namespace bolt::trainer {
 
 struct RoomBar {
-    words::TextKey controls = "room.controls.hands";
-    bool moves_workpiece = true;  // the workpiece can be turned and raised
-    bool second_wrench = false;   // the lesson needs one
+    words::TextKey controls = "room.controls.hands";  // the line about the buttons, from controls_text()
+    bool moves_workpiece = true;                      // the workpiece can be turned and raised
+    bool second_wrench = false;                       // the lesson needs one
 };
 
-// The text about the buttons of the controller in a hand; null: a bare hand, or an unknown controller.
+// The text about the buttons of the controller in a hand. `controller`: null for a bare hand or an unknown
+// controller.
 words::TextKey controls_text(const xr::ControllerProfile* controller);
 
 // Returns the action of the button that was pressed.

@@ -19,8 +19,8 @@ namespace bolt::trainer {
 struct RoomHand {
     render::GpuModel model;
     std::vector<render::Object> objects;  // of the model in its rest pose
-    std::vector<glm::mat4> inverse_bind;  // of its joints
-    hand::Skeleton open;                  // of a hand without measured joints
+    std::vector<glm::mat4> inverse_bind;  // of the model's joints
+    hand::Skeleton open;                  // an open hand, drawn if the joints are not measured
 };
 
 struct RoomHandModels {

@@ -33,8 +33,9 @@ struct ObjectsToPlace {
 // or higher, if the floor is known. A headset that lies on a table is lower.
 bool is_worn(const view::ImmersiveFrame& immersive);
 
-// True if panel and workpiece can be placed for the head of this frame. After 3 s of an attentive head that
-// is too low they are placed all the same, because the floor may be set wrongly.
+// True if panel and workpiece can be placed for the head of this frame, or if the display has an expected
+// head. After 3 s of an attentive head that is too low they are placed all the same, because the floor may be
+// set wrongly.
 bool can_place(const Placement& placement, const view::ImmersiveFrame& immersive);
 
 // Call once a frame, of `seconds`. All is placed again when the user requests it or recentres the headset,

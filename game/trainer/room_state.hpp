@@ -51,8 +51,10 @@ struct RoomState {
     double panel_point_size = point_size;  // m per point of the panel
     Placement placement;
     PanelPointer pointer;
-    std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};  // in the last frame, for each hand
-    std::array<double, 2> menu_held{};                                // s, for each hand
+    // For each hand in the last frame: buttons that were down, and whether the present deflection of the
+    // stick has turned the workpiece already.
+    std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};
+    std::array<double, 2> menu_held{};  // s for which the menu button has been down, for each hand
     const xr::ControllerProfile* controller = nullptr;  // in a hand in the last frame; null: none is known
     double height = 0.0;                                // m that the user has raised the workpiece
     int turns = 0;                                      // steps by which the user has turned it
@@ -60,12 +62,12 @@ struct RoomState {
     // Without it the workpiece stands where the user looks.
     std::optional<Pose> arm;
     std::uint32_t arm_lesson = 0;     // number of the lesson for which `arm` was set; 0: none
-    std::optional<TouchCheck> touch;  // checks that registration before the lesson begins
-    bool touch_done = false;          // the check ended or was skipped since the room was centred
+    std::optional<TouchCheck> touch;  // checks the arm's registration before the lesson begins
+    bool touch_done = false;          // the check has ended or was skipped since the room's origin moved
     Vignette vignette;
     Pose drawn_scene;                  // pose of the scene's frame in the room, as it was last drawn
-    bool present = false;              // this frame has a room
-    bool plays_in_room = false;        // in this frame; false: the user plays in the window
+    bool present = false;              // a headset or walls show this frame
+    bool plays_in_room = false;        // the user plays in the room in this frame; false: in the window
     bool seen = false;                 // the user saw the lesson in the last frame
     bool paused = false;               // the lesson is paused because the user does not see it
     std::uint32_t watched_lesson = 0;  // number of the last lesson that was paused or seen

@@ -66,7 +66,7 @@ struct ScreenContext {
 
 // Optional parts of the screen of a pause.
 struct PauseOptions {
-    bool headset_lost = false;  // says so, and that the mouse can go on
+    bool headset_lost = false;  // the screen says so, and that the user can go on with the mouse
     bool in_room = false;  // offers to place panel and workpiece again, and to turn and raise the workpiece
 };
 ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode,

@@ -14,18 +14,20 @@
 
 namespace bolt::trainer {
 
-// The names of a lesson's models, from which every process can load them from its own content.
+// The names of a lesson's models, with which every process loads them from its own content.
 struct SharedModels {
-    std::string assembly, variant, tool;  // as LessonChoice
-    hand::Side side = hand::Side::right;
+    // The assembly's folder; a process without that folder loads its own assembly of the same name. An empty
+    // variant or tool is the assembly's default.
+    std::string assembly, variant, tool;
+    hand::Side side = hand::Side::right;  // the working hand
 };
 
 // The values of a frame that the first process sends.
 struct SharedFrame {
     const SharedModels* models = nullptr;  // null: there is no lesson
     std::uint32_t lesson = 0;              // number of the lesson; on a new one the others load its models
-    const scene::GpuLessonModels* on_gpu = nullptr;
-    const render::Scene* scene = nullptr;
+    const scene::GpuLessonModels* on_gpu = nullptr;  // the models of the scene; null: there is no lesson
+    const render::Scene* scene = nullptr;            // null: there is no lesson
     Pose scene_in_room;
     std::optional<Pose> panel;       // of its centre in the room; none: the room does not show it
     double panel_point_size = 0.0;   // m per point of the panel
@@ -40,7 +42,7 @@ class LessonSender {
     // The scene goes into `bulk` if it has changed by more than max_scene_change, such as when a lesson
     // starts.
     void write(cluster::MessageWriter& message, cluster::MessageWriter& bulk, const SharedFrame& frame);
-    view::PanelSender panel;
+    view::PanelSender panel;  // record() the panel's picture with it; write() sends that
 
   private:
     view::SceneSender scene_;

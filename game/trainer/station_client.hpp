@@ -47,8 +47,9 @@ class KeyboardPuck {
 // opening.
 struct StationClient {
     std::unique_ptr<station_setup::LessonStation> link;
-    Pose home, rest;                       // initial pose of the tool, and where the wrench lies
-    std::optional<Pose> empty_hand_wrist;  // station::StationControls
+    Pose home, rest;  // initial pose of the tool, and where the wrench lies
+    // The wrist in the frame of the fingertips, while a gloved hand is empty.
+    std::optional<Pose> empty_hand_wrist;
     KeyboardPuck keyboard;
     std::optional<DraggedHand> dragged;  // the mouse moves a simulated arm
     std::optional<TrackedHand> tracked;  // a headset's hand moves it
@@ -100,9 +101,9 @@ struct UserActions {
     bool paused = false;
     bool toggle_wrench = false;       // the key that takes the wrench or lays it down
     bool recentre = false;            // move the tool to its initial pose
-    std::optional<std::size_t> undo;  // steps (StepUndo)
-    Quat view{1.0, 0.0, 0.0, 0.0};    // viewing direction; pushes are relative to it
-    std::int16_t second_wrench = -1;  // as servo::TickInput::second_wrench
+    std::optional<std::size_t> undo;  // number of steps to undo (steps_to_undo()); none: no request
+    Quat view{1.0, 0.0, 0.0, 0.0};    // from the viewer's frame to the assembly's; pushes are relative to it
+    std::int16_t second_wrench = -1;  // joint whose held part the second wrench is on; −1: none
 };
 // Call once a frame: reads the latest tick and sends controls and commands. Fails if the station's command
 // queue is full.

@@ -10,7 +10,7 @@ namespace bolt::trainer {
 
 // A pending request; it is applied once the hand is off the nut.
 struct StepUndo {
-    std::optional<std::size_t> target;  // the step to restart
+    std::optional<std::size_t> target;  // the step to restart; none: no request
     bool by_mistake = false;            // requested by a mistake; such a request does not expire
     double age = 0.0;                   // s since the request
 };
@@ -39,7 +39,7 @@ void update(StepUndo& undo, double seconds);
 // trainee completes a step before the request is applied.
 std::optional<std::size_t> steps_to_undo(const StepUndo& undo, const lesson::Lesson& lesson);
 
-// False once all steps are done and no mistake is pending that can still be undone.
+// True while the lesson goes on: steps remain, or a mistake is pending that can still be undone.
 bool continues(const StepUndo& undo, const session::LessonSession& session);
 
 }  // namespace bolt::trainer

@@ -29,7 +29,7 @@ struct TouchCheck {
     Vec3 tip{0.0};     // m, in the frame of the arm's handle
 
     TouchPhase phase = TouchPhase::waiting;
-    bool moved = false;         // the hand moved in the last touch
+    bool moved = false;         // the last touch failed: the hand moved, or the arm was lost
     double error = 0.0;         // m, of the result
     double shown_for = 0.0;     // s for which the phase is shown
     std::vector<Vec3> touched;  // m, positions of the tip in the room
@@ -49,10 +49,11 @@ std::optional<TouchCheck> touch_check_of(const content::Registration& registrati
 bool update(TouchCheck& check, const std::optional<station::MoverSample>& mover, bool confirmed,
             double seconds);
 
-// The events that confirm, or end the check. `enter_answers`: as action_of() of ArmScreen.
+// The user's answer in a frame: Enter, which confirms, or Escape, which ends the check.
 struct TouchAnswer {
     bool confirmed = false, ended = false;
 };
+// `enter_answers`: false while the arrow keys have marked a button, which Enter then presses.
 TouchAnswer answer_of(const TouchCheck& check, std::span<const platform::InputEvent> events,
                       bool enter_answers);
 

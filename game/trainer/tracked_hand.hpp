@@ -47,7 +47,7 @@ Pose palm_joint_at_fingertips(xr::Side side);
 // The devices that may be fixed to a gloved hand, and the registered poses of the wrist in the frames of
 // their grip poses; none: not registered.
 struct WristMount {
-    std::optional<TrackerRole> tracker;  // that the station file names
+    std::optional<TrackerRole> tracker;  // role of the Vive tracker that the station file names
     std::optional<Pose> wrist_in_tracker, wrist_in_controller;
 };
 

@@ -28,8 +28,9 @@ OrbitAxes axes_of(const Orbit& orbit);
 Orbit orbit_of(const Viewpoint& view);
 Viewpoint viewpoint_of(const Orbit& orbit);
 
-// The eye for the renderer; well defined at pitch ±90° too. `offset`: m to the right of the orbit, for one of
-// the two eyes of a stereo view, whose axes meet at the target (pictures.hpp).
+// The eye for the renderer; well defined at pitch ±90° too. Its depth range contains the whole box. `offset`:
+// m to the right of the orbit, for one of the two eyes of a stereo view, whose axes meet at the target
+// (pictures.hpp).
 render::Eye eye_of(const Orbit& orbit, const render::BoundingBox& box, float aspect, float offset = 0.0F);
 
 // The following functions take positions and movements of the cursor in units of the picture's height, from

@@ -25,7 +25,7 @@ struct EyeGroup {
 // The place of a panel in the room.
 struct PanelPlace {
     Pose pose;                // of its centre: x right, y up, z towards the viewer
-    double point_size = 0.0;  // m
+    double point_size = 0.0;  // m per point of the panel
 };
 
 struct ImmersiveFrame {
@@ -89,7 +89,8 @@ struct MirrorSources {
     std::optional<render::ImageLayer> panel;  // none: there is no panel now
     VkExtent2D panel_size{};                  // px
 };
-// If the chosen picture is missing, the left eye.
+// The pictures for a window of this size, with their places in it. Shows the left eye if the picture that the
+// mirror needs is missing.
 std::vector<gpu::ShownPicture> mirror_pictures(Mirror mirror, const MirrorSources& sources,
                                                VkExtent2D window);
 

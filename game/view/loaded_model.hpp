@@ -12,9 +12,9 @@
 namespace bolt::view {
 
 struct Viewpoint {
-    std::string name;  // of a view of the assembly; empty: an unnamed viewpoint
-    glm::vec3 eye{0.0F}, target{0.0F};
-    float fov = 0.0F;  // rad, vertical; 0: the default of the program
+    std::string name;                   // of a view of the assembly; empty: an unnamed viewpoint
+    glm::vec3 eye{0.0F}, target{0.0F};  // m
+    float fov = 0.0F;                   // rad, vertical; 0: the default of the program
 };
 
 struct JointPosition {

@@ -44,24 +44,24 @@ inline constexpr float default_fov = 0.6108652F;  // rad, 35°
 // The viewpoint in the default direction that shows the whole box.
 Viewpoint default_viewpoint(const render::BoundingBox& box, float fov, float aspect);
 
-// Indices of the nodes of that name and of their descendants. Fails as outline().
+// Indices of the nodes of that name and of their descendants. Fails if there is no such node, and suggests
+// the nearest name.
 Result<std::set<int>> nodes_of(const assets::Model& model, const std::string& name);
 
 // Names of nodes; each stands for the node with its descendants.
 struct Highlights {
-    std::vector<std::string> outlined, ghosts;
+    std::vector<std::string> outlined, ghosts;  // ghosts are drawn translucent
     std::string revealed;  // drawn with everything in front of it cut away; empty: nothing is cut away
 };
 
-// Outlines a node with its descendants in `color`. Fails if there is no such node and then suggests the
-// nearest name. Like highlight(), updates the scene.
+// Outlines a node with its descendants in `color`, and updates the scene. Fails as nodes_of().
 Status outline(ShownModel& shown, const LoadedModel& model, const std::string& node, const glm::vec4& color);
 
-// The bounding box of a node with its descendants; empty if none of them is drawn. Fails as outline().
+// The bounding box of a node with its descendants; empty if none of them is drawn. Fails as nodes_of().
 Result<render::BoundingBox> box_of(const ShownModel& shown, const LoadedModel& model,
                                    const std::string& node);
 
-// Applies the highlights. Fails as outline(), or if the revealed node is not drawn.
+// Applies the highlights, and updates the scene. Fails as nodes_of(), or if the revealed node is not drawn.
 Status highlight(ShownModel& shown, const LoadedModel& model, const Highlights& highlights);
 
 }  // namespace bolt::view

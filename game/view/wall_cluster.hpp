@@ -24,7 +24,7 @@ namespace bolt::view {
 struct ClusterFrame {
     std::uint64_t number = 0;
     Pose head;                 // of the viewer, in the room
-    bool tracked = false;      // ImmersiveFrame::tracked
+    bool tracked = false;      // false: the pose of the head is an old or an estimated one
     cluster::Message content;  // the state of the frame, from WindowContent::share; below 4 KiB
     cluster::Message bulk;     // what has changed and is larger; a message of its own, before the frame
 };
@@ -79,6 +79,8 @@ class WallLeader {
 // The part of every other process.
 class WallFollower {
   public:
+    // Reports to the first process that the walls of this one are open. `fingerprint`: as in
+    // WallLeader::begin(), which compares it. Does not wait.
     static Result<WallFollower> begin(cluster::Cluster& cluster, std::uint64_t fingerprint, StopWaiting stop);
 
     // Waits for the next frame. None: the first process has ended, or the program was asked to end. Fails

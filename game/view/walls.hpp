@@ -77,8 +77,8 @@ class Walls {
     // of the control window.
     std::vector<platform::InputEvent> poll_events();
 
-    // The next frame: prepares the swapchains, and reads the pose of the head at a time on the steady clock.
-    // Group i belongs to wall i; it is empty for a wall of another process.
+    // The next frame: prepares the swapchains, and reads the pose of the head at the time `seconds` of the
+    // steady clock. Group i belongs to wall i; it is empty for a wall of another process.
     Result<ImmersiveFrame> begin_frame(double seconds);
     // As above, with a head that another process has read.
     Result<ImmersiveFrame> begin_frame(const Pose& head, bool tracked);
@@ -96,7 +96,8 @@ class Walls {
 
     [[nodiscard]] const content::DisplayFile& displays() const { return displays_; }
     [[nodiscard]] double refresh_rate() const;  // Hz, the lowest of the windows; 0: unknown
-    // Makes the surface of a window, with which a device that can present is chosen.
+    // Makes the surface of this process's first window, with which a GPU that can present there is chosen.
+    // Call it only in a process with a wall.
     [[nodiscard]] Result<gpu::Surface> make_surface(const gpu::Instance& instance);
 
   private:

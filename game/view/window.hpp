@@ -80,7 +80,8 @@ class WindowContent {
     [[nodiscard]] virtual bool take_full_screen_request() { return false; }
 };
 
-inline constexpr float window_level_error = 0.7F;  // px, of levels of detail in windows and on walls
+// px, error allowed for coarser levels of detail in windows and on walls (RendererOptions::level_error_px).
+inline constexpr float window_level_error = 0.7F;
 
 // Moves an orbit with the mouse: left button turns, right or middle button moves the target, the wheel zooms.
 class OrbitControl {
@@ -114,13 +115,14 @@ struct WindowRunOptions {
     // True: lowers the resolution of a headset if the GPU cannot keep its frame rate, and that of scenes in
     // the window if it cannot draw 30 frames a second.
     bool adapts_resolution = true;
-    // With a headset: the options of `instance`. When a headset is found, its runtime creates the instance
-    // again with these options and the same log.
+    // With a headset: the options with which the instance of run_in_window() was created. When a headset is
+    // found, its runtime creates the instance again with these options and the same log.
     gpu::InstanceOptions instance{};
 };
 
-// Creates the Vulkan instance; if a headset was found, by its runtime. If that fails, the headset is refused
-// and the instance is created without it, unless `needs_headset`.
+// Creates the Vulkan instance; if a headset was found, its runtime creates it. If the runtime cannot, fails
+// with ErrorCode::no_device if `needs_headset`; otherwise creates the instance without the headset, which is
+// then not used.
 Result<gpu::Instance> make_instance(gpu::InstanceOptions instance_options, xr::Headset* headset,
                                     bool needs_headset);
 
@@ -131,8 +133,8 @@ Result<gpu::Instance> make_instance(gpu::InstanceOptions instance_options, xr::H
 Status run_in_window(WindowContent& content, platform::Window& window, gpu::Instance& instance,
                      WindowRunOptions options = {});
 
-// Shows the walls of this process in step with the first process, until that ends. `gpu`: as in
-// WindowRunOptions.
+// Shows the walls of this process in step with the first process, until the first process ends. `gpu`: part
+// of the name of the GPU to use; empty: the best.
 Status follow_on_walls(WindowContent& content, Walls& walls, WallFollower& follower,
                        const gpu::Instance& instance, const std::string& gpu);
 

@@ -38,9 +38,10 @@ void write_state(const world::WriteHaptics& world, const RecordedState& state);
 struct Recording {
     session::SessionSetup start;  // setup and state at the start of the lesson; not advanced
     analysis::SessionData data;
-    double period = 0.02;                   // s between two of `states`
-    std::vector<RecordedState> states;      // the first one at the start of the lesson
-    std::vector<lesson::Lesson> lessons;    // copies, one whenever a step began, ended or was undone
+    double period = 0.02;               // s between two of `states`
+    std::vector<RecordedState> states;  // the first one at the start of the lesson
+    // Copies of the lesson, one whenever a step began, ended or was undone, without events and step_starts.
+    std::vector<lesson::Lesson> lessons;
     std::vector<std::size_t> lesson_index;  // for each of `states` an index into `lessons`
     std::vector<TimelineMark> marks;        // in order of time
     std::uint64_t mismatches = 0;           // ticks that differ from the recording
@@ -56,8 +57,8 @@ struct Recording {
     [[nodiscard]] double neighbouring_chapter(double time, int by) const;
 };
 
-// Replays the whole session. The recording must not be moved, because lessons refer to its assembly. Fails as
-// session::restore_setup, or if the session has no tick.
+// Replays the whole session. The recording must not be moved, because lessons refer to its assembly. Fails if
+// the session has no tick, cannot be read, or cannot be restored (session::restore_setup()).
 Result<std::unique_ptr<Recording>> replay_session(const session::SessionReader& session);
 
 }  // namespace bolt::viewer
