@@ -21,6 +21,14 @@ Result<Buffer> make_transient_buffer(Device& device, VkDeviceSize size) {
                           MemoryUse::upload);
 }
 
+Result<Fence> make_signalled_fence(Device& device) {
+    VkFenceCreateInfo info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+    VkFence fence = VK_NULL_HANDLE;
+    BOLT_TRY(check(vkCreateFence(device.get(), &info, nullptr, &fence), "creating a fence"));
+    return Fence(device.get(), fence);
+}
+
 }  // namespace
 
 Status FrameContext::prepare(Device& device) {
@@ -39,11 +47,7 @@ Status FrameContext::prepare(Device& device) {
     BOLT_TRY(
         check(vkAllocateCommandBuffers(device.get(), &commands, &commands_), "allocating a command buffer"));
 
-    VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    fence_info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
-    VkFence fence = VK_NULL_HANDLE;
-    BOLT_TRY(check(vkCreateFence(device.get(), &fence_info, nullptr, &fence), "creating a fence"));
-    fence_ = Fence(device.get(), fence);
+    BOLT_TRY(assign(fence_, make_signalled_fence(device)));
 
     if (device.limits().timestampComputeAndGraphics == VK_TRUE) {
         VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
@@ -199,7 +203,11 @@ Status Frames::submit(FrameContext& frame, const Signals& signals) {
     info.signalSemaphoreInfoCount = static_cast<std::uint32_t>(signalled.size());
     info.pSignalSemaphoreInfos = signalled.data();
     next_ = (next_ + 1) % frames_in_flight;
-    return check(vkQueueSubmit2(device_->queue(), 1, &info, fence), "submitting a frame");
+    const Status submitted =
+        check(vkQueueSubmit2(device_->queue(), 1, &info, fence), "submitting a frame");
+    // No work will signal the fence, so the next wait for it would never end.
+    if (!submitted) BOLT_TRY(assign(frame.fence_, make_signalled_fence(*device_)));
+    return submitted;
 }
 
 Status Frames::finish() {

@@ -140,11 +140,13 @@ bool read_flystick(LineReader& line, DtrackFrame& frame) {
 bool read_old_flystick(LineReader& line, DtrackFrame& frame) {
     DtrackFlystick flystick;
     double quality = 0.0;
+    std::int64_t buttons = 0;  // with or without a sign, as in line 6df2
     std::array<double, 6> position{};
     std::array<double, 9> matrix{};
-    if (!line.sign('[') || !line.number(flystick.id) || !line.number(quality) ||
-        !line.number(flystick.buttons) || !line.sign(']') || !line.numbers(position) || !line.numbers(matrix))
+    if (!line.sign('[') || !line.number(flystick.id) || !line.number(quality) || !line.number(buttons) ||
+        !line.sign(']') || !line.numbers(position) || !line.numbers(matrix))
         return false;
+    flystick.buttons = static_cast<std::uint32_t>(buttons);
     add_flystick(frame, flystick, quality, position.data(), matrix);
     return true;
 }

@@ -45,7 +45,7 @@ Result<content::Assembly> stored_assembly(const session::SessionReader& session)
         return fail(std::move(error));
     }
     BOLT_TRY(content::choose_tool(loaded.assembly, header.tool));
-    return lesson::apply_law(std::move(loaded.assembly), header.law, header.law_adaptation);
+    return lesson::apply_law(std::move(loaded.assembly), header.law, header.rules.law_adaptation);
 }
 
 std::vector<lesson::JointResult> results_by_joint(const content::Assembly& assembly,

@@ -34,6 +34,18 @@ enum class TraineeKind : std::uint8_t { unrecorded, person, simulated };
 // In format 8 tools bent under both laws, and keys at less torque (tool_models::KeyStrength).
 enum class ToolYield : std::uint8_t { no_law, all_laws, mechanistic_law };
 
+// Rules of lessons and simulation that have changed with the format of session files. A replay of an older
+// file keeps to the rules of its format, so that it gives the same bits. The defaults are today's rules.
+struct FormatRules {
+    lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;
+    ToolYield tools_yield = ToolYield::mechanistic_law;  // before format 8: no_law; in format 8: all_laws
+    bool judges_tool_choice = true;                      // since format 9
+    // Members of servo::Setup.
+    bool rounds_all_loaded_corners = true;  // since format 10
+    bool allows_narrow_gaps = true;         // since format 11
+    bool renders_tool_in_use = true;        // since format 11
+};
+
 // The properties of a recorded lesson. The file stores them as text (header.cpp).
 struct Header {
     std::string assembly;       // name
@@ -41,12 +53,7 @@ struct Header {
     std::string assembly_text;  // the file's exact text, so that a session replays without the folder
     std::string variant;
     joint::Law law = joint::Law::mechanistic;
-    // These four follow from the format of the file.
-    lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;
-    ToolYield tools_yield = ToolYield::mechanistic_law;  // before format 8: no_law; in format 8: all_laws
-    bool judges_tool_choice = true;                      // since format 9
-    bool rounds_all_loaded_corners = true;               // since format 10 (servo::Setup)
-    bool allows_narrow_gaps = true;                      // since format 11 (servo::Setup)
+    FormatRules rules;  // of the file's format
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     // "person", or the simulated trainee's profile: "expert", … The key in the file is "operator".

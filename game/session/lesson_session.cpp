@@ -176,13 +176,14 @@ namespace {
 servo::Setup make_lesson_setup(const content::Assembly& assembly, const LessonOptions& options) {
     servo::Setup setup = make_setup(assembly, options.law, options.device_limits, options.seed, options.dt);
     servo::set_ratchets(setup, options.task == lesson::Task::loosen);
-    setup.rounds_all_loaded_corners = options.rounds_all_loaded_corners;
-    setup.allows_narrow_gaps = options.allows_narrow_gaps;
+    setup.rounds_all_loaded_corners = options.rules.rounds_all_loaded_corners;
+    setup.allows_narrow_gaps = options.rules.allows_narrow_gaps;
+    setup.renders_tool_in_use = options.rules.renders_tool_in_use;
     const bool yields =
-        options.tools_yield == ToolYield::all_laws ||
-        (options.tools_yield == ToolYield::mechanistic_law && options.law == joint::Law::mechanistic);
+        options.rules.tools_yield == ToolYield::all_laws ||
+        (options.rules.tools_yield == ToolYield::mechanistic_law && options.law == joint::Law::mechanistic);
     if (!yields) servo::disable_tool_yield(setup);
-    if (options.tools_yield != ToolYield::all_laws) return setup;
+    if (options.rules.tools_yield != ToolYield::all_laws) return setup;
     const auto designs = content::designs_of(assembly, content::lesson_tools(assembly));
     for (std::size_t i = 0; i < designs.size(); ++i)
         setup.tools[i].wrench.yield_torque =
@@ -219,7 +220,7 @@ Status check_turned_parts(const content::Assembly& assembly) {
 Result<SessionSetup> prepare_session(const content::Assembly& given, const LessonOptions& options) {
     BOLT_TRY(check_turned_parts(given));
     SessionSetup start;
-    start.assembly = lesson::apply_law(given, options.law, options.law_adaptation);
+    start.assembly = lesson::apply_law(given, options.law, options.rules.law_adaptation);
     start.setup = make_lesson_setup(start.assembly, options);
     start.state = servo::initial_state(start.setup);
     if (options.task == lesson::Task::loosen) {

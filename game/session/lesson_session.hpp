@@ -48,11 +48,7 @@ struct LessonOptions {
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     joint::Law law = joint::Law::mechanistic;
-    // Sessions of older formats are replayed under the rules of their time (SessionReader sets them).
-    lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;
-    ToolYield tools_yield = ToolYield::mechanistic_law;
-    bool rounds_all_loaded_corners = true;
-    bool allows_narrow_gaps = true;
+    FormatRules rules;  // those of an older format only in a replay
     std::uint64_t seed = 1;
     double dt = 0.001;
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).

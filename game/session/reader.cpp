@@ -152,6 +152,18 @@ Result<OpenedFile> open_session(const std::filesystem::path& path, const std::st
     return OpenedFile{std::move(*database), *version};
 }
 
+FormatRules rules_of(std::int64_t format) {
+    FormatRules rules;
+    if (format < 6) rules.law_adaptation = lesson::LawAdaptation::before_format_6;
+    rules.tools_yield = format < 8    ? ToolYield::no_law
+                        : format == 8 ? ToolYield::all_laws
+                                      : ToolYield::mechanistic_law;
+    rules.judges_tool_choice = format >= 9;
+    rules.rounds_all_loaded_corners = format >= 10;
+    rules.allows_narrow_gaps = rules.renders_tool_in_use = format >= 11;
+    return rules;
+}
+
 }  // namespace
 
 Result<Header> read_header(const std::filesystem::path& path) {
@@ -192,13 +204,7 @@ Result<SessionReader> SessionReader::open(const std::filesystem::path& path) {
         return file_error(file, "is damaged: it is marked complete but has no result",
                           "an unmodified session file");
     BOLT_TRY_ASSIGN(auto header, header_of(meta, file));
-    if (session.format < 6) header.law_adaptation = lesson::LawAdaptation::before_format_6;
-    header.tools_yield = session.format < 8    ? ToolYield::no_law
-                         : session.format == 8 ? ToolYield::all_laws
-                                               : ToolYield::mechanistic_law;
-    header.judges_tool_choice = session.format >= 9;
-    header.rounds_all_loaded_corners = session.format >= 10;
-    header.allows_narrow_gaps = session.format >= 11;
+    header.rules = rules_of(session.format);
     if (session.format >= 2) {
         BOLT_TRY(read_obstacles(database, file, header.obstacle_names));
     }

@@ -47,7 +47,7 @@ lesson::Lesson restore_lesson(const SessionReader& session, const SessionSetup& 
     const Header& header = session.header();
     lesson::Lesson lesson = lesson::begin(start.assembly, header.mode, header.task);
     lesson.guides = header.guide.value_or(false);
-    if (!header.judges_tool_choice) lesson.tool_faults.clear();
+    if (!header.rules.judges_tool_choice) lesson.tool_faults.clear();
     return lesson;
 }
 
@@ -64,10 +64,7 @@ Result<SessionSetup> restore_setup(const SessionReader& session) {
     options.mode = header.mode;
     options.task = header.task;
     options.law = header.law;
-    options.law_adaptation = header.law_adaptation;
-    options.tools_yield = header.tools_yield;
-    options.rounds_all_loaded_corners = header.rounds_all_loaded_corners;
-    options.allows_narrow_gaps = header.allows_narrow_gaps;
+    options.rules = header.rules;
     options.seed = header.seed;
     options.dt = header.dt;
     options.device_limits = *header.device_limits;

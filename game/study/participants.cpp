@@ -44,11 +44,14 @@ bool has_leftovers(const fs::path& folder) {
     return false;
 }
 
+// The participant is known and has not withdrawn. Participants whose journal cannot be read are not known.
+bool is_active(const ParticipantState& state) { return !state.withdrawn && !state.progress.person.empty(); }
+
 // Fails as add_participant() does.
 Status check_enrolment(const content::Study& study, const fs::path& folder, const NewParticipant& participant,
                        const std::vector<ParticipantState>& states) {
     for (const ParticipantState& state : states) {
-        if (state.withdrawn || state.problem) continue;
+        if (!is_active(state)) continue;
         if (state.progress.simulated != participant.simulated)
             return fail(participant_error(folder, "people and simulated participants are never mixed",
                                           "a folder of their own"));
@@ -133,7 +136,7 @@ Result<fs::path> add_participant(const content::Study& study, const fs::path& st
     BOLT_TRY(check_enrolment(study, study_folder, participant, states));
     std::set<std::size_t> places;
     for (const ParticipantState& state : states)
-        if (!state.withdrawn && !state.problem) places.insert(state.progress.place);
+        if (is_active(state)) places.insert(state.progress.place);
     std::size_t place = 0;
     while (places.contains(place)) ++place;
     BOLT_TRY_ASSIGN(const auto folders, participant_folders(participants));

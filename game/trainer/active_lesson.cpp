@@ -81,7 +81,7 @@ DragScene drag_scene(const scene::SceneWorld& world, const ActiveLesson& active,
     if (const auto nut = hand_of(active).nut)
         scene.nut = force::Pivot{world::nut_centre(world, setup, *nut), setup.nuts[*nut].axis};
     const station::DeviceLayout& layout = client.link->layout();
-    scene.handle_length = layout.lever_arm;
+    scene.handle_length = station::lever_arm_of(layout, setup.wrench.handle_length);
     scene.arm_to_assembly = viewer_heading(active) * layout.workspace.rotation;
     scene.scale = layout.workspace.scale;
     return scene;

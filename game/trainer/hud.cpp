@@ -98,19 +98,36 @@ std::optional<content::ToleranceWindow> target_window(const lesson::Lesson& less
 
 }  // namespace
 
+namespace {
+
+// Keeps every second point. Further points must then differ twice as much.
+void thin_out(TorquePlot& plot) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < plot.points.size(); i += 2) plot.points[kept++] = plot.points[i];
+    plot.points.resize(kept);
+    plot.coarseness *= 2.0F;
+}
+
+}  // namespace
+
 void observe(TorquePlot& plot, const lesson::Lesson& lesson,
              const ecs::Access<const world::Joint, const world::ToolState>& world) {
     const std::int16_t engaged = world.only<world::ToolState>().joint;
     if (engaged < 0) return;
-    if (engaged != plot.joint) plot.points.clear();
+    if (engaged != plot.joint) {
+        plot.points.clear();
+        plot.coarseness = 1.0F;
+    }
     plot.joint = engaged;
     plot.target = target_window(lesson, static_cast<std::size_t>(plot.joint));
     const world::Joint& joint = world::joint_at(world, static_cast<std::size_t>(plot.joint));
     const PlotPoint now{static_cast<float>(to_degrees(joint.angle)), static_cast<float>(joint.torque)};
     const bool same = !plot.points.empty() &&
-                      std::abs(plot.points.back().angle - now.angle) < min_angle_step &&
-                      std::abs(plot.points.back().torque - now.torque) < min_torque_step;
-    if (!same && plot.points.size() < max_points) plot.points.push_back(now);
+                      std::abs(plot.points.back().angle - now.angle) < plot.coarseness * min_angle_step &&
+                      std::abs(plot.points.back().torque - now.torque) < plot.coarseness * min_torque_step;
+    if (same) return;
+    if (plot.points.size() == max_points) thin_out(plot);
+    plot.points.push_back(now);
 }
 
 std::vector<render::Rectangle> occupied_areas() {

@@ -183,9 +183,11 @@ class Wheel : public DeviceDriver {
         for (int i = 0; i < max_wheel_reports; ++i) {
             BOLT_TRY_ASSIGN(const auto report, core_.transport->read(i == 0 ? timeout : 0.0));
             if (report.empty()) break;
-            if (!decode_report(core_.axis, report, core_.state)) continue;
-            last_report_ = core_.clock();
-            has_angle_ = true;
+            const std::uint32_t buttons_before = core_.state.buttons;
+            const bool has_angle = decode_report(core_.axis, report, core_.state);
+            has_angle_ = has_angle_ || has_angle;
+            // Buttons in a report of their own must take effect on a wheel at rest too.
+            if (has_angle || core_.state.buttons != buttons_before) last_report_ = core_.clock();
         }
         if (!has_angle_ || core_.clock() - last_report_ > rest_timeout) return std::nullopt;
         return core_.sample(core_.state.deflection * 0.5 * core_.config.range);

@@ -111,6 +111,10 @@ void add_tool(const SetupDescription& d, const ToolDescription& tool, Setup& set
         if (nut.tool == number) across_flats = std::max(across_flats, nut.across_flats);
     }
     added.wrench = make_wrench(d, tool, number, across_flats);
+    added.torque_rendering = force::make_torque_rendering(d.limits, d.max_torque, tool.handle_length);
+    // Without torque output the aligning torque is a force at the end of the handle.
+    added.max_aligning_torque =
+        d.limits.torque > 0.0 ? 0.1 * d.limits.torque : 0.2 * d.limits.force * tool.handle_length;
     setup.tools.push_back(std::move(added));
 }
 
@@ -121,6 +125,9 @@ void use_tool(Setup& setup, std::size_t tool) {
     setup.wrench = setup.tools[tool].wrench;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i)
         setup.nuts[i].grip_height = setup.tools[tool].grip_heights[i];
+    if (!setup.renders_tool_in_use) return;
+    setup.torque_rendering = setup.tools[tool].torque_rendering;
+    setup.guiding.max_torque = setup.tools[tool].max_aligning_torque;
 }
 
 void disable_tool_yield(Setup& setup) {
@@ -156,13 +163,8 @@ Setup make_setup(const SetupDescription& d) {
     if (d.limits.torsion > 0.0) setup.hold_torsion = std::min(setup.hold_torsion, d.limits.torsion);
     // The energy of a spring that the device cannot render must not count as stored.
     if (d.limits.force <= 0.0) setup.hold_stiffness = 0.0;
-    const double handle_length = d.tool.handle_length;
-    setup.torque_rendering = force::make_torque_rendering(d.limits, d.max_torque, handle_length);
     setup.guiding.max_force = std::min(setup.guiding.max_force, 0.2 * d.limits.force);
     setup.guiding.stiffness = std::min(setup.guiding.stiffness, d.limits.stiffness);
-    // Without torque output the aligning torque is a force at the end of the wrench.
-    setup.guiding.max_torque =
-        d.limits.torque > 0.0 ? 0.1 * d.limits.torque : 0.2 * d.limits.force * handle_length;
     return setup;
 }
 

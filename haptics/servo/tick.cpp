@@ -267,8 +267,15 @@ void add(force::ForceRequest& sum, const force::ForceRequest& more) {
 
 // Part 5. The input of the output stage. A device without torque output applies its force at the end of the
 // handle.
-force::DeviceInput device_input(const Setup& setup, const ToolPose& commanded_tool, const TickInput& input) {
+force::DeviceInput device_input(const Setup& setup, State& state, const ToolPose& commanded_tool,
+                                const TickInput& input) {
     const double lever_arm = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
+    if (setup.renders_tool_in_use) {
+        // Another tool has another handle; its end is elsewhere, but the hand has not moved.
+        Pose& last = state.output_stage.watchdog.last;
+        last.position += (lever_arm - state.lever_arm) * (last.orientation * Vec3(1.0, 0.0, 0.0));
+    }
+    state.lever_arm = lever_arm;
     force::DeviceInput device;
     device.pose = {commanded_tool.position + lever_arm * commanded_tool.handle, commanded_tool.orientation};
     device.valid = commanded_tool.valid;
@@ -333,7 +340,7 @@ Output tick(const Setup& setup, State& state, const TickInput& input, force::IsS
         for (const force::ForceRequest& more : {guiding, contacts, released}) add(request, more);
 
     const force::OutputCommand limited = force::render(
-        setup.limits, state.output_stage, device_input(setup, commanded_tool, input), request, setup.dt);
+        setup.limits, state.output_stage, device_input(setup, state, commanded_tool, input), request, setup.dt);
     output.force = limited.force;
     output.torque = limited.torque;
     output.fault = state.output_stage.watchdog.fault;

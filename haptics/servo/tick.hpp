@@ -46,6 +46,7 @@ struct State {
     force::OutputCommand guiding_command;  // guiding force and torque of the last tick
     force::GuideState guide_state;
     force::OutputStage output_stage;
+    double lever_arm = 0.0;  // m, from the tool's origin to the point of application of the device's force
     std::optional<ToolContact> tool_contact;              // none: no contact simulation
     std::array<Checkpoint, max_checkpoints> checkpoints;  // ring buffer
     std::uint32_t checkpoint_count = 0;  // saved since the beginning, less those that undo discarded

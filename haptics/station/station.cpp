@@ -111,7 +111,6 @@ Result<DeviceLayout> make_layout(const StationOptions& options, std::optional<de
     layout.home = options.home;
     BOLT_TRY(check(layout));
     layout.workspace = make_workspace(layout, options);
-    layout.lever_arm = lever_arm_of(layout, options.handle_length);
     return layout;
 }
 

@@ -326,8 +326,9 @@ servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& set
         s.workspace.force_share = 0.0;
     }
     const servo::Grip grip = grip_of(inputs);
-    set_heading_and_lever_arm(layout, s, s.workspace.heading,
-                              grip == servo::Grip::wrench ? layout.lever_arm : 0.0);
+    set_heading_and_lever_arm(
+        layout, s, s.workspace.heading,
+        grip == servo::Grip::wrench ? lever_arm_of(layout, setup.wrench.handle_length) : 0.0);
     update_resting_wrench(layout, s, grip, controls);
 
     servo::TickInput input;

@@ -37,8 +37,6 @@ struct DeviceLayout {
     Buttons wheel_buttons;
     force::WorkspaceMap workspace;  // of the mover; if the mover senses velocity, only `rotation` applies
     Pose home;                      // initial pose of the tool in the assembly's frame
-    // m from the wrench's jaw to the point of the wrench that follows the mover (lever_arm_of()).
-    double lever_arm = 0.0;
     // Pose of the wrist of a gloved hand that holds the tool, in the tool's frame; none: no gloved hand.
     std::optional<Pose> wrist;
 };

@@ -157,7 +157,8 @@ class Player {
             return;
         }
         const Pose tool = client().latest.commanded_tool;
-        const Vec3 grip(has_wrench() ? layout.lever_arm : 0.0, 0.0, 0.0);
+        const double handle_length = lesson().session->setup().wrench.handle_length;
+        const Vec3 grip(has_wrench() ? station::lever_arm_of(layout, handle_length) : 0.0, 0.0, 0.0);
         const Vec3 right = client().controls.view * Vec3(1.0, 0.0, 0.0);
         const Quat heading = glm::angleAxis(std::atan2(-right.z, right.x), Vec3(0.0, 1.0, 0.0));
         const Quat to_device = glm::conjugate(heading * layout.workspace.rotation);

@@ -25,7 +25,7 @@ TEST_CASE("Bent tool: a tool bends at a fifth above its test torque, but not in 
     // ISO 1711-1: 64.5 N·m for an open end of 13 mm.
     CHECK(session::prepare_session(assembly, {}).value().setup.wrench.yield_torque == doctest::Approx(77.4));
     session::LessonOptions older;
-    older.tools_yield = session::ToolYield::no_law;
+    older.rules.tools_yield = session::ToolYield::no_law;
     const auto rigid = session::prepare_session(assembly, older);
     CHECK(rigid.value().setup.wrench.yield_torque == 0.0);
     for (const servo::LessonTool& tool : rigid.value().setup.tools) CHECK(tool.wrench.yield_torque == 0.0);
@@ -33,7 +33,7 @@ TEST_CASE("Bent tool: a tool bends at a fifth above its test torque, but not in 
     session::LessonOptions published;
     published.law = joint::Law::published;
     CHECK(session::prepare_session(assembly, published).value().setup.wrench.yield_torque == 0.0);
-    published.tools_yield = session::ToolYield::all_laws;
+    published.rules.tools_yield = session::ToolYield::all_laws;
     CHECK(session::prepare_session(assembly, published).value().setup.wrench.yield_torque > 0.0);
 }
 

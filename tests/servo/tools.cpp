@@ -9,7 +9,7 @@ namespace bolt::servo::several_tools {
 namespace {
 
 // Two nuts: the first is turned by an open end, the second by a ring with a handle of 0.3 m.
-Setup two_tools() {
+Setup two_tools(const force::OutputLimits& limits = {}) {
     std::vector<joint::JointDesign> designs(2, test::m16_flange_joint());
     designs[1].seat = Vec3(0.2, 0.0, 0.0);
     SetupDescription description;
@@ -23,6 +23,7 @@ Setup two_tools() {
     description.more_tools = {ring};
     description.tool_of_joint = {0, 1};
     description.max_torque = 210.0;
+    description.limits = limits;
     return make_setup(description);
 }
 
@@ -81,6 +82,48 @@ TEST_CASE("Several tools: the hand takes the next tool only when it holds none, 
         tick(setup, state, wrong);
     }
     CHECK(setup.tool == 1);
+}
+
+TEST_CASE("Several tools: without torque output the force at the handle's end is that of the tool in use") {
+    force::OutputLimits limits;
+    limits.torque = 0.0;
+    Setup setup = two_tools(limits);
+    for (const std::size_t tool : {1U, 0U}) {
+        use_tool(setup, tool);
+        const double length = setup.wrench.handle_length;
+        const force::TorqueRendering expected = force::make_torque_rendering(limits, 210.0, length);
+        CHECK(setup.torque_rendering.as_force == expected.as_force);
+        CHECK(setup.torque_rendering.as_force <= 1.0 / length + 1e-12);
+        CHECK(setup.guiding.max_torque == doctest::Approx(0.2 * limits.force * length));
+    }
+    CHECK(setup.tools[0].torque_rendering.as_force > setup.tools[1].torque_rendering.as_force);
+    // Sessions before format 11.
+    setup.renders_tool_in_use = false;
+    use_tool(setup, 1);
+    CHECK(setup.torque_rendering.as_force == setup.tools[0].torque_rendering.as_force);
+}
+
+TEST_CASE("Several tools: the end of another handle is elsewhere, but the hand has not jumped there") {
+    force::OutputLimits limits;
+    limits.torque = 0.0;
+    for (const bool follows : {true, false}) {
+        Setup setup = two_tools(limits);
+        setup.renders_tool_in_use = follows;
+        State state = initial_state(setup);
+        TickInput input = at_nut(setup, 0, Grip::none, 0);
+        input.commanded_tool.position[1] += 0.5F;
+        input.dead_man = true;
+        force::Fault fault = force::Fault::none;
+        for (int i = 0; i < 20; ++i) {
+            input.tool = i < 10 ? 0 : 1;
+            change_tool(setup, state, input);
+            fault = std::max(fault, tick(setup, state, input).fault);
+        }
+        CHECK(setup.tool == 1);
+        CHECK(state.lever_arm == 0.3);
+        CHECK(fault == (follows ? force::Fault::none : force::Fault::jumped));
+        if (follows) CHECK(glm::length(state.output_stage.watchdog.motion.velocity) < 1e-9);
+    }
 }
 
 }  // namespace bolt::servo::several_tools

@@ -18,7 +18,6 @@ DeviceLayout small_arm() {
     layout.mover->half_workspace = Vec3(0.075);
     layout.workspace.scale = force::fitted_scale(layout.mover->half_workspace, 0.23);
     layout.workspace.power_ratio = 1.0 / layout.workspace.scale;
-    layout.lever_arm = lever_arm_of(layout, 0.23);
     return layout;
 }
 
@@ -32,7 +31,7 @@ Vec3 device_at(const Rig& rig, const Vec3& point) {
 TEST_CASE(
     "An arm without torque: its handle is the end of the wrench, with torque or a wheel it is the jaw") {
     DeviceLayout layout = small_arm();
-    CHECK(layout.lever_arm == 0.23);
+    CHECK(lever_arm_of(layout, 0.23) == 0.23);
     layout.mover->limits.torque = 0.2;
     CHECK(lever_arm_of(layout, 0.23) == 0.0);
     layout.mover->limits.torque = 0.0;
@@ -62,7 +61,8 @@ TEST_CASE(
     "An arm without torque: a swing of its handle tightens the nut, felt as a force against the swing") {
     Rig rig = on_nut(small_arm());
     const servo::NutGeometry& nut = rig.setup.nuts[0];
-    const double length = rig.layout.lever_arm;
+    const double length = lever_arm_of(rig.layout, rig.setup.wrench.handle_length);
+    REQUIRE(length == 0.23);
     DeviceCommands answer;
     double swung = 0.0;  // rad
     const auto handle = [&] { return rig.tool().orientation * Vec3(1.0, 0.0, 0.0); };
@@ -92,6 +92,36 @@ TEST_CASE(
     rig.inputs.controls.grip = servo::Grip::none;
     rig.tick();
     CHECK(glm::length(rig.tool().position - last.position) < 1e-6);
+}
+
+TEST_CASE("An arm without torque: the hand holds the end of the tool in use") {
+    Rig rig(small_arm());
+    servo::LessonTool longer = rig.setup.tools[0];
+    longer.wrench.handle_length = 0.35;
+    rig.setup.tools.push_back(longer);
+    rig.ticks(100);
+    for (const std::uint8_t tool : {1, 0}) {
+        // The hand lays the tool down and takes the other one.
+        rig.inputs.controls.grip = servo::Grip::none;
+        rig.ticks(2);
+        rig.inputs.controls.tool = tool;
+        rig.ticks(2);
+        const Pose before = rig.tool();
+        rig.inputs.controls.grip = servo::Grip::wrench;
+        rig.ticks(2);
+        CHECK(rig.setup.tool == tool);
+        CHECK(glm::length(rig.tool().position - before.position) < 1e-9);
+        const double length = rig.setup.wrench.handle_length;
+        CHECK(length == (tool == 1 ? 0.35 : 0.23));
+        const Vec3 end = rig.tool() * Vec3(length, 0.0, 0.0);
+        for (int i = 0; i < 200; ++i) {
+            rig.hand().orientation = rotation(Vec3(0.0, 1e-3, 0.0)) * rig.hand().orientation;
+            rig.tick();
+        }
+        CHECK(glm::length(rig.tool() * Vec3(length, 0.0, 0.0) - end) < 1e-9);
+        CHECK(glm::length(rig.tool().position - before.position) > 0.02);
+        CHECK(rig.state.output.fault == force::Fault::none);
+    }
 }
 
 TEST_CASE("An arm without torque: a tilted wrench turns square beside a bolt only while the output is on") {

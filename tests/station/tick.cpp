@@ -67,10 +67,10 @@ TEST_CASE("Station: at a scale of 1 the mover's frame takes its hand to the tool
     Random random(21);
     DeviceLayout layout = test::with_arm();
     layout.mover->limits.torque = 0.0;
-    layout.lever_arm = 0.2;  // the handle's end follows the hand
     layout.workspace.rotation = rotation({0.0, 2.1, 0.0});
     layout.home.position = {0.1, 0.4, 0.2};  // in the air
     Rig rig(layout);
+    rig.setup.wrench.handle_length = 0.2;  // the handle's end follows the hand
     rig.inputs.controls.view = rotation({0.0, -0.7, 0.0});
     rig.ticks(2);
     for (int i = 0; i < 200; ++i) {

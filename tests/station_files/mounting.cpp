@@ -121,7 +121,7 @@ TEST_CASE("Station file: with any mounting and scale, clutching never makes the 
         arm.buttons = Buttons{1, 32, 0, 0};
         Rig rig(layout_of(arm, device));
         rig.ticks(5);
-        const Vec3 along(rig.layout.lever_arm, 0.0, 0.0);
+        const Vec3 along(lever_arm_of(rig.layout, rig.setup.wrench.handle_length), 0.0, 0.0);
         Vec3 last = rig.tool() * along;
         Quat turned = rig.tool().orientation;
         int changes = 0;

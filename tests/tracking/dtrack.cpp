@@ -80,6 +80,9 @@ TEST_CASE("DTrack: flysticks of both kinds of lines have a pose, buttons and a s
     const DtrackFrame old = parsed("fr 7\n6df 1 [2 0.9 3][1 2 3 0 0 0]" + matrix + "\n");
     REQUIRE(find_flystick(old, 2) != nullptr);
     CHECK(find_flystick(old, 2)->buttons == 3U);
+    const DtrackFrame negative = parsed("fr 7\n6df 1 [2 0.9 -128][1 2 3 0 0 0]" + matrix + "\n");
+    REQUIRE(find_flystick(negative, 2) != nullptr);
+    CHECK(find_flystick(negative, 2)->buttons == 0xFFFFFF80U);
     CHECK(find_flystick(old, 2)->pose->position == Vec3(1, 2, 3) * mm);
     CHECK(parsed("fr 1\n6df2 4 0\n").flysticks.empty());
     // More than 32 buttons are in several integers.

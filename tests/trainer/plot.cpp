@@ -52,6 +52,24 @@ TEST_CASE("Torque plot: it restarts at another nut and keeps only points that di
     CHECK(plot.points.size() == 1);
 }
 
+TEST_CASE("Torque plot: however long the pull, it ends at the present torque") {
+    Script s;
+    s.seat_both();
+    trainer::TorquePlot plot;
+    for (int i = 0; i < 20000; ++i) {
+        s.tick(0, servo::Grip::wrench, 0.001 * i, 1.0 + 0.01 * i);
+        trainer::observe(plot, s.lesson, test::HapticWorld(2).write(s.output));
+    }
+    CHECK(plot.points.size() <= 4000);
+    CHECK(plot.points.size() > 1000);
+    CHECK(plot.points.front().torque < 1.0F);
+    CHECK(plot.points.back().torque == doctest::Approx(20.0).epsilon(0.1));
+    for (std::size_t i = 1; i < plot.points.size(); ++i)
+        REQUIRE(plot.points[i].angle > plot.points[i - 1].angle);
+    pull(s, plot, 1, 1.0);
+    CHECK(plot.coarseness == 1.0F);
+}
+
 TEST_CASE("Torque plot: loosening has no target") {
     Script s;
     s.lesson = lesson::begin(s.assembly, lesson::Mode::guided, lesson::Task::loosen);
