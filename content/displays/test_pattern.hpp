@@ -29,7 +29,7 @@ struct PatternLine {
 struct PatternText {
     std::string text;
     glm::dvec2 center{0.0};
-    double height = 0.0;  // m, of a line of text
+    double height = 0.0;  // m, height of the line
 };
 
 struct TestPattern {

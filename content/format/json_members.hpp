@@ -13,8 +13,9 @@
 
 namespace bolt::content {
 
-// Reads the members of objects. `at` is the JSON pointer of the object. The first error is kept with its
-// position; later ones are ignored.
+// Reads the members of objects. `at` is the JSON pointer of the object. A member that is missing or invalid
+// is an error; text() then returns an empty text, number() returns `low`, and flag() false. The first error
+// is kept with its position; later ones are ignored.
 struct MemberReader {
     using json = nlohmann::json;
     static constexpr std::size_t max_text = 200;  // bytes

@@ -58,6 +58,7 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
 // Rotation from the frame of a wrench's model to the tool's frame. Fails as load_contact_models().
 Result<Quat> wrench_rotation(const content::WrenchDesign& design);
 
+// ContactModels::tool_contact of load_contact_models().
 Result<std::optional<servo::ToolContact>> load_tool_contact(const content::Assembly& assembly,
                                                             const servo::Setup& setup);
 

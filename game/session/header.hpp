@@ -41,7 +41,7 @@ struct Header {
     std::string assembly_text;  // the file's exact text, so that a session replays without the folder
     std::string variant;
     joint::Law law = joint::Law::mechanistic;
-    // These four follow from the format of the file.
+    // The next five members are not stored: they follow from the format of the file.
     lesson::LawAdaptation law_adaptation = lesson::LawAdaptation::yield_end;
     ToolYield tools_yield = ToolYield::mechanistic_law;  // before format 8: no_law; in format 8: all_laws
     bool judges_tool_choice = true;                      // since format 9
