@@ -50,7 +50,7 @@ std::vector<DisplayFinding> check_walls(const DisplayFile& displays);
 // walls of one DisplayHost.
 struct DisplayHost {
     std::vector<HostMonitor> monitors;  // none: outputs are compared with one another only
-    int process = 0;                    // process that shows its walls, as DisplayOutput::process
+    int process = 0;                    // number of the process (DisplayOutput::process)
     std::string display;                // X display of the program, such as ":0"; empty: unknown
     int processes = 1;                  // number of processes that show the walls together
 };

@@ -67,6 +67,7 @@ inline Vec3 upper_left(const Wall& wall) { return wall.lower_left + wall.upper_r
 inline double width(const Wall& wall) { return glm::length(wall.lower_right - wall.lower_left); }    // m
 inline double height(const Wall& wall) { return glm::length(wall.upper_right - wall.lower_right); }  // m
 
+// The source of the poses of the head. fixed: there is no tracker. file: recorded poses.
 enum class HeadTracker : std::uint8_t { fixed, dtrack, openxr, file };
 std::string_view name(HeadTracker tracker);
 
@@ -143,7 +144,7 @@ struct FilePosition {
 struct LoadedDisplays {
     DisplayFile displays;
     std::string file;                          // for messages
-    std::vector<FilePosition> wall_positions;  // of displays.walls, so that later checks can name them
+    std::vector<FilePosition> wall_positions;  // by wall of `displays`, for later messages about it
     std::vector<Error> errors;
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };

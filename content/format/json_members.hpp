@@ -76,8 +76,8 @@ struct FileHead {
     std::vector<std::string> members;  // the other members of its object
 };
 
-// Parses a file that `head` describes. `read(members, root)` returns its value; the first error that is
-// reported is the result instead.
+// Parses a file that `head` describes and returns the value of `read(members, root)`, or the first error of
+// the file.
 template <class Read>
 auto parse_small_file(std::string_view text, const std::string& file, FileHead head, const Read& read)
     -> Result<decltype(read(std::declval<MemberReader&>(), std::declval<const nlohmann::json&>()))> {

@@ -26,7 +26,9 @@
 
 namespace bolt::content {
 
+// within: each participant works in all conditions. between: each works in one of them.
 enum class StudySubjects : std::uint8_t { within, between };
+// The rule for the order of a participant's conditions; conditions_of() defines both.
 enum class StudyOrder : std::uint8_t { williams, random };
 
 struct StudyDesign {
@@ -48,9 +50,10 @@ struct StudyLesson {
     std::string law;  // empty: the assembly's
     std::string hand = "helped";
     std::vector<std::string> devices;  // empty: those of the command line
-    std::string display;               // "window", "headset" or "walls"; empty: see names_displays()
-    std::string displays;              // of walls: the display file
-    std::string glove;                 // "none", "auto" or a serial port; empty: that of the command line
+    // "window", "headset" or "walls". Empty: the window or the command line's (names_displays()).
+    std::string display;
+    std::string displays;  // of walls: the display file
+    std::string glove;     // "none", "auto" or a serial port; empty: that of the command line
     // `guide`: a force leads the hand to the nut in guided mode. `view_help`: the program finds a view of the
     // nut.
     bool guide = true, view_help = true;

@@ -66,7 +66,7 @@ struct Lesson {
     int held_joint = -1;                              // in the hand at the last tick; −1: none
     servo::Grip grip = servo::Grip::none;             // in the present or the last hold
     int last_held_joint = -1;                         // the joint that was released last
-    std::uint64_t released_at = 0;                    // tick
+    std::uint64_t released_at = 0;                    // tick in which it was released
     int announced_pass = -1;                          // latest pass with a pass_begin event
     std::vector<std::vector<JointTrack>> step_starts;  // by step: all tracks at its start, for undo_steps()
     std::vector<LessonEvent> events;                   // pending: the caller clears them
@@ -87,7 +87,9 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task);
 //   re-check    the wrench turned the nut further, or reached the window without turning it
 //   loosen      the nut was turned back by the step's angle, or is free of clamp force
 // In assessment, work on the next step's joint ends the due step, fulfilled or not, once the due joint has
-// been loaded. In other modes the step stays due.
+// been loaded. The last step of an assessment ends some time after the hand has released its joint. In other
+// modes the step stays due. In all modes the step of a broken or stripped joint ends as soon as no nut is
+// held.
 //
 // True if releasing the nut now completes the due step.
 bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world);

@@ -106,7 +106,7 @@ inline constexpr std::size_t mistake_kinds =
 
 // Behind each kind: the meaning of its LessonEvent::value.
 enum class EventKind : std::uint8_t {
-    pass_begin,  // number of the pass
+    pass_begin,  // number of the pass, from 0
     step_begin,  // target torque, N·m
     step_end,    // peak torque, N·m
     engage,      // 0

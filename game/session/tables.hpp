@@ -110,10 +110,11 @@ struct TableChecksums {
     TableChecksum meta, chunk, event, joint, reason, obstacle, servo_time;
 };
 
+// A row of table joint_result while the session is written.
 struct JointRow {
     lesson::JointResult result;
     std::optional<std::uint64_t> written_hash;  // the row's hash; none before it is first written
-    bool changed = true;
+    bool changed = true;                        // differs from the row in the file
 };
 
 // Each function writes rows and adds them to their table's checksum. Call them inside a transaction that ends

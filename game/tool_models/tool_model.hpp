@@ -14,7 +14,7 @@
 namespace bolt::tool_models {
 
 // The model for pictures: a node for each part, with normals and materials.
-// `completed`: parameters as completed() or parameters_of() return them.
+// `completed`: here and below, parameters from completed() or parameters_of().
 assets::Model drawn_model(const ToolParameters& completed);
 
 // The model for contact: closed meshes without normals and materials, a node for each, with fewer triangles.
@@ -65,8 +65,8 @@ double yield_torque(const content::WrenchDesign& design, KeyStrength keys = KeyS
 // known: they bear the torque at which they begin to bend. 0: unknown.
 double bearable_torque(const content::WrenchDesign& design);
 
-// Names a generated contact model in the session file: the description of the tool, and size and checksum
-// (FNV-1a, 64 bits) of the model's bytes.
+// The text that names a generated contact model in the session file: the description of the tool, and size
+// and checksum (FNV-1a, 64 bits) of the model's bytes. Fails if the model cannot be written.
 Result<std::string> identity_of(const ToolParameters& completed);
 
 }  // namespace bolt::tool_models

@@ -92,7 +92,7 @@ class DelayedPerception {
 // Speed and accuracy of one kind of trainee. The values are plausible estimates of ours, not measurements. An
 // instructor could observe each of them.
 struct TraineeProfile {
-    std::string_view name;
+    std::string_view name;     // for find_profile()
     double reach_time;         // s, from one joint to the next
     double placing_time;       // s, to lower the tool onto the nut
     double position_noise;     // m, standard deviation of the tool's position when placed
