@@ -134,7 +134,8 @@ constexpr double default_hover = 0.035;
 // Chooses the due step and the plan for it, and starts the first movement.
 void begin_next_action(TraineeState& t);
 
-// Chooses the handle angle so that the stroke is centred on the trainee's side.
+// Chooses the handle angle so that the stroke is centred on the trainee's side; after repeated failures, on a
+// random side.
 void choose_handle_angle(TraineeState& t);
 
 // Moves the head to next_eye and starts the reach to the nut.

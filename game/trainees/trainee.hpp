@@ -48,8 +48,8 @@ class SimulatedTrainee {
     // The pose of the tool that the hand commands; before the first tick, its initial pose.
     [[nodiscard]] const Pose& hand() const;
 
-    // Returns and clears the events since the last call: one of kind `visibility` for each change of the
-    // visible fraction of the due nut.
+    // Returns and clears the events since the last call. They are of kind `visibility`: while the trainee
+    // aligns the wrench with the due nut, one for each noticeable change of the nut's visible fraction.
     std::vector<lesson::LessonEvent> take_events();
 
   private:
