@@ -12,10 +12,12 @@
 namespace bolt::content {
 
 struct DisplayFinding {
-    // The picture would be wrong or could not be shown. False: it is shown, but probably not as intended.
+    // True: the picture would be wrong or could not be shown. False: it is shown, but probably not as
+    // intended.
     bool prevents_use = false;
     std::string text;
-    std::optional<std::size_t> wall{};  // index of the wall (of the later of two walls); none: the whole file
+    // Index of the wall; with two walls, that of the later one. None: the finding is about the whole file.
+    std::optional<std::size_t> wall{};
 };
 
 // A monitor of a DisplayHost, and where it is on the desktop. The values are those of a platform::Monitor, a
@@ -26,7 +28,7 @@ struct HostMonitor {
     bool operator==(const HostMonitor&) const = default;
 };
 
-// The monitor that an output fills; null: it is in a window, or there is no such monitor.
+// The monitor that an output fills; null: the output is shown in a window, or there is no such monitor.
 const HostMonitor* find_monitor(const DisplayOutput& output, std::span<const HostMonitor> monitors);
 
 // Tolerances of the checks.
@@ -37,17 +39,18 @@ inline constexpr double min_viewer_distance = 0.05;  // m, of the head from a wa
 inline constexpr double wall_tolerance = 0.01;       // m, by which walls may cross or overlap
 inline constexpr double seam_tolerance = 0.001;      // m, of a gap between walls that meet
 inline constexpr double max_seam_gap = 0.05;         // m, of the widest gap that is taken for a seam
-inline constexpr double pixel_tolerance = 0.01;      // of the ratio of a pixel's width to its height
+inline constexpr double pixel_tolerance = 0.01;      // by which width / height of a pixel may differ from 1
 inline constexpr double narrow_eyes = 0.05, wide_eyes = 0.08;  // m; nearly all adults are between these
 
-// Names, shapes, the fixed head in front of each wall, crossings, overlaps, seams, and the eye separation.
+// Checks names, shapes, crossings, overlaps and seams of the walls, whether the fixed head is in front of
+// each wall, and the eye separation.
 std::vector<DisplayFinding> check_walls(const DisplayFile& displays);
 
 // The computer, or the X display of a computer, that a check is for. Each process of the program shows the
 // walls of one DisplayHost.
 struct DisplayHost {
     std::vector<HostMonitor> monitors;  // none: outputs are compared with one another only
-    int process = 0;                    // process that shows its walls, as DisplayOutput::process
+    int process = 0;                    // number of the process (DisplayOutput::process)
     std::string display;                // X display of the program, such as ":0"; empty: unknown
     int processes = 1;                  // number of processes that show the walls together
 };
@@ -55,18 +58,19 @@ struct DisplayHost {
 // Returns true for names of the same X screen: ":0" is ":0.0".
 bool is_same_display(std::string_view a, std::string_view b);
 
-// The floor and the height of the head, and the size of the text on the panel of menus and hints.
+// Checks the floor, the height of the head, and the size of the text on the panel of menus and hints.
 std::vector<DisplayFinding> check_viewing(const DisplayFile& displays);
 
-// Shapes of pixels; outputs that show on the same pixels; outputs of the computer that are not on its
-// monitors, or on another X display than the program.
+// Checks the shapes of pixels, and finds outputs that use the same pixels, that are outside the monitors of
+// `host`, or that are on another X display than the program.
 std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const DisplayHost& host = {});
 
 // The findings of check_walls(), check_viewing() and check_outputs(); those that prevent the use come first.
 // If a finding of check_walls() prevents the use, check_viewing() is left out.
 std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const DisplayHost& host = {});
 
-// A line each; it begins with the file, and with line and column of the wall if the finding has one.
+// Returns one line for each finding. It begins with the file and, if the finding is about a wall, with the
+// wall's line and column.
 std::string describe(std::span<const DisplayFinding> findings, const LoadedDisplays& loaded);
 
 }  // namespace bolt::content

@@ -34,8 +34,8 @@ struct PixelSize {
 // Where a picture is shown. Exactly one of `monitor`, `monitor_index` and `position` is given.
 struct DisplayOutput {
     std::string monitor;                    // name of the monitor that the picture fills. Empty: not given
-    std::optional<int> monitor_index;       // from 0
-    std::optional<PixelPosition> position;  // of a window without a border, on the desktop
+    std::optional<int> monitor_index;       // in the computer's list of monitors, from 0
+    std::optional<PixelPosition> position;  // upper left corner of a borderless window on the desktop
     std::optional<PixelSize> resolution;    // required for a window; none: that of the monitor
     std::string display;                    // X display; empty: that of the program
     // Number of the process that shows it. The file's key is `rank`, as MPI and ParaView call the number.
@@ -67,6 +67,7 @@ inline Vec3 upper_left(const Wall& wall) { return wall.lower_left + wall.upper_r
 inline double width(const Wall& wall) { return glm::length(wall.lower_right - wall.lower_left); }    // m
 inline double height(const Wall& wall) { return glm::length(wall.upper_right - wall.lower_right); }  // m
 
+// The source of the poses of the head. fixed: there is no tracker. file: recorded poses.
 enum class HeadTracker : std::uint8_t { fixed, dtrack, openxr, file };
 std::string_view name(HeadTracker tracker);
 
@@ -84,8 +85,10 @@ struct TrackerAxis {
 // A flystick of DTrack, with which the viewer points at the panel. Buttons are counted from 1; 0: none.
 struct Flystick {
     int id = 0;
-    Pose aim_in_body;  // in the flystick's frame after HeadTracking::axes; it points along −z
-    int select = 1, menu = 2, tool = 3;  // presses what it points at; pauses; lays the wrench down
+    // In the flystick's frame, whose axes HeadTracking::axes has converted: the pose that points along −z.
+    Pose aim_in_body;
+    // Buttons: `select` presses what the flystick points at, `menu` pauses, `tool` lays the wrench down.
+    int select = 1, menu = 2, tool = 3;
     bool operator==(const Flystick& other) const;
 };
 inline constexpr int max_flystick_button = 32;
@@ -96,16 +99,16 @@ inline constexpr int max_flystick_button = 32;
 struct HeadTracking {
     HeadTracker tracker = HeadTracker::fixed;
     Pose fixed_head{{0.0, 1.6, 0.0}, {1.0, 0.0, 0.0, 0.0}};  // without a tracker, and after it lost the head
-    int port = 5000;                                         // UDP, dtrack
-    int body = 0;                                            // dtrack
+    int port = 5000;                                         // dtrack: UDP port
+    int body = 0;                                            // dtrack: id of the head's body
     std::optional<Flystick> flystick;                        // dtrack; none: the viewer has none
-    TrackedPose pose = TrackedPose::headset;                 // openxr
-    std::string recording;  // file of recorded poses, relative to the folder of the display file
+    TrackedPose pose = TrackedPose::headset;                 // openxr: the pose that is the head's
+    std::string recording;  // file: the recorded poses, relative to the folder of the display file
     std::array<TrackerAxis, 3> axes{{{0}, {1}, {2}}};  // tracker axes along the room's x, y and z
     double scale = 1.0;                                // m of the room per m of the tracker
     Pose tracker_in_room;    // the tracker's frame; applied after `axes` and `scale`
-    Pose head_in_body;       // in the tracked body's frame after `axes`
-    double hold = 0.5;       // s of a dropout, during which the last pose is kept
+    Pose head_in_body;       // in the tracked body's frame, whose axes `axes` has converted
+    double hold = 0.5;       // s, duration of a dropout up to which the last pose is kept
     double fade = 2.0;       // s, duration of the return to the fixed head
     double max_speed = 4.0;  // m/s; a faster change is a jump
     double jump_time = 0.3;  // s, after which a lasting jump is accepted
@@ -115,7 +118,8 @@ struct HeadTracking {
 // The rotation from the tracker's axes to the room's.
 Quat orientation_of(const std::array<TrackerAxis, 3>& axes);
 
-// m. ParaView's default in a CAVE, so that an imported .pvx file without the value gives the same pictures.
+// m. The value is ParaView's default in a CAVE, so that an imported .pvx file without one gives the same
+// pictures.
 // view::mean_eye_separation is the mean of adults.
 inline constexpr double default_eye_separation = 0.065;
 inline constexpr double max_eye_separation = 0.1;  // m
@@ -140,7 +144,7 @@ struct FilePosition {
 struct LoadedDisplays {
     DisplayFile displays;
     std::string file;                          // for messages
-    std::vector<FilePosition> wall_positions;  // of displays.walls, so that later checks can name them
+    std::vector<FilePosition> wall_positions;  // by wall of `displays`, for later messages about it
     std::vector<Error> errors;
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };

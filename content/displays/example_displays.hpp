@@ -11,7 +11,7 @@ namespace bolt::content {
 enum class DisplayKind : std::uint8_t {
     wall,  // one wall of 4 m by 2.25 m, without a tracker
     cave,  // front, left, right, floor and ceiling of 3 m by 2.4 m by 3 m, with a DTrack
-    desk,  // a screen above a table, for one seated viewer
+    desk,  // an upright screen and one that lies on the table before it, for one seated viewer
 };
 const std::vector<std::string>& display_kind_names();  // in the order of the enumerators
 

@@ -22,8 +22,9 @@ struct ImportedDisplays {
 
 struct PvxOptions {
     double scale = 1.0;  // metres per unit of the file's corners and eye separation
-    // m, of the file's origin above the floor. In many files the origin is between the viewer's eyes. The
-    // head is placed at the origin if it is in front of all walls there.
+    // m, height of the file's origin above the floor; none: 0. In many files the origin is between the
+    // viewer's eyes. If a height is given, the head is placed at the origin, provided that the origin is in
+    // front of all walls.
     std::optional<double> eye_height{};
 };
 

@@ -17,20 +17,20 @@ class PvxMessages {
   public:
     PvxMessages(std::string_view text, const std::string& file) : text_(text), file_(file) {}
 
-    // At the attribute; null: at the element.
+    // Adds an error or a warning at an attribute of the node; `attribute` null: at the node itself.
     void fail_at(pugi::xml_node node, const char* attribute, std::string what, std::string expected) {
         add(errors_, node, attribute, std::move(what), std::move(expected));
     }
     void warn_at(pugi::xml_node node, const char* attribute, std::string what) {
         add(warnings_, node, attribute, std::move(what), {});
     }
-    // At a byte of the text.
+    // Adds an error at a byte of the text.
     void fail_at(std::size_t offset, std::string what, std::string expected) {
         errors_.push_back(error_at(offset, std::move(what), std::move(expected)));
     }
 
     [[nodiscard]] bool has_errors() const { return !errors_.empty(); }
-    // Both sorted by position.
+    // Each returns its messages, sorted by position, and clears them.
     std::vector<Error> take_errors();
     std::vector<Error> take_warnings();
 

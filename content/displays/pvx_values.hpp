@@ -12,7 +12,7 @@ namespace bolt::content {
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-// The parts of the text between blanks or separators.
+// The parts of the text between blanks and separators, without empty parts.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
 // None if the whole text is not a finite number.

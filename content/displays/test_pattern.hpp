@@ -29,7 +29,7 @@ struct PatternLine {
 struct PatternText {
     std::string text;
     glm::dvec2 center{0.0};
-    double height = 0.0;  // m, of a line of text
+    double height = 0.0;  // m, height of the line
 };
 
 struct TestPattern {
@@ -47,7 +47,7 @@ inline constexpr int frame_mark_count = 10;
 // The pattern consists of
 // - the border on the edges of the wall, both diagonals, upright crosses in the middle and near the corners;
 // - a horizontal and a vertical scale of `scale_length`: the longest of 1, 0.5, 0.2, 0.1, 0.05 and 0.02 m
-//   that is at most 0.4 of the shorter edge;
+//   that is at most 0.4 of the shorter edge, or 0.4 of that edge if even 0.02 m is too long;
 // - the name of the wall and the length of the scale;
 // - the eye, in the left half of the picture for the left eye and in the right half for the right eye;
 // - the number of the frame, and a row of marks. One is lit, the next one in each frame: on a photograph of

@@ -33,9 +33,9 @@ std::array<Vec3, 4> corners_of(const WallAxes& wall, double margin = 0.0);
 // Parallel walls do not cross.
 bool walls_cross(const WallAxes& a, const WallAxes& b, double margin);
 
-// A wall `a` that stands on another one, `b`, away from its edge hides what is behind it. If an edge of `a`
-// lies in the plane of `b` and inside the outline of `b`, returns the distance of the edge from that outline;
-// none if it is at most `tolerance`.
+// Detects a wall `a` that stands on the picture of `b` and so hides a part of it. If an edge of `a` lies in
+// the plane of `b` and inside the outline of `b`, returns the distance of that edge from the outline. Returns
+// none if no edge does, or if the distance is at most `tolerance`.
 std::optional<double> edge_inset(const WallAxes& a, const WallAxes& b, double tolerance);
 
 // The width of the strip that two walls in the same plane (to `tolerance`) have in common; none if they have

@@ -21,7 +21,12 @@
 
 namespace bolt::content {
 
-enum class Strategy : std::uint8_t { torque, torque_angle, yield };
+// The target of tightening.
+enum class Strategy : std::uint8_t {
+    torque,        // the target torque; an angle window, if there is one, is judged too
+    torque_angle,  // the target torque within a required angle window; with turn passes the target angle
+    yield          // the onset of yield
+};
 // VDI/VDE 2862. A: danger to life; B: breakdown; C: other.
 enum class RiskClass : std::uint8_t { A, B, C };
 
@@ -35,7 +40,7 @@ struct ToleranceWindow {
 struct Specification {
     Strategy strategy = Strategy::torque;
     ToleranceWindow torque;    // N·m, at the wrench
-    double snug_torque = 0.0;  // N·m, from which the tightening angle is measured
+    double snug_torque = 0.0;  // N·m at which the measurement of the tightening angle starts
     bool has_angle = false;
     // rad, judged if has_angle. It counts from the angle at which the nut reaches the snug torque or, in a
     // lesson with turn passes, from the nut's angle when its first step of kind `turn` begins.
@@ -64,7 +69,7 @@ struct AssemblyJoint {
     std::string tool;  // name of the only tool that may turn it; empty: the chosen one
 };
 
-// Name of the node that a lesson turns: ID_nut, or ID_bolt of a head that is turned.
+// Name of the node that a lesson turns: ID_nut, or ID_bolt if the head is turned.
 std::string turned_node(const AssemblyJoint& joint);
 
 // True if the mesh of a node of this name is the part that a lesson turns: turned_node(), or the joint's own
@@ -109,17 +114,19 @@ constexpr bool is_torque_wrench(ToolKind kind) {
     return kind == ToolKind::click_torque_wrench || kind == ToolKind::electronic_torque_wrench;
 }
 
-// The part of a ratchet or a torque wrench that grips; the other kinds have one of their own.
+// The part of a tool that grips. A ratchet and a torque wrench have a choice; each of the other kinds of
+// tools has only one.
 enum class ToolHeadKind : std::uint8_t { open_end, ring, socket, hex_key, hex_bit };
 
 struct WrenchDesign {
     ToolKind kind = ToolKind::open_end_wrench;
     ToolHeadKind head = ToolHeadKind::open_end;
-    // m. `jaw`: opening of an open end. `size`: width across flats that any other tool is made for.
+    // m. `jaw`: for an open end, its opening. `size`: for any other tool, the width across flats.
     double jaw = 0.0, size = 0.0;
-    int teeth = 0;                // of a ratchet; 0: none
-    double extension = 0.0;       // m, length of the bar between ratchet and socket or bit; 0: none
-    double head_thickness = 0.0;  // m; 0, as in jaw_depth and jaw_tip: not given (collision::make_jaw())
+    int teeth = 0;           // number of teeth of a ratchet; 0: no ratchet
+    double extension = 0.0;  // m, length of the bar between ratchet and socket or bit; 0: none
+    // Dimensions of an open end. 0: not given; collision::make_jaw() then uses the proportions of our models.
+    double head_thickness = 0.0;  // m
     double jaw_depth = 0.0;       // m, from the middle of the jaw to its throat
     double jaw_tip = 0.0;         // m, from the middle of the jaw to its tips
     double head_angle = 0.0;      // rad, between jaw and handle
@@ -132,10 +139,11 @@ struct WrenchDesign {
     double adaptor_length = 0.0;
 };
 
-// joint::adaptor_ratio() of a torque wrench with its adaptor; 1 without one.
+// The torque at the nut, divided by that on the scale of the torque wrench (joint::adaptor_ratio()); 1
+// without an adaptor.
 double adaptor_ratio(const WrenchDesign& wrench);
 
-// m, the width across flats that a tool is made for; of an open end, its opening.
+// The width across flats that a tool is made for, m; for an open end, its opening.
 double nominal_size(const WrenchDesign& wrench);
 
 // Returns true if the tool can grip the part of the joint that is turned, and is made for its size. A jaw may
@@ -150,11 +158,12 @@ struct Tool {
     std::string name;
     std::map<std::string, std::string> title;  // by language; may be empty
     WrenchDesign wrench;
-    // Joints that it does not reach: by id, the name of the tool that turns them instead.
+    // For each joint that it does not reach, by the joint's id: name of the tool that turns the joint
+    // instead.
     std::map<std::string, std::string> instead = {};
 };
 
-// Bytes of a picture of an instruction, at most.
+// Largest file of an Instruction::picture, bytes.
 inline constexpr std::size_t largest_picture_file = std::size_t{32} << 20U;
 
 // Paths of an assembly's .glb files; empty if the file gives none.
@@ -258,7 +267,7 @@ struct LessonTools {
     std::vector<std::size_t> of_joint;  // by joint: index in `tools`
 };
 
-// In the order in which the joints of the first pass need them.
+// The tools of a lesson, in the order in which the joints of the first pass need them.
 LessonTools lesson_tools(const Assembly& assembly);
 
 // The designs of lesson.tools, in their order.

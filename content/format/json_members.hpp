@@ -13,8 +13,9 @@
 
 namespace bolt::content {
 
-// Reads the members of objects. `at` is the JSON pointer of the object. The first error is kept with its
-// position; later ones are ignored.
+// Reads the members of objects. `at` is the JSON pointer of the object. A member that is missing or invalid
+// is an error; text() then returns an empty text, number() returns `low`, and flag() false. The first error
+// is kept with its position; later ones are ignored.
 struct MemberReader {
     using json = nlohmann::json;
     static constexpr std::size_t max_text = 200;  // bytes
@@ -75,8 +76,8 @@ struct FileHead {
     std::vector<std::string> members;  // the other members of its object
 };
 
-// Parses a file that `head` describes. `read(members, root)` returns its value; the first error that is
-// reported is the result instead.
+// Parses a file that `head` describes and returns the value of `read(members, root)`, or the first error of
+// the file.
 template <class Read>
 auto parse_small_file(std::string_view text, const std::string& file, FileHead head, const Read& read)
     -> Result<decltype(read(std::declval<MemberReader&>(), std::declval<const nlohmann::json&>()))> {

@@ -62,6 +62,7 @@ std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode
 // The default tool, then the alternatives. A variant that names its joints has only the tools that turn them.
 std::vector<Tool> read_tools(JsonReader& reader, const std::string& variant, const VariantJoints& joints,
                              const ModelFolders& folders);
+// The path of a tool's model, the member "model"; empty if there is none.
 std::string read_tool_model(JsonReader& reader, const JsonNode& tool, const ModelFolders& folders);
 
 }  // namespace bolt::content

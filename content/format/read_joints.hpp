@@ -42,7 +42,8 @@ JointType read_joint_type(const LayeredObject& layers, const YoungsModuli& modul
 // Reads the form of the joint, the part that is turned, the direction of the thread, and the tapped hole.
 void read_form(const LayeredObject& layers, joint::JointDesign& design);
 
-// N·m, of a locking nut whose file gives no value: half of the most that ISO 2320 allows.
+// The prevailing torque, N·m, of a locking nut whose file gives none: half of the largest that ISO 2320
+// allows; 0 for other nuts.
 double usual_prevailing_torque(const joint::JointDesign& design);
 
 // The torques and angles in `spec`: a joint's specification, or the targets of the published law.

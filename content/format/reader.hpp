@@ -40,6 +40,7 @@ class JsonReader {
     std::vector<Error> take_errors();
 
     [[nodiscard]] JsonNode root() const;
+    // The member of an object; the node has no value if the member is missing or unusable.
     JsonNode member(const JsonNode& object, std::string_view key);
     std::vector<JsonNode> items(
         const JsonNode& array) const;  // elements of an array, or members of an object

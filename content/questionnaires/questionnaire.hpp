@@ -93,6 +93,7 @@ LoadedQuestionnaire load_questionnaire(const std::filesystem::path& path);
 const std::string& text_in(const std::map<std::string, std::string>& texts,
                            const std::string& language = "en");
 
+// True if the number is one of the answers of the scale.
 bool is_answer(const AnswerScale& scale, double number);
 
 // The functions below need a questionnaire without mistakes.

@@ -47,7 +47,7 @@ struct StationMover {
     // the same magnitude on the tool and on the hand. The file calls it "power".
     std::optional<double> power_ratio;
     std::optional<station::Buttons> buttons;  // none: the defaults
-    force::LimitBounds limits;
+    force::LimitBounds limits;                // upper bounds that the installer sets for the device
     double effector_mass = 0.0;  // kg of what is mounted on the arm (device::OpenOptions::effector_mass)
     std::string tool;            // the assembly's tool whose handle is mounted on the arm; empty: any
     bool operator==(const StationMover&) const = default;

@@ -35,8 +35,8 @@ void read_wheel_config(MemberReader& members, const nlohmann::json& object, cons
 // Sets all members of `object`, so that read_wheel_config() reads an equal configuration.
 void write_wheel_config(nlohmann::ordered_json& object, const device::WheelConfig& config);
 
-// The number of degrees that to_radians() converts to exactly this angle, rad, so that a file that is written
-// is read back to the same bits. The nearest number if there is none.
+// Converts an angle in rad to degrees for a file. Returns the number that to_radians() converts back to the
+// same bits, or the nearest number if there is none.
 double exact_degrees(double angle);
 
 }  // namespace bolt::content

@@ -26,7 +26,9 @@
 
 namespace bolt::content {
 
+// within: each participant works in all conditions. between: each works in one of them.
 enum class StudySubjects : std::uint8_t { within, between };
+// The rule for the order of a participant's conditions; conditions_of() defines both.
 enum class StudyOrder : std::uint8_t { williams, random };
 
 struct StudyDesign {
@@ -34,10 +36,10 @@ struct StudyDesign {
     StudyOrder order = StudyOrder::williams;  // within subjects
     std::size_t participants = 1;             // planned
     std::size_t lessons = 1;                  // lessons in each condition
-    std::uint64_t seed = 1;
-    bool blind = false;
+    std::uint64_t seed = 1;       // of all random choices: the orders and the scatter of the joints
+    bool blind = false;           // hides the conditions from the experimenter before the results
     double shortest_break = 0.0;  // s, between two conditions
-    bool show_results = false;    // of a lesson, to the participant
+    bool show_results = false;    // shows the participant the result of each lesson
 };
 
 // Settings of a lesson, with the words of the schema.
@@ -48,9 +50,12 @@ struct StudyLesson {
     std::string law;  // empty: the assembly's
     std::string hand = "helped";
     std::vector<std::string> devices;  // empty: those of the command line
-    std::string display;               // "window", "headset" or "walls"; empty: see names_displays()
-    std::string displays;              // of walls: the display file
-    std::string glove;                 // "none", "auto" or a serial port; empty: that of the command line
+    // "window", "headset" or "walls". Empty: the window or the command line's (names_displays()).
+    std::string display;
+    std::string displays;  // of walls: the display file
+    std::string glove;     // "none", "auto" or a serial port; empty: that of the command line
+    // `guide`: a force leads the hand to the nut in guided mode. `view_help`: the program finds a view of the
+    // nut.
     bool guide = true, view_help = true;
     std::optional<double> force_scale;  // none: that of the participant's settings
     bool operator==(const StudyLesson&) const = default;
@@ -65,7 +70,7 @@ struct StudyCondition {
     std::string id;
     std::map<std::string, std::string> titles;  // by language
     StudyLesson lesson;
-    std::map<std::string, std::string> levels;  // by factor
+    std::map<std::string, std::string> levels;  // by factor, such as "on" for the factor "guiding"
 };
 
 enum class FormTime : std::uint8_t {
@@ -85,8 +90,10 @@ struct StudyForm {
     [[nodiscard]] bool is_at(FormTime time) const { return at[static_cast<std::size_t>(time)]; }
 };
 
+// The retention test: a later lesson that shows what participants have kept. It is the same for all
+// conditions.
 struct StudyRetention {
-    double after_days = 0.0;
+    double after_days = 0.0;  // earliest day of the test, from the end of the first visit
     StudyLesson lesson;
 };
 
@@ -106,9 +113,9 @@ struct ComparedGroup {
 std::vector<std::size_t> conditions_in_both(const ComparedGroup& a, const ComparedGroup& b);
 
 struct PlannedComparison {
-    std::string measure;
-    std::string factor;  // empty: single conditions
-    bool retention = false;
+    std::string measure;     // one of objective_measures, or FORM.SCALE
+    std::string factor;      // empty: single conditions
+    bool retention = false;  // compares values of the retention test
     std::vector<ComparedGroup> groups;
     // Two times of the form, whose answers are compared; `groups` has their names and no conditions. Empty:
     // the answers in conditions are compared.
@@ -119,12 +126,13 @@ struct PlannedComparison {
     bool operator==(const PlannedComparison&) const = default;
 };
 
+// The mean of a measure in an earlier study. The results page prints it beside the mean of this study.
 struct PublishedValue {
-    std::string measure;
-    std::optional<double> min, max;
+    std::string measure;             // FORM.SCALE
+    std::optional<double> min, max;  // lowest and highest answer of that study
     double mean = 0.0;
-    int decimals = 0;  // of the printed mean
-    std::size_t n = 0;
+    int decimals = 0;   // of the printed mean
+    std::size_t n = 0;  // number of people
     std::string source;
 };
 
@@ -135,8 +143,8 @@ bool names_displays(const Study& study);
 
 struct Study {
     std::string id;
-    std::map<std::string, std::string> titles, information;  // by language
-    std::map<std::string, std::vector<std::string>> consent;
+    std::map<std::string, std::string> titles, information;   // by language
+    std::map<std::string, std::vector<std::string>> consent;  // statements, by language
     StudyDesign design;
     std::optional<StudyTraining> training;
     std::vector<StudyCondition> conditions;

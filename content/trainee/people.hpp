@@ -16,7 +16,7 @@
 namespace bolt::content {
 
 struct Person {
-    std::string code;  // as make_person_code()
+    std::string code;  // such as T-7K3M9Q (make_person_code())
     std::string name;  // empty: unknown
     friend bool operator==(const Person&, const Person&) = default;
 };
@@ -27,7 +27,7 @@ std::string name_and_code(const Person& person);
 // A new code, such as T-7K3M9Q: "T-" and six random characters of Crockford's base 32, which has no I, L, O
 // and U. It is not derived from the name.
 std::string make_person_code();
-// True for a code as make_person_code() returns it.
+// True for a text of the form that make_person_code() returns.
 bool is_person_code(std::string_view text);
 // The code that a person typed: small letters, an O for 0, and an I or L for 1 are accepted. None: the text
 // is not a code.

@@ -62,8 +62,8 @@ struct Mistake {
     std::vector<words::TextArgument> arguments;
 };
 
-// The mistake of this event, in the state of the lesson right after it; none: the event is no mistake, or the
-// lesson has no due joint to name.
+// The mistake of this event, in the state of the lesson right after it. None: the event is no mistake, or its
+// text names the due joint and no joint is due.
 std::optional<Mistake> mistake_of(const Lesson& lesson, const LessonEvent& event);
 
 // The mistake on screen, which stays there for mistake_duration. An assessment shows no mistakes.

@@ -65,11 +65,11 @@ std::string motion_text(const words::Words& words, const Hint& hint, const Contr
 // The following functions describe, in the trainee's language, which input performs each motion of a hint.
 // The caller names the bound keys and buttons.
 
-// Sets the control of HintMotion::counter_hold to `key`. The functions below name the button of the panel,
-// which exists only in a room.
+// Returns `controls` with `key` as the control of HintMotion::counter_hold. The functions below set that
+// control to the button of the panel, which exists only in a room.
 ControlNames with_second_wrench(const words::Words& words, ControlNames controls, const std::string& key);
 
-// Mouse: press on a nut and hold, drag, release. `tool_key` takes the wrench and puts it down.
+// The helped hand: press on a nut and hold, drag, release. `tool_key` takes the wrench and puts it down.
 ControlNames mouse_controls(const words::Words& words, const std::string& tool_key);
 
 // A free hand that the mouse drags.
@@ -81,6 +81,7 @@ ControlNames device_controls(const words::Words& words, const std::string& butto
 
 // Devices without force feedback: while `button` is held, the tool covers the last distance by itself.
 ControlNames puck_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
+// The keyboard in place of such a device.
 ControlNames keyboard_controls(const words::Words& words, const std::string& button,
                                const std::string& tool_key);
 
@@ -117,7 +118,7 @@ enum class Reached : std::uint8_t { nothing, right_tool, tool_on_nut };
 struct StepProgress {
     double torque = 0.0;  // N·m, highest in this step
     double angle = 0.0;   // rad, furthest in the step's direction
-    // The next two start again when the hand releases a nut that it has moved.
+    // The next two members are reset when the hand releases a nut that it has moved.
     double distance = 1e9;  // m to the nut, smallest
     Reached reached = Reached::nothing;
     bool moved = false;  // the hand has moved the nut that it holds
@@ -131,14 +132,14 @@ struct HintState {
     double shown_for = 0.0;                      // s
     Situation candidate = Situation::all_done;   // situation of the last frame
     double candidate_for = 0.0;                  // s
-    double differs_for = 0.0;                    // s since `candidate` and `situation` differ
+    double differs_for = 0.0;                    // s for which `candidate` has differed from `situation`
     Situation underlying = Situation::all_done;  // of the shown hint, as in make_hint()
-    std::size_t step = SIZE_MAX;
-    double step_time = 0.0;  // s since the step began
-    int pass = -1;
-    bool new_pass = false;
-    int level = -1;  // reached in this situation; −1: none yet
-    int held_joint = -1;
+    std::size_t step = SIZE_MAX;                 // Lesson::current in the last frame
+    double step_time = 0.0;                      // s since the step began
+    int pass = -1;                               // of that step
+    bool new_pass = false;                       // that step is the first one of its pass
+    int level = -1;                              // reached in this situation; −1: none yet
+    int held_joint = -1;                         // Lesson::held_joint when the shown hint was made
     StepProgress progress;
 };
 

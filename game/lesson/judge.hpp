@@ -9,9 +9,9 @@
 
 namespace bolt::lesson {
 
-// The display of an electronic torque wrench shows the torque on the nut, N·m on the scale of the wrench. In
-// a step of kind `turn` it shows the angle from the mark, degrees. `target` refers to the window of the due
-// step.
+// The display of an electronic torque wrench. `value` is the torque on the nut, N·m on the scale of the
+// wrench; in a step of kind `turn` it is the angle from the mark, degrees. `target` compares it with the
+// window of the due step. Both have their defaults while the wrench is not on a nut.
 struct ToolReading {
     double value = 0.0;
     world::TargetState target = world::TargetState::below;

@@ -17,8 +17,8 @@
 namespace bolt::lesson {
 
 // The record of one joint between ticks. A hold lasts from the tick in which the hand engages the nut until
-// it releases it; an analysis::Visit may have several. The members whose comment names "this hold" are reset
-// when a hold begins, except `worked` if fingers grip the same nut again within a second.
+// it releases the nut. The members whose comment names "this hold" are reset when a hold begins; `worked` is
+// kept if fingers grip the same nut again within a second.
 struct JointTrack {
     JointResult result;
     // rad, the nut angle from which the tightening angle counts: in a lesson that turns nuts by an angle, the
@@ -36,7 +36,7 @@ struct JointTrack {
     bool turned_back = false;    // turning the wrong way was reported in this hold
     int wrong_way_count = 0;     // holds in which it was turned the wrong way
     bool over_torqued = false;   // excess torque was reported since the nut was last off its seat
-    int over_torque_count = 0;   // undo reduces neither this nor the following counts nor wrong_way_count
+    int over_torque_count = 0;   // undo keeps this and all other ..._count members
     bool over_turned = false;    // an excess angle was reported since the nut was last off its seat
     int over_turn_count = 0;
     int slip_count = 0;
@@ -48,8 +48,8 @@ struct JointTrack {
     double bent_at_grip = 0.0;   // rad, world::ToolState::bent when this hold began
     bool bend_reported = false;  // in this hold
     int bent_count = 0;
-    int done_in_pass = -1;  // last pass in which a step of this joint was done
-    joint::Stage stage = joint::Stage::navigation;
+    int done_in_pass = -1;                          // last pass in which a step of this joint was done
+    joint::Stage stage = joint::Stage::navigation;  // the last one that an event reported
 };
 
 struct Lesson {
@@ -64,10 +64,10 @@ struct Lesson {
     std::vector<ToolFault> tool_faults;               // by joint; replays of old sessions have none
     ToolFault reported_tool_fault = ToolFault::none;  // reported once a lesson, because a tool is chosen once
     int held_joint = -1;                              // in the hand at the last tick; −1: none
-    servo::Grip grip = servo::Grip::none;
-    int last_held_joint = -1;                          // the joint that was released last
-    std::uint64_t released_at = 0;                     // tick
-    int announced_pass = -1;                           // latest pass with a pass_begin event
+    servo::Grip grip = servo::Grip::none;             // in the present or the last hold
+    int last_held_joint = -1;                         // the joint that was released last
+    std::uint64_t released_at = 0;                    // tick in which it was released
+    int announced_pass = -1;                          // latest pass with a pass_begin event
     std::vector<std::vector<JointTrack>> step_starts;  // by step: all tracks at its start, for undo_steps()
     std::vector<LessonEvent> events;                   // pending: the caller clears them
 
@@ -87,7 +87,9 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task);
 //   re-check    the wrench turned the nut further, or reached the window without turning it
 //   loosen      the nut was turned back by the step's angle, or is free of clamp force
 // In assessment, work on the next step's joint ends the due step, fulfilled or not, once the due joint has
-// been loaded. In other modes the step stays due.
+// been loaded. The last step of an assessment ends some time after the hand has released its joint. In other
+// modes the step stays due. In all modes the step of a broken or stripped joint ends as soon as no nut is
+// held.
 //
 // True if releasing the nut now completes the due step.
 bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world);

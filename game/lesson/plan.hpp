@@ -22,7 +22,7 @@ constexpr std::string_view name(StepKind kind) { return step_kind_names.of(kind)
 struct LessonStep {
     StepKind kind = StepKind::tighten;
     std::size_t joint = 0;
-    // N·m. Steps `tighten` and `recheck` end there; other steps do not.
+    // N·m, target torque at the nut. Steps `tighten` and `recheck` end there; other steps do not.
     double torque = 0.0;
     double fraction = 1.0;  // of the joint's target
     int pass = 0;

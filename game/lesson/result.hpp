@@ -30,10 +30,10 @@ constexpr std::string_view name(Verdict verdict) { return verdict_names.of(verdi
 
 struct JointResult {
     std::string id;
-    // N·m. The highest of the tightening step and of later pulls that tightened further. In a loosening
-    // lesson: the highest of the joint's loosening steps.
+    // N·m, highest torque in the tightening step and in later pulls that tightened further. In a loosening
+    // lesson: the highest in the joint's loosening steps.
     double torque = 0.0;
-    double angle = 0.0;  // rad, from JointTrack::mark; loosening: turned back in its steps
+    double angle = 0.0;  // rad, of the nut from its mark; loosening: by which its steps turned it back
     // N, when the result was last updated; at the end of the lesson it includes embedding and the interaction
     // of the joints
     double clamp = 0.0;
@@ -42,7 +42,7 @@ struct JointResult {
     Verdict angle_verdict = Verdict::none;
     Verdict overall = Verdict::none;  // OK only if each judged quantity is OK and the joint is sound
     joint::JointCondition condition = joint::JointCondition::intact;
-    int strokes = 0;
+    int strokes = 0;       // holds in which the wrench loaded or turned the nut
     int done_already = 0;  // times that the hand worked on it after its step was done
     int out_of_turn = 0;   // times that the hand worked on it before its step was due
 };
@@ -55,8 +55,8 @@ enum class DeductionKind : std::uint8_t {
     out_of_turn,
     done_already,
     wrong_way,
-    over_torque,  // corrected since; excess torque that remains is `not_ok`
-    over_turned,  // the same of an excess angle
+    over_torque,  // excess torque that was corrected since; if it remains, the reason is `not_ok`
+    over_turned,  // an excess angle that was corrected since
     slipped,
     turned_together,
     weak_tool,
@@ -106,10 +106,10 @@ inline constexpr std::size_t mistake_kinds =
 
 // Behind each kind: the meaning of its LessonEvent::value.
 enum class EventKind : std::uint8_t {
-    pass_begin,  // number of the pass
+    pass_begin,  // number of the pass, from 0
     step_begin,  // target torque, N·m
     step_end,    // peak torque, N·m
-    engage,
+    engage,      // 0
     release,     // peak torque of the step, N·m
     stage,       // joint::Stage
     click,       // torque at the click, N·m

@@ -43,6 +43,7 @@ class Tremor {
 };
 
 // Orientation of a tool whose handle is at the given angle about the bolt, rad (tightening positive).
+// `flipped`: the tool is turned over, so that its +Z points against the nut's axis.
 Quat tool_orientation(const servo::NutGeometry& nut, double handle_angle, bool flipped);
 
 struct ReachPath {
@@ -59,16 +60,17 @@ ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contac
 
 // The angle at which a wrench sits on a nut.
 struct HandleAngle {
-    double angle = 0.0;  // rad about the bolt, tightening positive
-    bool flipped = false;
+    double angle = 0.0;    // rad about the bolt, tightening positive
+    bool flipped = false;  // the wrench is turned over, as in tool_orientation()
     // rad by which the handle can swing from there, but at least 15°, so that a pull is tried where no angle
     // has more room
     double free_swing = 0.0;
 };
 
-// Chooses among the angles at which the head fits, also with the wrench flipped, the one nearest to
-// `preferred` with room for a pull of `stroke` rad in the direction of `sign` (tightening positive) and for
-// the approach. Without obstacles every angle has room. `state`: of the joint.
+// Chooses one of the angles at which the head fits, also with the wrench turned over. Room for a pull of
+// `stroke` rad in the direction of `sign` (tightening positive) and for the approach has the most weight,
+// then a small distance to `preferred` (rad). If no angle has enough room, returns the best of them.
+// `contact` null: there are no obstacles, and every angle has room. `state`: of the joint.
 HandleAngle choose_handle_angle(const servo::Setup& setup, const servo::ToolContact* contact,
                                 std::size_t joint, const joint::JointState& state, double preferred,
                                 double sign, double stroke);
@@ -78,7 +80,8 @@ HandleAngle choose_handle_angle(const servo::Setup& setup, const servo::ToolCont
 double hover_height(const servo::Setup& setup, const servo::ToolContact& contact, std::size_t joint,
                     double nut_angle, const HandleAngle& handle, double max_height);
 
-// Limits how far the hand leads a blocked wrench, because the force of a hand is limited.
+// Returns the commanded pose, moved towards `wrench`, the pose that obstacles permit, so that it is ahead by
+// at most 4 mm and 4°: the force of a hand on a blocked wrench is limited.
 Pose give_way_to_wrench(const Pose& commanded, const Pose& wrench);
 
 }  // namespace bolt::motion

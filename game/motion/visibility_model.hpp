@@ -43,7 +43,7 @@ std::optional<HeadMovement> improve_view(VisibilityModel& model, const servo::Se
                                          const servo::ToolContact& contact, std::size_t joint,
                                          const Pose& wrench, double sufficient, Random& random);
 
-// Standard deviation, m, of the placement of a tool at a target with the visible fraction `share`. Vision and
+// Standard deviation, m, of the placement of a tool at a target whose visible fraction is `share`. Vision and
 // touch are weighted by their precision (van Beers, Sittig and Denier van der Gon, J. Neurophysiol. 81 (1999)
 // 1355). `full_view_noise`: standard deviation at full visibility, m; `tries`: earlier attempts by touch.
 double placement_noise(double full_view_noise, double share, int tries);

@@ -55,13 +55,16 @@ std::optional<Error> missing_contact_model(const content::Assembly& assembly);
 Result<std::optional<ContactModels>> load_contact_models(const content::Assembly& assembly,
                                                          const servo::Setup& setup);
 
-// Rotation from the frame of a wrench's model to the tool's frame. Fails as load_contact_models().
+// Rotation from the frame of a wrench's model to the tool's frame. Fails, and names the file, if the model
+// cannot be used (load_contact_models()).
 Result<Quat> wrench_rotation(const content::WrenchDesign& design);
 
+// ContactModels::tool_contact of load_contact_models().
 Result<std::optional<servo::ToolContact>> load_tool_contact(const content::Assembly& assembly,
                                                             const servo::Setup& setup);
 
-// The assembly's wrench alone, in the tool's frame. Fails as load_contact_models().
+// The assembly's wrench alone, in the tool's frame. Fails, and names the file, if its model cannot be used
+// (load_contact_models()).
 Result<collision::ToolShape> load_wrench(const content::Assembly& assembly);
 
 // Moves all nuts onto their seats.

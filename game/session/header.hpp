@@ -53,7 +53,7 @@ struct Header {
     std::string assembly_text;  // the file's exact text, so that a session replays without the folder
     std::string variant;
     joint::Law law = joint::Law::mechanistic;
-    FormatRules rules;  // of the file's format
+    FormatRules rules;  // not stored: they follow from the format of the file
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     // "person", or the simulated trainee's profile: "expert", … The key in the file is "operator".

@@ -55,7 +55,7 @@ struct LessonOptions {
     ObstacleUse obstacles = ObstacleUse::none;
     bool guide = true;               // in guided mode a force guides the hand to the nut
     std::string trainee_profile;     // "person", or the simulated trainee's profile: "expert", …
-    std::string trainee;             // as session::Header::trainee
+    std::string trainee;             // a person's code, or the text of --trainee (Header::trainee)
     std::optional<hand::Side> hand;  // the working hand; none: unknown
 
     // A simulated trainee requests a view of the nut, as key V does. Empty: the trainee is a person.
@@ -70,7 +70,7 @@ struct SessionSetup {
     content::Assembly assembly;  // with the options' law applied (lesson::apply_law)
     servo::Setup setup;
     servo::State state;
-    std::string contact_models;  // as in session::Header
+    std::string contact_models;  // their files with size and checksum; empty: no obstacles
     std::vector<ObstacleName> obstacle_names;
 };
 // Fails if the contact models are required but missing or invalid, or if a joint cannot be pretightened.

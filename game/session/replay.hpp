@@ -26,8 +26,8 @@ struct ReplayTick {
 
 struct ReplayResult {
     std::uint64_t ticks = 0;
-    std::uint64_t mismatches = 0;  // ticks whose output differs from the recorded one
-    std::uint64_t first_mismatch = 0;
+    std::uint64_t mismatches = 0;      // ticks whose output differs from the recorded one
+    std::uint64_t first_mismatch = 0;  // number of ticks before the first of them; 0 also without one
 };
 
 using VisitTick = std::function<bool(const ReplayTick&)>;  // false: stop
@@ -40,14 +40,15 @@ Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
 Result<ReplayResult> replay(const SessionReader& session, SessionSetup start, const VisitTick& visit);
 
 // The recorded hand of a session as a device that repeats its motion (haptics/device/virtual_devices.hpp), in
-// the assembly's frame. For a station with an identity workspace mapping whose tool starts at `first`.
+// the assembly's frame. The station that uses it must map the device's poses to the tool unchanged, and its
+// tool must start at `first`.
 struct RecordedHand {
     device::Description description;    // with the limits of the recorded device
     device::RecordedSamples recording;  // ticks without a fresh sample are gaps
     Pose first;
 };
 
-// Bits of the recorded device's buttons.
+// Bits of the recorded device's buttons: dead-man switch, emergency stop, and the reset that releases it.
 inline constexpr std::uint32_t button_held = 1, button_stop = 2, button_reset = 4;
 
 // Reads the whole session into memory, 40 bytes for each tick. Fails if it is damaged or has no tick with

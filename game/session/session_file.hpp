@@ -66,8 +66,8 @@ class SessionWriter {
     std::unique_ptr<State> state_;
 };
 
-// Reads only the header: quick, and possible also if ticks or results are damaged. The names of obstacles and
-// the three members that follow from the format have their defaults.
+// Reads only the header: quick, and possible also if ticks or results are damaged. Header::obstacle_names and
+// Header::rules, which follow from the format, have their defaults.
 Result<Header> read_header(const std::filesystem::path& path);
 
 class SessionReader {

@@ -26,7 +26,8 @@ inline constexpr std::int64_t application_id = 0x424F4C54;  // "BOLT", in SQLite
 // 3: undo; 4: the tool and its set torque; 5: the assembly's text may have its own targets under the
 // published law; 6: lesson::LawAdaptation::yield_end, and the text may have parameters of the published law
 // for a joint type; 7: several tools; 8: the second wrench, and tools that yield; 9: tools yield under the
-// mechanistic law only, and the choice of a tool is judged; 10: rings, sockets and keys round six corners.
+// mechanistic law only, and the choice of a tool is judged; 10: rings, sockets and keys round six corners;
+// 11: the tool can leave a gap that is narrower than its skin (servo::Setup::allows_narrow_gaps).
 inline constexpr std::int64_t format_version = 11, oldest_format = 1;
 
 // Angles are in radians, as in memory, so that reading returns the written bits. The columns `rehits` and
@@ -109,10 +110,11 @@ struct TableChecksums {
     TableChecksum meta, chunk, event, joint, reason, obstacle, servo_time;
 };
 
+// A row of table joint_result while the session is written.
 struct JointRow {
     lesson::JointResult result;
     std::optional<std::uint64_t> written_hash;  // the row's hash; none before it is first written
-    bool changed = true;
+    bool changed = true;                        // differs from the row in the file
 };
 
 // Each function writes rows and adds them to their table's checksum. Call them inside a transaction that ends

@@ -19,6 +19,7 @@ struct DisplayReading {
 // A node of the display. `digit`: from 0, the hundreds, to 3, the tenths. `segment`: from 0 at the top,
 // clockwise to 5, and 6 in the middle.
 struct DisplayElement {
+    // `point`: the decimal point. `reached`, `exceeded`: the rings of light.
     enum class Kind : std::uint8_t { segment, point, reached, exceeded };
     Kind kind = Kind::point;
     int digit = 0, segment = 0;

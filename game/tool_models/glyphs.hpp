@@ -16,7 +16,7 @@ using Stroke = std::vector<std::pair<double, double>>;
 // The characters are 0–9, C, N, R, V, m, the full stop, · (as '*') and '-'; any other has no strokes.
 std::vector<Stroke> strokes_of(char letter);
 
-double text_width(std::string_view text, double height);
+double text_width(std::string_view text, double height);  // of a text with this height
 
 // The strokes of a text in the plane z = 0, read along +X with its top towards +Y and its middle at the
 // origin.

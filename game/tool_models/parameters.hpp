@@ -1,6 +1,7 @@
 // The kinds of tools that are generated, their parameters, and the standard sizes, lengths and test torques.
 // Frame of every tool: metres, the origin on the bolt's axis in the middle of the part that grips, +X along
-// the handle, +Z along the bolt away from the members. The handle of sockets, keys and bits lies above.
+// the handle, +Z along the bolt away from the members. With sockets, keys and bits the handle has a larger z
+// than the part that grips.
 #pragma once
 
 #include <array>
@@ -60,9 +61,11 @@ struct ToolParameters {
     int teeth = 0;         // of the ratchet
     ModelHead head = ModelHead::standard;
     double extension = 0.0;  // length of the bar between a ratchet and its socket or bit; 0: none
-    // By which an adaptor, in line between a torque wrench and its open end, lengthens the wrench; 0: none.
+    // Length that an adaptor adds, in line between a torque wrench and its open end; 0: no adaptor.
     double adaptor_length = 0.0;
-    // Open ends and the inserts of torque wrenches; jaw dimensions as in haptics/collision/jaw.hpp.
+    // The next four are for open ends, also those of torque wrenches. `head_angle`: between jaw and handle;
+    // none: the standard value. `jaw_depth`, `jaw_tip`: from the middle of the jaw to its throat and to its
+    // tips.
     std::optional<double> head_angle = {};
     double head_thickness = 0.0, jaw_depth = 0.0, jaw_tip = 0.0;
 };
@@ -78,7 +81,7 @@ bool has_ratchet(const ToolParameters& completed);
 // The sizes of a kind in mm, ascending.
 std::span<const double> standard_sizes(SizeMeasure measure);
 
-// m, least value of ToolParameters::length.
+// Least value of ToolParameters::length, m.
 double shortest_length(const ToolParameters& parameters);
 
 // The lengths of a hex key's arms, m: from the tip to the outside of the bend, and from there to the end.
@@ -86,7 +89,7 @@ struct KeyArms {
     double arm = 0.0, handle = 0.0;
     bool tabulated = false;  // false: interpolated between the sizes of the table
 };
-KeyArms key_arms(double size);
+KeyArms key_arms(double size);  // `size`: across flats, m
 
 // A test torque, N·m, with its origin.
 enum class TorqueSource : std::uint8_t { none, tabulated, interpolated, estimated };
@@ -94,7 +97,7 @@ struct TestTorque {
     double torque = 0.0;
     TorqueSource source = TorqueSource::none;
 };
-TestTorque test_torque(ModelKind kind, double size);
+TestTorque test_torque(ModelKind kind, double size);  // `size`: ToolParameters::size
 
 // m, play of the jaws of generated tools; the shipped wrenches have the same.
 inline constexpr double standard_play = 0.2e-3;

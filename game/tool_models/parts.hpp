@@ -23,16 +23,19 @@ struct ToolModelPart {
 };
 using ToolModelParts = std::vector<ToolModelPart>;
 
-// Dimensions of an open-end head; the proportions are those of tools/assets/models/wrench.cpp.
+// Dimensions of an open-end head; the proportions are those of tools/assets/models/wrench.cpp. The slot's
+// axis points to its throat.
 struct OpenEndHead {
     double size = 0.0, opening = 0.0, angle = 0.0, thickness = 0.0, depth = 0.0, tip = 0.0;
-    double radius = 0.0, middle = 0.0;  // of the disc; its middle lies on the slot's axis, behind the jaw
+    // `angle`: from the handle to the slot's axis. `depth`, `tip`: from the middle of the jaw to its throat
+    // and to its tips.
+    double radius = 0.0, middle = 0.0;  // of the disc, whose middle is at `middle` on the slot's axis
 
     // The largest x of the slot: a handle starts beyond it.
     [[nodiscard]] double slot_end() const;
 };
 OpenEndHead open_end_head(const ToolParameters& p);
-Shell open_end_shell(const OpenEndHead& head, double edge, Detail detail);
+Shell open_end_shell(const OpenEndHead& head, double edge, Detail detail);  // `edge`: radius of the edges
 
 // A handle in the plane y = 0 as a row of cross-sections with rounded edges.
 struct HandleSection {
@@ -40,8 +43,9 @@ struct HandleSection {
     double slope = 0.0;             // rad, of the handle above +X
     double half = 0.0, high = 0.0;  // half the width and half the height
     double edge = 0.0;              // radius of the edges
-    double end_angle = 0.0;  // at a round end: of the outline's normal, from 0 at the side to 90° at the tip
-    double hollow = 0.0, deep = 0.0;  // half of the width and the depth of the hollows on both sides
+    double end_angle = 0.0;         // direction of a round end's outline: 0 at its side, pi/2 at its tip
+    // Half the width, and the depth, of the hollows in the upper and the lower face.
+    double hollow = 0.0, deep = 0.0;
 };
 Shell handle_shell(const std::vector<HandleSection>& sections, Detail detail);
 
@@ -49,7 +53,8 @@ Shell handle_shell(const std::vector<HandleSection>& sections, Detail detail);
 void add_round_end(std::vector<HandleSection>& sections, const HandleSection& last, int steps);
 
 struct RingHead {
-    double opening = 0.0, outside = 0.0, thickness = 0.0;  // across flats; diameter; along the bolt
+    // `opening`: across flats. `outside`: diameter. `thickness`: along the bolt.
+    double opening = 0.0, outside = 0.0, thickness = 0.0;
 };
 RingHead ring_head(const ToolParameters& p);
 Shell ring_shell(const RingHead& ring, Detail detail);
@@ -64,20 +69,22 @@ ToolModelParts adaptor_parts(const ToolParameters& p, Detail detail);
 ToolModelParts hex_bit_parts(const ToolParameters& p, Detail detail);
 ToolModelParts torque_wrench_parts(const ToolParameters& p, Detail detail);
 
-// The gripping part of a socket, mm: lower end, end of the flats, chamfer and diameter.
+// The gripping part of a socket, mm. `low`, `shoulder`: z of the lower end and of the upper end of the flats.
+// `lead`: leg of the chamfer at the mouth. `outside`: diameter.
 struct SocketGrip {
     double low = 0.0, shoulder = 0.0, lead = 0.0, outside = 0.0;
 };
 SocketGrip socket_grip(const ToolParameters& p);
 
-// The gripping part of a key or a bit, mm: its end, the chamfer there, and the length of straight hexagon.
+// The gripping part of a key or a bit, mm. `tip`: z of its end. `chamfer`: at that end. `length`: of the
+// straight hexagon.
 struct KeyGrip {
     double tip = 0.0, chamfer = 0.0, length = 0.0;
 };
 KeyGrip key_grip(const ToolParameters& p);
 
-// A ratchet head with its socket or bit, for a torque wrench. mm: radius, middle and height of the ratchet
-// head.
+// A ratchet head with its socket or bit, for a torque wrench. `radius`, `middle` (its z) and `high` (its
+// height) are those of the ratchet head, mm.
 struct RatchetWithAttachment {
     ToolModelParts parts;
     double radius = 0.0, middle = 0.0, high = 0.0;
@@ -89,7 +96,8 @@ ToolModelParts parts_of(const ToolParameters& completed, Detail detail);
 // A size as it is written on a tool: "24", "12.5".
 std::string size_text(double size_mm);
 
-// A part "size" with raised strokes at the height z of a level face, read along +X; none in a contact model.
+// Adds a text as raised strokes to the part "size", which is made if it is not the last part. The text is
+// read along +X; its middle is at `x`, on a level face at the height `z`. A contact model gets no text.
 void add_text(ToolModelParts& parts, std::string_view text, double height, double x, double z, Detail detail);
 
 }  // namespace bolt::tool_models

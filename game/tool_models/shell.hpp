@@ -58,9 +58,9 @@ struct ProfilePoint {
     RadiusOfAngle shape = {};
 };
 
-// Turned parts about Z and about X. If a profile is drawn with the axis upwards and the radius to the right,
-// the solid lies to the left of the profile's direction. So a profile runs up the outside, over the rim and
-// down the bore.
+// Parts that are turned about Z or X; closed_lathe_z() joins the end of the profile to its beginning. If a
+// profile is drawn with the axis upwards and the radius to the right, the solid lies to the left of the
+// profile's direction. So a profile runs up the outside, over the rim and down the bore.
 Shell lathe_z(std::span<const ProfilePoint> profile, int segments);
 Shell lathe_x(std::span<const ProfilePoint> profile, int segments);
 Shell closed_lathe_z(std::span<const ProfilePoint> profile, int segments);
@@ -73,7 +73,7 @@ double square_radius(double angle, double radius);
 // Maps each point of a shell. The map must not mirror, or the triangles would face inwards.
 Shell moved(Shell shell, const std::function<Vec3(const Vec3&)>& map);
 
-// m³ for metres, mm³ for millimetres: positive if the triangles face outwards.
+// The volume, in the cube of the shell's unit of length; positive if the triangles face outwards.
 double volume(const Shell& shell);
 
 }  // namespace bolt::tool_models

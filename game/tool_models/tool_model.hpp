@@ -14,7 +14,7 @@
 namespace bolt::tool_models {
 
 // The model for pictures: a node for each part, with normals and materials.
-// `completed`: parameters as completed() or parameters_of() return them.
+// `completed`: here and below, parameters from completed() or parameters_of().
 assets::Model drawn_model(const ToolParameters& completed);
 
 // The model for contact: closed meshes without normals and materials, a node for each, with fewer triangles.
@@ -27,7 +27,7 @@ ToolParameters parameters_of(const content::WrenchDesign& design);
 // The part of a tool that grips, for contacts and torque, and its direction relative to the handle.
 struct GrippingHead {
     collision::ToolHead head;
-    double head_angle = 0.0;       // rad, as servo::Wrench::head_angle
+    double head_angle = 0.0;       // rad, from the handle to the head (servo::Wrench::head_angle)
     double twist_stiffness = 0.0;  // N·m/rad, of its extension bar; 0: none
 };
 
@@ -46,24 +46,27 @@ struct ToolStrength {
 ToolStrength strength_of(const ToolParameters& tool);
 ToolStrength strength_of(const content::WrenchDesign& design);
 
-// `measured`: a key breaks at 0.2 R_m s³ (Bondhus; R_m = 1.47 GPa at 45 HRC) and yields at 0.857 of that
-// (Unbrako after ANSI B18.3.2M: 1.02 and 1.19 N·m at 1.5 mm). `first_yield`: at the middle of its flats, W_t
-// τ with W_t = 0.188 s³ (Dubbel) and τ = 750 MPa; so in sessions of format 8.
+// The rule for the torque at which a key or bit with the width s across flats begins to bend for good.
+//   measured     0.857 of the torque at which it breaks (Unbrako after ANSI B18.3.2M: 1.02 and 1.19 N·m at
+//                1.5 mm). It breaks at 0.2 R_m s³ (Bondhus; R_m = 1.47 GPa at 45 HRC)
+//   first_yield  the torque at which the middle of its flats yields: W_t τ with W_t = 0.188 s³ (Dubbel) and
+//                τ = 750 MPa. Sessions of format 8 were recorded with this rule
 enum class KeyStrength : std::uint8_t { measured, first_yield };
 
 // N·m at which a hexagon key or bit of this width across flats (m) begins to bend for good.
 double key_yield_torque(double across_flats, KeyStrength keys = KeyStrength::measured);
 
-// N·m at which a tool begins to bend for good; 0: unknown. A tool bears its test torque without that (ISO
-// 1711-1); the surplus of a fifth is ours.
+// N·m at which a tool begins to bend for good; 0: unknown. ISO 1711-1 only says that it does not bend at its
+// test torque; the value, 1.2 times the test torque, is our choice. Hexagon keys and bits bend at
+// key_yield_torque() if that is less.
 double yield_torque(const content::WrenchDesign& design, KeyStrength keys = KeyStrength::measured);
 
 // N·m that a tool bears: its test torque, or that of its square drive. No test torque of keys and bits is
 // known: they bear the torque at which they begin to bend. 0: unknown.
 double bearable_torque(const content::WrenchDesign& design);
 
-// Names a generated contact model in the session file: the description of the tool, and size and checksum
-// (FNV-1a, 64 bits) of the model's bytes.
+// The text that names a generated contact model in the session file: the description of the tool, and size
+// and checksum (FNV-1a, 64 bits) of the model's bytes. Fails if the model cannot be written.
 Result<std::string> identity_of(const ToolParameters& completed);
 
 }  // namespace bolt::tool_models

@@ -64,10 +64,10 @@ struct TraineeState {
     double hover_height = 0.0;        // m above the nut, start of the lowering
 
     bool holds_wrench = false;
-    std::uint8_t tool = 0;            // in use, or wanted next: servo::TickInput::tool
+    std::uint8_t tool = 0;            // index of the tool in use or needed next (servo::TickInput::tool)
     std::int16_t second_wrench = -1;  // joint on which it has put the second wrench; −1: none
     double last_common_turn = 0.0;    // rad, joint::JointState::common_turn when it was last seen
-    double seen_common_turn = 0.0;    // rad, in both directions, in the pulls of this step
+    double seen_common_turn = 0.0;    // rad, sum of its changes in the pulls of this step
     double caught_time = 0.0;         // s for which an obstacle has held the wrench back
     int consecutive_catches = 0;      // retreats from an obstacle in a row
     int consecutive_misses = 0;       // attempts in a row in which the jaw did not slide onto the nut
@@ -82,7 +82,7 @@ struct TraineeState {
     Pose hand;                          // actual pose of the hand
     bool held_nut = false;              // held a nut in the last tick
     bool intended_pose_jumped = false;  // the intended pose jumps in this tick; the hand must not
-    Pose rest;                          // in front of the assembly, clear of obstacles
+    Pose rest;                          // of the tool, in front of the assembly, clear of obstacles
 
     // The simulation's state of this tick.
     const servo::Setup* setup = nullptr;
@@ -100,7 +100,7 @@ struct TraineeState {
     }
     [[nodiscard]] double elapsed() const { return time - phase_start; }
     [[nodiscard]] double progress() const { return phase_duration > 0.0 ? elapsed() / phase_duration : 1.0; }
-    // A second wrench must hold the other part of the joint, and is not there.
+    // True if a second wrench must hold the held part of the joint and does not.
     [[nodiscard]] bool lacks_second_wrench() const {
         return !plan.fingers && lesson::needs_second_wrench(*lesson->assembly, plan.joint) &&
                second_wrench != static_cast<int>(plan.joint);
@@ -127,14 +127,15 @@ struct TraineeState {
     }
 };
 
-// m above the nut before lowering and after lifting. Clears the bolt's end, even while a force of a few
-// newtons draws the hand down.
+// Height of the tool above the nut before lowering and after lifting, m. It clears the bolt's end, even while
+// a force of a few newtons draws the hand down.
 constexpr double default_hover = 0.035;
 
 // Chooses the due step and the plan for it, and starts the first movement.
 void begin_next_action(TraineeState& t);
 
-// Chooses the handle angle so that the stroke is centred on the trainee's side.
+// Chooses the handle angle so that the stroke is centred on the trainee's side; after repeated failures, on a
+// random side.
 void choose_handle_angle(TraineeState& t);
 
 // Moves the head to next_eye and starts the reach to the nut.

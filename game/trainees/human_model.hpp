@@ -92,7 +92,7 @@ class DelayedPerception {
 // Speed and accuracy of one kind of trainee. The values are plausible estimates of ours, not measurements. An
 // instructor could observe each of them.
 struct TraineeProfile {
-    std::string_view name;
+    std::string_view name;     // for find_profile()
     double reach_time;         // s, from one joint to the next
     double placing_time;       // s, to lower the tool onto the nut
     double position_noise;     // m, standard deviation of the tool's position when placed
@@ -109,7 +109,7 @@ struct TraineeProfile {
     double torque_noise;       // relative, standard deviation of the intended torque
     double anticipation;       // 0…1, share of its own reaction time for which it compensates
     double feels_yield;        // probability of noticing that a bolt begins to yield
-    double wanted_visibility;  // 0…1, visible fraction of nut and jaw at which it starts the reach
+    double wanted_visibility;  // 0…1, visible fraction of nut and jaw that it seeks before the reach
     double pause;              // s, mean hesitation before a step
     double wrong_joint;        // probability of choosing another joint than the due one
     double stops_early;        // probability of stopping well below the target

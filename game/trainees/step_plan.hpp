@@ -29,7 +29,7 @@ struct StepPlan {
     double goal_angle = 0.0;
     double min_torque = 0.0;  // N·m, known lower limit: below it, yielding does not stop the pull
     bool forgets_second_wrench = false;
-    int attempt = 0;        // earlier attempts at this step
+    int attempt = 0;        // number of earlier attempts at this step
     bool finished = false;  // the trainee believes that the step is done
 };
 

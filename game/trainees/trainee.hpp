@@ -23,8 +23,8 @@ struct IntendedPose {
     Pose tool;  // in the assembly's frame
     servo::Grip grip = servo::Grip::none;
     std::int16_t guide = -1;          // joint that the guiding force leads to; −1: none
-    std::uint8_t tool_index = 0;      // servo::TickInput::tool
-    std::int16_t second_wrench = -1;  // as servo::TickInput::second_wrench
+    std::uint8_t tool_index = 0;      // tool that the hand takes next (servo::TickInput::tool)
+    std::int16_t second_wrench = -1;  // joint whose held part the second wrench is on; −1: none
     bool holds_nut = false;           // the hand turns a nut, or waits on it, and does not give way to forces
 };
 
@@ -48,8 +48,8 @@ class SimulatedTrainee {
     // The pose of the tool that the hand commands; before the first tick, its initial pose.
     [[nodiscard]] const Pose& hand() const;
 
-    // Returns and clears the events since the last call: one of kind `visibility` for each change of the
-    // visible fraction of the due nut.
+    // Returns and clears the events since the last call. They are of kind `visibility`: while the trainee
+    // aligns the wrench with the due nut, one for each noticeable change of the nut's visible fraction.
     std::vector<lesson::LessonEvent> take_events();
 
   private:
@@ -61,13 +61,14 @@ struct TrainOptions {
     TraineeProfile trainee;
     motion::ViewHelper view_help;  // none: the trainee only moves its head
     double time_limit = 14400.0;   // s of virtual time after which the lesson is aborted
-    double patience = 900.0;       // s of virtual time without progress of the due step, likewise
+    // s of virtual time after which it is aborted too if no step has begun and the nut has turned no further.
+    double patience = 900.0;
 };
 
 struct TrainingProgress {
-    double time = 0.0;  // s, virtual time
-    std::size_t step = 0;
-    std::size_t steps = 0;
+    double time = 0.0;                           // s, virtual time
+    std::size_t step = 0;                        // index of the due step
+    std::size_t steps = 0;                       // number of steps
     const lesson::LessonEvent* event = nullptr;  // null in the report of each virtual second
 };
 

@@ -30,11 +30,11 @@ struct Joint {
     std::size_t index = 0;  // in the assembly
     joint::Stage stage = joint::Stage::navigation;
     joint::JointCondition condition = joint::JointCondition::intact;
-    double angle = 0.0;        // of the nut from its hand-started position, tightening positive
+    double angle = 0.0;        // of the nut; 0 where the hand starts it on its thread, tightening positive
     double speed = 0.0;        // rad/s of the nut
     double torque = 0.0;       // of wrench or fingers on the nut, tightening positive
-    double clamp = 0.0;        // bolt force
-    double breakaway = 0.0;    // 0 … 1, as joint::JointState::breakaway
+    double clamp = 0.0;        // clamp force
+    double breakaway = 0.0;    // 0 … 1, active share of the additional friction at rest
     double rounded = 0.0;      // m of each flat that slipping jaws have rounded off
     double common_turn = 0.0;  // by which nut and bolt have turned together (joint::JointState)
 };
@@ -55,14 +55,14 @@ struct ToolState {
     collision::ObstacleId obstacle;        // obstacle that the wrench touches
     std::uint16_t contacts = 0;            // active and nearly active contacts
     bool clicked = false;                  // the torque wrench clicked in this tick
-    double ratchet_slack = 0.0;            // as servo::Engagement::ratchet_slack
-    std::int16_t second_wrench = -1;       // as servo::TickInput::second_wrench
-    double bent = 0.0;                     // rad, as servo::State::bent
-    // rad about the tool's +Z, rotation of a ratchet's head relative to its handle. turn_ratchet_head()
-    // computes it, for drawing only.
+    double ratchet_slack = 0.0;            // by which the handle is behind the ratchet's head
+    std::int16_t second_wrench = -1;       // joint whose held part the second wrench is on
+    double bent = 0.0;                     // by which tools were bent for good in this lesson
+    // Rotation of a ratchet's head relative to its handle, about the tool's +Z. turn_ratchet_head() computes
+    // it, for drawing only.
     double head_turn = 0.0;
-    // The display of an electronic torque wrench: N·m, or degrees in a step that ends at an angle. The lesson
-    // writes these two.
+    // The lesson writes the next two. `displayed`: the number on an electronic torque wrench, N·m, or degrees
+    // in a step that ends at an angle.
     double displayed = 0.0;
     TargetState target = TargetState::below;
 };
@@ -96,7 +96,7 @@ struct WorkingHand {
     HandAction action = HandAction::resting;
     bool wrench = false;             // the wrench is in the hand
     bool pinches = false;            // the fingers are closed on a nut
-    double closed_share = 0.0;       // 0 (open) … 1: an empty hand, by the gripper of a device
+    double closed_share = 0.0;       // 0 (open) … 1: fingers of an empty hand, by a device's gripper
     std::optional<std::size_t> nut;  // joint that the hand moves to, is at or holds
     Pose pose;                       // commanded pose of the tool or the empty hand
     Pose to;                         // end of a reach
@@ -111,8 +111,8 @@ struct WorkingHand {
 // The measured joints of a hand with a glove. The hand's entity has this component only while a glove is
 // worn.
 struct GloveHand {
-    // In the wrench's frame, held or at rest; of an empty hand that a headset measures, in the assembly's
-    // frame.
+    // In the assembly's frame if the hand is empty and a headset measures it. Otherwise in the frame of the
+    // wrench, also while the wrench is at rest.
     hand::Skeleton joints;
     bool lost = false;  // the glove sends no valid samples
 };

@@ -341,6 +341,23 @@ TEST_CASE("Study: a participant whose language is removed from the plan chooses 
     CHECK(participation.due()->id == "before/background");
 }
 
+TEST_CASE("Study: a participant whose condition the plan has lost still counts at an enrolment") {
+    StudyFolder folder;
+    const content::Study study = folder.load();
+    { Participation participation = enrolled(folder, study, "T-1"); }
+    folder.edit(R"({ "id": "b", "title": { "en": "B" }, "lesson": { "mode": "guided" } })",
+                R"({ "id": "c", "title": { "en": "C" }, "lesson": { "mode": "guided" } })");
+    const content::Study changed = folder.load();
+    const auto states = required(list_participants(changed, folder.path()));
+    REQUIRE(states.at(0).problem);
+    CHECK(states[0].progress.person == "T-1");
+    for (const char* person : {"T-1", "T-2"}) {
+        const auto refused = Participation::enrol(changed, folder.path(), person, false, folder.clock());
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().message().find("P01") != std::string::npos);
+    }
+}
+
 TEST_CASE("Study: an interrupted withdrawal is shown and can be completed; its pages are deleted") {
     StudyFolder folder;
     const content::Study study = folder.load();
