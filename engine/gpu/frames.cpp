@@ -203,8 +203,7 @@ Status Frames::submit(FrameContext& frame, const Signals& signals) {
     info.signalSemaphoreInfoCount = static_cast<std::uint32_t>(signalled.size());
     info.pSignalSemaphoreInfos = signalled.data();
     next_ = (next_ + 1) % frames_in_flight;
-    const Status submitted =
-        check(vkQueueSubmit2(device_->queue(), 1, &info, fence), "submitting a frame");
+    const Status submitted = check(vkQueueSubmit2(device_->queue(), 1, &info, fence), "submitting a frame");
     // No work will signal the fence, so the next wait for it would never end.
     if (!submitted) BOLT_TRY(assign(frame.fence_, make_signalled_fence(*device_)));
     return submitted;

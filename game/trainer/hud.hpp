@@ -56,8 +56,8 @@ struct PlotPoint {
 // Torque over nut angle of the joint that the wrench engaged last, and the tolerance of the torque.
 struct TorquePlot {
     std::vector<PlotPoint> points;  // since the wrench engaged this joint after another one
-    float coarseness = 1.0F;        // factor on the least difference between two points; grows with their number
-    int joint = -1;                 // −1: the wrench has not engaged a nut yet
+    float coarseness = 1.0F;  // factor on the least difference between two points; grows with their number
+    int joint = -1;           // −1: the wrench has not engaged a nut yet
     // N·m: the due step's tolerance, else the joint's final one; none when loosening.
     std::optional<content::ToleranceWindow> target;
 };

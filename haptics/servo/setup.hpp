@@ -124,8 +124,8 @@ struct Setup {
     // the corners that bear: two with a jaw, six with any other head. False (sessions before format 10): two
     // with any head.
     bool rounds_all_loaded_corners = true;
-    // A device without torque output renders torques as a force at the end of the handle. The force is that of
-    // the tool in use. False (sessions before format 11): always that of the first tool.
+    // A device without torque output renders torques as a force at the end of the handle. The force is that
+    // of the tool in use. False (sessions before format 11): always that of the first tool.
     bool renders_tool_in_use = true;
     // The tool can move in a gap that is narrower than its safety distance (GodObjectParameters in
     // haptics/proxy). False (sessions before format 11): friction holds it there.

@@ -339,8 +339,9 @@ Output tick(const Setup& setup, State& state, const TickInput& input, force::IsS
     if (tool.valid)
         for (const force::ForceRequest& more : {guiding, contacts, released}) add(request, more);
 
-    const force::OutputCommand limited = force::render(
-        setup.limits, state.output_stage, device_input(setup, state, commanded_tool, input), request, setup.dt);
+    const force::OutputCommand limited =
+        force::render(setup.limits, state.output_stage, device_input(setup, state, commanded_tool, input),
+                      request, setup.dt);
     output.force = limited.force;
     output.torque = limited.torque;
     output.fault = state.output_stage.watchdog.fault;
