@@ -47,7 +47,7 @@ Status FrameContext::prepare(Device& device) {
     BOLT_TRY(
         check(vkAllocateCommandBuffers(device.get(), &commands, &commands_), "allocating a command buffer"));
 
-    BOLT_TRY(assign(fence_, make_signalled_fence(device)));
+    BOLT_TRY_ASSIGN(fence_, make_signalled_fence(device));
 
     if (device.limits().timestampComputeAndGraphics == VK_TRUE) {
         VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
@@ -204,8 +204,9 @@ Status Frames::submit(FrameContext& frame, const Signals& signals) {
     info.pSignalSemaphoreInfos = signalled.data();
     next_ = (next_ + 1) % frames_in_flight;
     const Status submitted = check(vkQueueSubmit2(device_->queue(), 1, &info, fence), "submitting a frame");
+    if (submitted) return {};
     // No work will signal the fence, so the next wait for it would never end.
-    if (!submitted) BOLT_TRY(assign(frame.fence_, make_signalled_fence(*device_)));
+    BOLT_TRY_ASSIGN(frame.fence_, make_signalled_fence(*device_));
     return submitted;
 }
 

@@ -236,7 +236,8 @@ double lead_for(const ArmRig& rig, double share) {
     if (limits.torque > 0.0)
         return std::min((rig.unheld ? 0.1 : share) * limits.torque / hand.angular_stiffness, 1.2);
     const double strength = rig.unheld ? push : share * limits.force;
-    return std::min(strength / hand.stiffness * rig.layout.workspace.scale / rig.layout.lever_arm, 1.2);
+    const double lever_arm = station::lever_arm_of(rig.layout, rig.setup.wrench.handle_length);
+    return std::min(strength / hand.stiffness * rig.layout.workspace.scale / lever_arm, 1.2);
 }
 
 // rad, the intended angle of the handle at a time.
