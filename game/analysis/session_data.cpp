@@ -111,7 +111,7 @@ double target_clamp(const content::Assembly& assembly, std::size_t joint) {
         joint::torque_levers(j.design.thread.thread, j.design.friction.thread, j.design.friction.bearing,
                              joint::bearing_mean_diameter(joint::turned_part_size(j.design).bearing, hole));
     const double torque = std::max(0.0, j.spec.torque.target - j.design.prevailing_torque);
-    return levers.tighten() > 0.0 ? torque / levers.tighten() : nan;
+    return levers.tightening_lever() > 0.0 ? torque / levers.tightening_lever() : nan;
 }
 
 Summary summarise(const SessionData& session) {
