@@ -72,10 +72,10 @@ Result<SessionData> read_session(const session::SessionReader& session) {
     data.file = session.file();
     data.header = session.header();
     data.complete = session.complete();
-    data.recorded = static_cast<double>(session.tick_count()) * data.header.dt;
+    data.recorded_duration = static_cast<double>(session.tick_count()) * data.header.dt;
     data.assembly = std::move(*assembly);
     data.joints = results_by_joint(data.assembly, result->joints);
-    data.duration = result->duration > 0.0 ? result->duration : data.recorded;
+    data.duration = result->duration > 0.0 ? result->duration : data.recorded_duration;
     data.score = result->score;
     data.finished = result->finished;
     data.reasons = result->reasons;
