@@ -154,7 +154,7 @@ void check_stripping(const LayeredObject& layers, const JointType& type) {
     const double clamp = (type.spec.torque.high - design.prevailing_torque) /
                          joint::torque_levers(thread, design.friction.thread, design.friction.bearing,
                                               design.bearing_diameter())
-                             .tighten();
+                             .tightening_lever();
     if (strip >= clamp) return;
     const JsonNode engagement = layers.member_layers("tapped_hole").find("engagement_mm");
     const double share = clamp / (design.bolt_class.R_m * thread.A_s);

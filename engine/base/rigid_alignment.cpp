@@ -204,7 +204,7 @@ std::vector<std::optional<double>> leave_one_out_residuals(std::span<const Point
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         others.assign(pairs.begin(), pairs.end());
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-        const Result<RigidAlignment> aligned = align_points(others, any_scale);
+        const Result<RigidAlignment> aligned = align_points(others, any_scale_limits);
         residuals.push_back(aligned ? std::optional(glm::length(aligned->pose * pairs[i].from - pairs[i].to))
                                     : std::nullopt);
     }
@@ -251,7 +251,7 @@ Result<PivotFit> fit_pivot(std::span<const Pose> poses) {
     return fit;
 }
 
-std::optional<double> largest(std::span<const std::optional<double>> residuals) {
+std::optional<double> largest_residual(std::span<const std::optional<double>> residuals) {
     std::optional<double> most;
     for (const std::optional<double>& residual : residuals) {
         if (!residual) return std::nullopt;

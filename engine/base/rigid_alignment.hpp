@@ -40,8 +40,8 @@ struct AlignmentLimits {
     // Least ratio of the second largest to the largest spread (standard deviation along a principal axis).
     double min_width = 0.1;
 };
-// Limits that accept any scale, for points whose scale has been checked.
-inline constexpr AlignmentLimits any_scale{std::numeric_limits<double>::infinity(), 0.1};
+// For points whose scale has been checked.
+inline constexpr AlignmentLimits any_scale_limits{std::numeric_limits<double>::infinity(), 0.1};
 
 struct RigidAlignment {
     Pose pose;                      // takes `from` to `to`; w of its unit quaternion is not negative
@@ -87,7 +87,7 @@ inline constexpr double min_orientation_spread = 0.15;
 // not finite, or `orientation_spread` is below min_orientation_spread.
 Result<PivotFit> fit_pivot(std::span<const Pose> poses);
 
-// Returns the largest residual; none if one of the residuals is none, or if there are no residuals.
-std::optional<double> largest(std::span<const std::optional<double>> residuals);
+// None if one of the residuals is none, or if there are no residuals.
+std::optional<double> largest_residual(std::span<const std::optional<double>> residuals);
 
 }  // namespace bolt

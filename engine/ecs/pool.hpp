@@ -14,9 +14,9 @@ namespace bolt::ecs {
 // Identifies something that has components: a slot index and the slot's generation. A stale entity never
 // refers to the next occupant of its slot.
 struct Entity {
-    static constexpr std::uint32_t none = ~std::uint32_t{0};  // the index of no entity
+    static constexpr std::uint32_t no_index = ~std::uint32_t{0};
 
-    std::uint32_t index = none;
+    std::uint32_t index = no_index;
     std::uint32_t generation = 0;
 
     friend bool operator==(Entity, Entity) = default;
@@ -89,7 +89,7 @@ class Pool {
     // Returns false if the entity has no component of this type.
     bool erase(Entity entity) {
         const std::uint32_t dense = dense_index(entity);
-        if (dense == Entity::none) return false;
+        if (dense == Entity::no_index) return false;
         if (dense + 1 != entities_.size()) {
             components_[dense] = std::move(components_.back());
             entities_[dense] = entities_.back();
@@ -97,16 +97,16 @@ class Pool {
         }
         components_.pop_back();
         entities_.pop_back();
-        slot(entity.index) = Entity::none;
+        slot(entity.index) = Entity::no_index;
         return true;
     }
 
-    [[nodiscard]] bool contains(Entity entity) const { return dense_index(entity) != Entity::none; }
+    [[nodiscard]] bool contains(Entity entity) const { return dense_index(entity) != Entity::no_index; }
 
     // Returns null if the entity has no component of this type.
     [[nodiscard]] Component* find(Entity entity) {
         const std::uint32_t dense = dense_index(entity);
-        return dense == Entity::none ? nullptr : &components_[dense];
+        return dense == Entity::no_index ? nullptr : &components_[dense];
     }
     [[nodiscard]] const Component* find(Entity entity) const { return const_cast<Pool*>(this)->find(entity); }
 
@@ -127,10 +127,11 @@ class Pool {
 
     [[nodiscard]] std::uint32_t dense_index(Entity entity) const {
         const std::size_t page = entity.index / page_size;
-        if (page >= pages_.size() || !pages_[page]) return Entity::none;
+        if (page >= pages_.size() || !pages_[page]) return Entity::no_index;
         const std::uint32_t dense = (*pages_[page])[entity.index % page_size];
-        return dense != Entity::none && entities_[dense].generation == entity.generation ? dense
-                                                                                         : Entity::none;
+        return dense != Entity::no_index && entities_[dense].generation == entity.generation
+                   ? dense
+                   : Entity::no_index;
     }
 
     std::uint32_t& slot(std::uint32_t index) {
@@ -138,7 +139,7 @@ class Pool {
         if (page >= pages_.size()) pages_.resize(page + 1);
         if (!pages_[page]) {
             pages_[page] = std::make_unique<Page>();
-            pages_[page]->fill(Entity::none);
+            pages_[page]->fill(Entity::no_index);
         }
         return (*pages_[page])[index % page_size];
     }

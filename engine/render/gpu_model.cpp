@@ -44,8 +44,8 @@ void add_joint_boxes(const assets::Primitive& p, std::span<const std::uint32_t> 
         for (int k = 0; k < 4; ++k) {
             if (influences[i].weights[k] == 0) continue;
             const std::size_t joint = influences[i].joints[k];
-            if (part.joints.size() <= joint) part.joints.resize(joint + 1);
-            part.joints[joint].add(p.positions[sources[i]]);
+            if (part.joint_boxes.size() <= joint) part.joint_boxes.resize(joint + 1);
+            part.joint_boxes[joint].add(p.positions[sources[i]]);
         }
 }
 
@@ -67,7 +67,7 @@ void add_targets(const assets::Primitive& p, std::span<const std::uint32_t> sour
                 if (s == 0) box.add(delta);
             }
         }
-        part.targets.push_back(box);
+        part.target_boxes.push_back(box);
     }
 }
 
@@ -110,18 +110,18 @@ Deformable make_deformable(const assets::Primitive& p, std::span<const std::uint
 BoundingBox bounds(const BoundingBox& rest, const Deformable& part, const Deformation* deformation) {
     if (deformation == nullptr || part.vertices == 0) return rest;
     glm::vec3 low(0.0F), high(0.0F);  // displacements by the targets
-    for (std::size_t i = 0; i < part.targets.size() && i < deformation->weights.size(); ++i) {
-        const glm::vec3 a = deformation->weights[i] * part.targets[i].low,
-                        b = deformation->weights[i] * part.targets[i].high;
+    for (std::size_t i = 0; i < part.target_boxes.size() && i < deformation->weights.size(); ++i) {
+        const glm::vec3 a = deformation->weights[i] * part.target_boxes[i].low,
+                        b = deformation->weights[i] * part.target_boxes[i].high;
         low += glm::min(a, b);
         high += glm::max(a, b);
     }
     const auto morphed = [&](const BoundingBox& box) { return BoundingBox{box.low + low, box.high + high}; };
-    if (deformation->joints.empty() || part.joints.empty()) return morphed(rest);
+    if (deformation->joints.empty() || part.joint_boxes.empty()) return morphed(rest);
     BoundingBox box;
-    for (std::size_t i = 0; i < part.joints.size() && i < deformation->joints.size(); ++i) {
-        if (part.joints[i].empty()) continue;
-        const BoundingBox moved = transformed(morphed(part.joints[i]), deformation->joints[i]);
+    for (std::size_t i = 0; i < part.joint_boxes.size() && i < deformation->joints.size(); ++i) {
+        if (part.joint_boxes[i].empty()) continue;
+        const BoundingBox moved = transformed(morphed(part.joint_boxes[i]), deformation->joints[i]);
         box.add(moved.low);
         box.add(moved.high);
     }

@@ -53,14 +53,14 @@ static_assert(sizeof(Influences) == 16);
 // The deformation data of a part: its ranges in the model's buffers, and bounds of the motion.
 struct Deformable {
     std::uint32_t vertices = 0;         // 0: rigid
-    std::uint32_t first_influence = 0;  // index into the model's influences; only if `joints` is not empty
+    std::uint32_t first_influence = 0;  // index into the model's influences; only with `joint_boxes`
     std::uint32_t first_delta = 0;      // index into the model's deltas, in floats; target by target
     std::uint32_t delta_floats = 0;     // per vertex: 3 position, 6 with normal, 9 with tangent
     bool own_normals = true;            // false: flat normals of triangles without shared vertices
     // For each joint, the box around the vertices that it moves, in bind pose; an empty box if it moves none.
-    std::vector<BoundingBox> joints;
+    std::vector<BoundingBox> joint_boxes;
     // For each morph target, the box around its displacements at weight 1.
-    std::vector<BoundingBox> targets;
+    std::vector<BoundingBox> target_boxes;
 };
 
 // The deformation data of all parts of a model, as uploaded to the GPU.

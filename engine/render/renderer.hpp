@@ -87,7 +87,7 @@ class Renderer {
         return groups_.at(group).statistics;
     }
     // Returns the pass with the deformed vertices of the last render(), for tests.
-    [[nodiscard]] const DeformPass& deformed() const { return deform_; }
+    [[nodiscard]] const DeformPass& deform_pass() const { return deform_; }
     // Writes compiled pipelines to the cache file for the next start.
     [[nodiscard]] Status save_pipelines() const { return cache_.save(); }
 

@@ -62,7 +62,8 @@ FilteredHead target_at(const HeadFilterState& state, const HeadFilterSettings& s
                  dropout_time = std::max(settings.dropout_time, max_sample_age);
     if (age <= max_sample_age) return {last, HeadStatus::tracked};
     if (age <= dropout_time) return {last, HeadStatus::held};
-    const double fraction = settings.fade > 0.0 ? minimum_jerk((age - dropout_time) / settings.fade) : 1.0;
+    const double fraction =
+        settings.fade_time > 0.0 ? minimum_jerk((age - dropout_time) / settings.fade_time) : 1.0;
     return {interpolate(last, settings.fixed_head, fraction), HeadStatus::faded};
 }
 

@@ -18,7 +18,7 @@ struct HeadSample {
 struct HeadFilterSettings {
     Pose fixed_head;            // without a tracker, and after a dropout
     double dropout_time = 0.5;  // s for which the pose is held after the last sample
-    double fade = 2.0;          // s, from the held pose to the fixed head
+    double fade_time = 2.0;     // s, from the held pose to the fixed head
     double max_speed = 4.0;     // m/s; a faster change is a jump
     double max_turn = 20.0;     // rad/s, likewise; people turn their heads at up to 12 rad/s
     // s. After a jump, poses are accepted when they have agreed for this long, or as soon as a head at

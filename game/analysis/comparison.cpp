@@ -228,7 +228,7 @@ StageError pool(const StageError& a, const StageError& b) {
 TorqueErrors torque_errors(const TorqueCurve& simulated, const TorqueCurve& measured, double shift,
                            double floor, double mre_floor) {
     TorqueErrors errors;
-    errors.floor = floor;
+    errors.relative_error_floor = floor;
     for (std::size_t i = 0; i < measured.size(); ++i) {
         const double angle = measured.angle[i] + shift;
         const bool inside = simulated.size() > 1 && angle >= simulated.angle.front() - angle_tolerance &&
@@ -277,7 +277,7 @@ TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b) {
     for (std::size_t i = 0; i < sum.stage.size(); ++i) sum.stage[i] = pool(a.stage[i], b.stage[i]);
     sum.all = pool(a.all, b.all);
     sum.outside = a.outside + b.outside;
-    sum.floor = std::max(a.floor, b.floor);
+    sum.relative_error_floor = std::max(a.relative_error_floor, b.relative_error_floor);
     return sum;
 }
 
@@ -331,7 +331,7 @@ void add_errors(const TorqueCurve& simulated, const TorqueCurve& measured, const
 
 // Removes the errors of a joint that is another one.
 void drop_errors(JointComparison& joint, const std::string& why) {
-    joint.other_joint = why;
+    joint.mismatch_reason = why;
     joint.errors = {};
     for (CycleComparison& cycle : joint.cycles) {
         cycle.errors = {};

@@ -100,7 +100,7 @@ struct TorqueErrors {
     StageError all;
     std::size_t outside = 0;  // samples excluded: angles outside the simulated curve
     // N·m; a sample with a smaller |T_a| has no relative error. After pool(): the largest floor.
-    double floor = 0.0;
+    double relative_error_floor = 0.0;
 };
 
 // Share of a run's highest |T_a| below which a sample has no relative error: 1 %, the resolution of a good
@@ -151,7 +151,7 @@ struct JointComparison {
     TorqueErrors errors;                  // over all cycles
     // Why the record is of another joint than this one. The errors are then not computed, because they would
     // have no meaning. Empty: the record may be of this joint.
-    std::string other_joint;
+    std::string mismatch_reason;
 };
 
 struct MeasuredCurve {

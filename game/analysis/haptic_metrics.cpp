@@ -51,8 +51,8 @@ HapticMetricsBuilder::HapticMetricsBuilder(const session::Header& header,
                                            std::span<const lesson::LessonEvent> events,
                                            std::vector<Vec3> seats)
     : dt_(header.dt), seats_(std::move(seats)) {
-    metrics_.recorded = header.servo_rate.has_value();
-    metrics_.obstacles = !header.contact_models.value_or("").empty();
+    metrics_.has_contacts_and_faults = header.servo_rate.has_value();
+    metrics_.has_contact_models = !header.contact_models.value_or("").empty();
     metrics_.guided = header.guide.value_or(header.mode == lesson::Mode::guided);
     metrics_.device_limits = header.device_limits;
     if (header.servo_rate) metrics_.servo_text = session::servo_text(*header.servo_rate);

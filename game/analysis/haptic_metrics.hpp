@@ -67,9 +67,9 @@ struct Arrival {
 };
 
 struct HapticMetrics {
-    bool recorded = false;  // format 2 or later; format 1 has no contacts and faults
-    // `obstacles`: the session had contact models. `guided`: the guiding force was on.
-    bool obstacles = false, guided = false;
+    bool has_contacts_and_faults = false;  // false: a session of format 1
+    bool has_contact_models = false;
+    bool guided = false;  // the guiding force was on
     std::optional<force::OutputLimits> device_limits;
     std::vector<ObstacleContact> obstacle_contacts;  // in order of time
     ChangeStatistics force, torque;                  // N, N·m
@@ -78,7 +78,7 @@ struct HapticMetrics {
     std::vector<ForceJump> force_jumps;  // the largest ones, largest first
     std::vector<Arrival> arrivals;
     std::array<double, force::fault_kinds> faults{};  // s for which each fault released the output
-    std::string servo_text;  // "1000 Hz" or "virtual time"; empty if `recorded` is false
+    std::string servo_text;  // "1000 Hz" or "virtual time"; empty if `has_contacts_and_faults` is false
     std::optional<servo::Timing> timing;
 };
 

@@ -72,10 +72,10 @@ Result<SessionData> read_session(const session::SessionReader& session) {
     data.file = session.file();
     data.header = session.header();
     data.complete = session.complete();
-    data.recorded = static_cast<double>(session.tick_count()) * data.header.dt;
+    data.recorded_duration = static_cast<double>(session.tick_count()) * data.header.dt;
     data.assembly = std::move(*assembly);
     data.joints = results_by_joint(data.assembly, result->joints);
-    data.duration = result->duration > 0.0 ? result->duration : data.recorded;
+    data.duration = result->duration > 0.0 ? result->duration : data.recorded_duration;
     data.score = result->score;
     data.finished = result->finished;
     data.reasons = result->reasons;
@@ -111,7 +111,7 @@ double target_clamp(const content::Assembly& assembly, std::size_t joint) {
         joint::torque_levers(j.design.thread.thread, j.design.friction.thread, j.design.friction.bearing,
                              joint::bearing_mean_diameter(joint::turned_part_size(j.design).bearing, hole));
     const double torque = std::max(0.0, j.spec.torque.target - j.design.prevailing_torque);
-    return levers.tighten() > 0.0 ? torque / levers.tighten() : nan;
+    return levers.tightening_lever() > 0.0 ? torque / levers.tightening_lever() : nan;
 }
 
 Summary summarise(const SessionData& session) {

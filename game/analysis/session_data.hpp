@@ -20,15 +20,15 @@ struct SessionData {
     std::string file;
     session::Header header;
     bool complete = true;                     // false: cut short
-    double recorded = 0.0;                    // s, length of the recorded ticks
+    double recorded_duration = 0.0;           // s, of all ticks
     content::Assembly assembly;               // as stored in the session; its law is the header's
     std::vector<lesson::JointResult> joints;  // one for each of assembly.joints, in their order
-    double duration = 0.0;                    // s, of the lesson by its result; without one: `recorded`
-    double score = 0.0;                       // 0…100
-    bool finished = false;                    // every step is done
-    std::vector<lesson::Deduction> reasons;   // for which points were deducted from the score
-    std::vector<std::string> pass_texts;      // texts of the pass_begin events, in order
-    std::vector<JointCurve> curves;           // one for each of assembly.joints
+    double duration = 0.0;  // s, of the lesson by its result; without one: `recorded_duration`
+    double score = 0.0;     // 0…100
+    bool finished = false;  // every step is done
+    std::vector<lesson::Deduction> reasons;  // for which points were deducted from the score
+    std::vector<std::string> pass_texts;     // texts of the pass_begin events, in order
+    std::vector<JointCurve> curves;          // one for each of assembly.joints
     HapticMetrics metrics;
 
     [[nodiscard]] joint::Direction direction() const {

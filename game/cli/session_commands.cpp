@@ -170,9 +170,9 @@ Status fit_measured(const CompareOptions& options, const session::SessionReader&
                     fmt::format("--fit is given, but {} joints are compared", comparison.joints.size()),
                     "--joint with the id of one joint");
     const analysis::JointComparison& compared = comparison.joints.front();
-    if (!compared.other_joint.empty())
+    if (!compared.mismatch_reason.empty())
         return fail(ErrorCode::usage,
-                    fmt::format("{} cannot be fitted: {}", compared.joint, compared.other_joint),
+                    fmt::format("{} cannot be fitted: {}", compared.joint, compared.mismatch_reason),
                     "a record of this joint, or --same-joint if only the torques differ");
     BOLT_TRY_ASSIGN(const auto assembly, analysis::stored_assembly(session));
     const content::AssemblyJoint* joint = nullptr;

@@ -33,7 +33,7 @@ Result<HeadSource> HeadSource::open(const content::HeadTracking& head, const std
                             head.head_in_body};
     source.settings_.fixed_head = head.fixed_head;
     source.settings_.dropout_time = head.hold;
-    source.settings_.fade = head.fade;
+    source.settings_.fade_time = head.fade;
     source.settings_.max_speed = head.max_speed;
     source.settings_.jump_time = head.jump_time;
     source.body_ = head.body;

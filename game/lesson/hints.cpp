@@ -291,12 +291,12 @@ bool between_strokes(Situation s) {
 // True if the hint for `candidate` replaces the shown one. A trainee who has advanced to the next phase need
 // not finish reading the old hint.
 bool replaces(const HintState& hints, Situation candidate) {
-    if (candidate == hints.situation) return false;
+    if (candidate == hints.shown_situation) return false;
     if (!hints.shown || immediate(candidate)) return true;
     if (hints.differs_for >= unstable_after) return true;
-    const bool paused = phase(hints.situation) > WorkPhase::approach && between_strokes(candidate);
+    const bool paused = phase(hints.shown_situation) > WorkPhase::approach && between_strokes(candidate);
     if (hints.candidate_for < (paused ? stroke_debounce : debounce)) return false;
-    const bool advanced = phase(candidate) > phase(hints.situation);
+    const bool advanced = phase(candidate) > phase(hints.shown_situation);
     return urgent(candidate) ||
            hints.shown_for >= (advanced ? min_duration_when_fulfilled : min_hint_duration);
 }
@@ -326,11 +326,11 @@ const std::optional<Hint>& update(HintState& hints, const ObservedLesson& work, 
         due != nullptr && on_the_way(underlying) && hints.step_time < announcement_duration;
     const Situation candidate = announces ? announcement(*due, hints.new_pass) : underlying;
     hints.candidate_for = candidate == hints.candidate ? hints.candidate_for + dt : 0.0;
-    hints.differs_for = candidate == hints.situation ? 0.0 : hints.differs_for + dt;
+    hints.differs_for = candidate == hints.shown_situation ? 0.0 : hints.differs_for + dt;
     hints.candidate = candidate;
     bool other = false;
     if (other_step || replaces(hints, candidate)) {
-        hints.situation = candidate;
+        hints.shown_situation = candidate;
         hints.shown_for = hints.differs_for = 0.0;
         hints.level = -1;
         other = true;
@@ -342,7 +342,7 @@ const std::optional<Hint>& update(HintState& hints, const ObservedLesson& work, 
     if (requested) level = std::min(level + 1, max_level);
     // The hint is made anew also if its situation continues, but another joint is in the hand or another
     // motion is needed. It keeps its text if it is only shown longer than its situation lasts.
-    other = other || (candidate == hints.situation &&
+    other = other || (candidate == hints.shown_situation &&
                       (work.lesson.held_joint != hints.held_joint || underlying != hints.underlying));
     hints.level = level;
     if (level < 0) {
@@ -351,7 +351,7 @@ const std::optional<Hint>& update(HintState& hints, const ObservedLesson& work, 
         if (!hints.shown) hints.shown_for = 0.0;
         hints.held_joint = work.lesson.held_joint;
         hints.underlying = underlying;
-        hints.shown = make_hint(hints.situation, underlying, level, work);
+        hints.shown = make_hint(hints.shown_situation, underlying, level, work);
     } else {
         hints.shown->level = hints.shown->joint < 0 ? 0 : level;
     }

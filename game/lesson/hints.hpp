@@ -127,12 +127,12 @@ struct StepProgress {
 
 // The shown hint and the timing of its successor.
 struct HintState {
-    std::optional<Hint> shown;                   // none: no hint is shown
-    Situation situation = Situation::all_done;   // of the shown hint
-    double shown_for = 0.0;                      // s
-    Situation candidate = Situation::all_done;   // situation of the last frame
-    double candidate_for = 0.0;                  // s
-    double differs_for = 0.0;                    // s for which `candidate` has differed from `situation`
+    std::optional<Hint> shown;  // none: no hint is shown
+    Situation shown_situation = Situation::all_done;
+    double shown_for = 0.0;                     // s
+    Situation candidate = Situation::all_done;  // situation of the last frame
+    double candidate_for = 0.0;                 // s
+    double differs_for = 0.0;                   // s for which `candidate` has differed from `shown_situation`
     Situation underlying = Situation::all_done;  // of the shown hint, as in make_hint()
     std::size_t step = SIZE_MAX;                 // Lesson::current in the last frame
     double step_time = 0.0;                      // s since the step began

@@ -111,7 +111,7 @@ void engage(Lesson& lesson, int joint, servo::Grip grip, const world::ReadHaptic
     lesson.grip = grip;
     JointTrack& track = lesson.joints[static_cast<std::size_t>(joint)];
     track.worked = again && track.worked;
-    track.turned_back = track.seated = track.common_turn_reported = track.bend_reported = false;
+    track.wrong_way_reported = track.seated = track.common_turn_reported = track.bend_reported = false;
     track.bent_at_grip = world.only<world::ToolState>().bent;
     track.furthest = joint_at(world, static_cast<std::size_t>(joint)).angle;
     track.common_turn = track.common_turn_at_grip =
@@ -178,7 +178,7 @@ void update_turned_torque(Lesson& lesson, std::size_t index, const world::Joint&
     if (lesson.task != Task::tighten) return;
     if (joint.stage == joint::Stage::navigation) {
         track.mark.reset();
-        track.yielded = track.over_torqued = track.over_turned = false;
+        track.yielded = track.over_torque_reported = track.over_turn_reported = false;
         track.turned_torque = track.result.torque = track.result.angle = 0.0;
     }
     const double ratio = lesson.assembly->joints[index].design.friction.static_ratio;
@@ -192,8 +192,8 @@ void update_turned_torque(Lesson& lesson, std::size_t index, const world::Joint&
 void report_excess_torque(Lesson& lesson, std::size_t joint, std::uint64_t tick) {
     JointTrack& track = lesson.joints[joint];
     const double highest = spec_of(lesson, joint).torque.high;
-    if (track.over_torqued || track.turned_torque <= highest) return;
-    track.over_torqued = true;
+    if (track.over_torque_reported || track.turned_torque <= highest) return;
+    track.over_torque_reported = true;
     ++track.over_torque_count;
     add_mistake(lesson, tick, MistakeKind::over_torque, joint, track.turned_torque,
                 fmt::format("{} was turned with more than {:.1f} N·m", track.result.id, highest));
@@ -202,10 +202,10 @@ void report_excess_torque(Lesson& lesson, std::size_t joint, std::uint64_t tick)
 // Reports a nut that was turned too far from its mark, once until the nut leaves its seat.
 void report_excess_angle(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[joint];
-    if (!lesson.turns_by_angle || track.over_turned) return;
+    if (!lesson.turns_by_angle || track.over_turn_reported) return;
     const double turned = angle_from_mark(lesson, world, joint), most = spec_of(lesson, joint).angle.high;
     if (turned <= most + turn_excess) return;
-    track.over_turned = true;
+    track.over_turn_reported = true;
     ++track.over_turn_count;
     add_mistake(lesson, tick_of(world), MistakeKind::over_turned, joint, turned,
                 fmt::format("{} was turned by more than {:.0f}°", track.result.id, to_degrees(most)));
@@ -222,9 +222,9 @@ void report_wrong_way(Lesson& lesson, std::size_t joint, const world::ReadHaptic
         track.furthest = now.angle;
         track.seated = now.stage != joint::Stage::navigation;
     }
-    if (beyond > -wrong_way || !track.seated || track.turned_back) return;
-    if (track.over_torqued || track.over_turned) return;
-    track.turned_back = true;
+    if (beyond > -wrong_way || !track.seated || track.wrong_way_reported) return;
+    if (track.over_torque_reported || track.over_turn_reported) return;
+    track.wrong_way_reported = true;
     ++track.wrong_way_count;
     add_mistake(lesson, tick_of(world), loosens ? MistakeKind::tightened : MistakeKind::loosened, joint, 0.0,
                 fmt::format("{} was turned the wrong way: that {} it", track.result.id,

@@ -33,11 +33,11 @@ struct JointTrack {
     bool worked = false;         // the hand has loaded or turned the nut in this hold
     double furthest = 0.0;       // rad, extreme nut angle of this hold: highest if tightening, else lowest
     bool seated = false;         // the nut was on its seat at `furthest`
-    bool turned_back = false;    // turning the wrong way was reported in this hold
-    int wrong_way_count = 0;     // holds in which it was turned the wrong way
-    bool over_torqued = false;   // excess torque was reported since the nut was last off its seat
-    int over_torque_count = 0;   // undo keeps this and all other ..._count members
-    bool over_turned = false;    // an excess angle was reported since the nut was last off its seat
+    bool wrong_way_reported = false;    // in this hold
+    int wrong_way_count = 0;            // holds in which it was turned the wrong way
+    bool over_torque_reported = false;  // since the nut was last off its seat
+    int over_torque_count = 0;          // undo keeps this and all other ..._count members
+    bool over_turn_reported = false;    // since the nut was last off its seat
     int over_turn_count = 0;
     int slip_count = 0;
     double peak_at_grip = 0.0;          // N·m, peak_torque when this hold began

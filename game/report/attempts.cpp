@@ -124,7 +124,7 @@ Attempt attempt_of(const analysis::SessionData& session, const TraineeNames& nam
     constexpr double unknown = nan;
     a.guided = metrics.guided;
     a.view_help = session.header.view_help.value_or(false);
-    a.obstacles = metrics.obstacles;
+    a.obstacles = metrics.has_contact_models;
     std::vector<double> times_to_nut, times_near_nut;
     double visible_time = 0.0, near_time = 0.0;
     for (const analysis::Arrival& arrival : metrics.arrivals)
@@ -138,8 +138,9 @@ Attempt attempt_of(const analysis::SessionData& session, const TraineeNames& nam
     a.visible_share = near_time > 0.0 ? visible_time / near_time : unknown;
     a.time_to_nut = statistics::quartiles(std::move(times_to_nut)).median;
     a.time_near_nut = statistics::quartiles(std::move(times_near_nut)).median;
-    a.obstacle_contacts = metrics.recorded ? static_cast<double>(metrics.obstacle_contacts.size()) : unknown;
-    a.contact_time = metrics.recorded ? 0.0 : unknown;
+    a.obstacle_contacts =
+        metrics.has_contacts_and_faults ? static_cast<double>(metrics.obstacle_contacts.size()) : unknown;
+    a.contact_time = metrics.has_contacts_and_faults ? 0.0 : unknown;
     for (const analysis::ObstacleContact& contact : metrics.obstacle_contacts)
         a.contact_time += contact.length;
     const double greatest = metrics.device_limits ? metrics.device_limits->force : unknown;

@@ -165,7 +165,7 @@ std::string other_joint_text(const analysis::JointComparison& joint) {
     return fmt::format(
         "another joint, or the same one in another state: {}. Errors of torque, slope and breakaway would "
         "have no meaning and are left out; --same-joint computes them.",
-        joint.other_joint);
+        joint.mismatch_reason);
 }
 
 std::string cycle_table(const analysis::Comparison& c, const analysis::JointComparison& joint) {
@@ -185,7 +185,7 @@ std::string cycle_table(const analysis::Comparison& c, const analysis::JointComp
             "<tr><td>{}</td><td class=\"n\">{}°</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
             name.empty() ? fmt::format("{}", i + 1) : escape(name),
             number(to_degrees(joint.cycles[i].alignment.shift), 1),
-            number(analysis::share_of_peak(c.measured[i].curve, 1.0), 3), number(e.floor, 3));
+            number(analysis::share_of_peak(c.measured[i].curve, 1.0), 3), number(e.relative_error_floor, 3));
         for (const analysis::StageError& s : e.stage)
             out += fmt::format("<td class=\"n\">{} / {}</td>", error_value(s, s.mre), error_value(s, s.mape));
         out +=
@@ -225,7 +225,7 @@ std::string joint_section(const analysis::Comparison& c, std::size_t index) {
         c.measured.size() == 1 ? "" : "s",
         c.measured.size() >= analysis::min_repetitions ? " Pair of lines: 95 % interval of their mean." : "");
     out += plot::figure("", plot::draw(overlay_plot(c, index)), escape(caption));
-    if (!joint.other_joint.empty())
+    if (!joint.mismatch_reason.empty())
         return out + "<div><p><strong>" + escape(other_joint_text(joint)) + "</strong></p></div></div>\n";
     out += "<div>" + error_table(joint.errors, &bands);
     if (const std::string features = feature_text(bands); !features.empty())
@@ -250,8 +250,8 @@ std::string joint_section(const analysis::Comparison& c, std::size_t index) {
 
 // The number of joints that the record may belong to.
 std::size_t compared_joint_count(const analysis::Comparison& c) {
-    return static_cast<std::size_t>(
-        std::count_if(c.joints.begin(), c.joints.end(), [](const auto& j) { return j.other_joint.empty(); }));
+    return static_cast<std::size_t>(std::count_if(c.joints.begin(), c.joints.end(),
+                                                  [](const auto& j) { return j.mismatch_reason.empty(); }));
 }
 
 std::string source_line(const analysis::Comparison& c) {
@@ -313,7 +313,7 @@ std::vector<std::string> remarks(const analysis::Comparison& c) {
     texts.push_back(fmt::format("Highest torque: measured {} N·m, virtual {} N·m.", span_text(least, most),
                                 span_text(virtual_least, virtual_most)));
     for (const analysis::JointComparison& joint : c.joints)
-        if (!joint.other_joint.empty())
+        if (!joint.mismatch_reason.empty())
             texts.push_back(fmt::format("{}: {}", joint.joint, other_joint_text(joint)));
     if (compared_joint_count(c) == 0) return texts;
     for (std::size_t i = 0; i < c.errors.stage.size(); ++i) {
@@ -375,7 +375,7 @@ std::string console_text(const analysis::Comparison& c) {
         row("all", errors.all, fmt::format("{}", errors.outside));
     };
     for (const analysis::JointComparison& joint : c.joints)
-        if (joint.other_joint.empty()) rows(joint.joint, joint.errors);
+        if (joint.mismatch_reason.empty()) rows(joint.joint, joint.errors);
     if (c.joints.size() > 1 && compared_joint_count(c) > 0) rows("all", c.errors);
     if (compared_joint_count(c) > 0) out += "\n";
     for (const analysis::JointComparison& joint : c.joints)

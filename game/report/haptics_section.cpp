@@ -86,11 +86,11 @@ void put_obstacle_contacts(std::string& out, const analysis::SessionData& s) {
     const analysis::HapticMetrics& f = s.metrics;
     const std::string_view fastener = lesson::fastener_name(s.assembly);
     out += "<h3>Contacts with obstacles</h3>\n";
-    if (!f.recorded) {
+    if (!f.has_contacts_and_faults) {
         out += "<p>This session is of an older format, which does not record what the wrench touched.</p>\n";
         return;
     }
-    if (!f.obstacles) {
+    if (!f.has_contact_models) {
         out += "<p>Contact was not simulated: the wrench passed through everything.</p>\n";
         return;
     }
@@ -186,7 +186,7 @@ void put_servo(std::string& out, const analysis::SessionData& s) {
             faults +=
                 fmt::format("{}{}: {}\u00a0s", faults.empty() ? "" : "; ",
                             force::message_for(static_cast<force::Fault>(i)), plot::number(f.faults[i], 2));
-    if (!f.recorded) return;
+    if (!f.has_contacts_and_faults) return;
     out += "<h3>Output stage and servo</h3>\n";
     put(out, "<p>{} {}</p>\n",
         faults.empty() ? "The output was never switched off."

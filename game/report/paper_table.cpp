@@ -93,8 +93,8 @@ std::string summary_sentence(const MaterialComparison& material) {
             out += fmt::format(", slope in its linear stage {} % against the simulated runs",
                                plot::signed_number(100.0 * bands.slope_error, 0));
         out += ".";
-        if (!joint.other_joint.empty())
-            out += " Another joint, so there are no errors: " + joint.other_joint + ".";
+        if (!joint.mismatch_reason.empty())
+            out += " Another joint, so there are no errors: " + joint.mismatch_reason + ".";
     }
     return out;
 }

@@ -37,7 +37,7 @@ void put_heading(std::string& out, const analysis::SessionData& s, std::size_t i
         put(out,
             "<div class=\"banner\" role=\"note\"><strong>This session was cut short.</strong> It was "
             "recorded for {}; the results are those known at that moment.</div>\n",
-            plot::duration_text(s.recorded));
+            plot::duration_text(s.recorded_duration));
     else if (!s.finished)
         put(out,
             "<div class=\"banner\" role=\"note\"><strong>The lesson was not finished.</strong> Some steps "
@@ -47,10 +47,10 @@ void put_heading(std::string& out, const analysis::SessionData& s, std::size_t i
     if (s.header.hand == hand::Side::left) out += plot::fact("hand", "left");
     out += plot::fact("task", lesson::name(s.header.task));
     out += plot::fact("mode", lesson::name(s.header.mode));
-    if (s.metrics.recorded) {
+    if (s.metrics.has_contacts_and_faults) {
         out += plot::fact("guiding force", s.metrics.guided ? "on" : "off");
         if (s.header.view_help) out += plot::fact("view help", *s.header.view_help ? "on" : "off");
-        out += plot::fact("obstacles", s.metrics.obstacles ? "on" : "off");
+        out += plot::fact("obstacles", s.metrics.has_contact_models ? "on" : "off");
     }
     out += plot::fact("law", joint::name(s.header.law));
     out += plot::fact("variant", s.header.variant);

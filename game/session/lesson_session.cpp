@@ -155,18 +155,18 @@ void lesson_system(const world::WriteHaptics& world, TickContext& tick) {
     lesson::Lesson& lesson = tracker.lesson;
     lesson::observe(lesson, world);
     for (const lesson::LessonEvent& event : lesson.events)
-        tracker.steps_begun += event.kind == lesson::EventKind::step_begin ? 1U : 0U;
+        tracker.expected_checkpoints += event.kind == lesson::EventKind::step_begin ? 1U : 0U;
     const lesson::ToolReading reading = lesson::tool_reading(lesson, world);
     world.only<world::ToolState>().displayed = reading.value;
     world.only<world::ToolState>().target = reading.target;
     const std::uint8_t undone = tick.servo.output.undone;
     if (undone == 0) return;
     const std::uint32_t saved = tick.servo.state.checkpoint_count;
-    const std::uint32_t unsaved = tracker.steps_begun - (saved + undone - 1U);
+    const std::uint32_t unsaved = tracker.expected_checkpoints - (saved + undone - 1U);
     // The last checkpoint belongs to the due step, or to the last step once all are done.
     const std::uint32_t done = lesson.due() == nullptr ? 1U : 0U;
     (void)lesson::undo_steps(lesson, world, undone - 1U + unsaved + done);
-    tracker.steps_begun = saved;  // the last one is that of the step that is due again
+    tracker.expected_checkpoints = saved;  // the last one is that of the step that is due again
 }
 
 LessonSession::~LessonSession() = default;

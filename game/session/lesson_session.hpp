@@ -90,7 +90,7 @@ struct LessonTracker {
     // equals servo::State::checkpoint_count. With a station it is greater by one for a few ticks, until the
     // station has saved the newest checkpoint. An undo in these ticks therefore restores the checkpoint
     // before it.
-    std::uint32_t steps_begun = 0;
+    std::uint32_t expected_checkpoints = 0;
 };
 
 // The input of the systems of a tick besides the world.
@@ -151,7 +151,7 @@ class LessonSession {
     // has begun whose checkpoint is not saved yet. A caller of repeat() sends the station one
     // station::SaveCheckpoint whenever the number rises; tick() does it itself.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
-        return checkpoints_saved_ + tracker_.steps_begun - session_setup_.state.checkpoint_count;
+        return checkpoints_saved_ + tracker_.expected_checkpoints - session_setup_.state.checkpoint_count;
     }
     // The number of checkpoints saved since the beginning; undo does not reduce it.
     [[nodiscard]] std::uint32_t checkpoints_saved() const { return checkpoints_saved_; }

@@ -40,7 +40,7 @@ TickRecord make_record(const servo::TickInput& input, const servo::Output& outpu
     record.commanded_tool = input.commanded_tool;
     record.grip = static_cast<std::uint8_t>(input.grip);
     record.flags = static_cast<std::uint8_t>(
-        (input.dead_man ? flag_dead_man : 0) | (input.fresh ? 0 : flag_silent) |
+        (input.dead_man ? flag_dead_man : 0) | (input.fresh ? 0 : flag_no_sample) |
         (input.stop ? flag_stop : 0) | (input.reset ? flag_reset : 0) | std::min<int>(input.missed, 15) << 4);
     record.guide = input.guide;
     for (int i = 0; i < 3; ++i) {
@@ -67,7 +67,7 @@ servo::TickInput input_of(const TickRecord& record) {
     input.commanded_tool = record.commanded_tool;
     input.grip = static_cast<servo::Grip>(record.grip);
     input.dead_man = (record.flags & flag_dead_man) != 0;
-    input.fresh = (record.flags & flag_silent) == 0;
+    input.fresh = (record.flags & flag_no_sample) == 0;
     input.stop = (record.flags & flag_stop) != 0;
     input.reset = (record.flags & flag_reset) != 0;
     input.missed = static_cast<std::uint8_t>(record.flags >> 4);

@@ -48,7 +48,7 @@ inline constexpr std::size_t max_fixed = 33766, max_nuts = 31768;
 
 // Bits of `flags`: the dead-man switch is held; no new sample of the device arrived; the emergency stop is
 // pressed; the reset that releases it is pressed. The upper four bits of `flags` count missed deadlines.
-inline constexpr std::uint8_t flag_dead_man = 1, flag_silent = 2, flag_stop = 4, flag_reset = 8;
+inline constexpr std::uint8_t flag_dead_man = 1, flag_no_sample = 2, flag_stop = 4, flag_reset = 8;
 
 TickRecord make_record(const servo::TickInput& input, const servo::Output& output);
 servo::TickInput input_of(const TickRecord& record);

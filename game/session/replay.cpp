@@ -133,8 +133,8 @@ Result<RecordedHand> replay_device(const SessionReader& session) {
     BOLT_TRY(session.for_each_chunk([&](std::uint64_t first, std::span<const TickRecord> ticks) {
         for (std::size_t i = 0; i < ticks.size(); ++i) {
             const TickRecord& tick = ticks[i];
-            if ((tick.flags & flag_silent) != 0) continue;
-            const std::uint32_t buttons = ((tick.flags & flag_dead_man) != 0 ? button_held : 0) |
+            if ((tick.flags & flag_no_sample) != 0) continue;
+            const std::uint32_t buttons = ((tick.flags & flag_dead_man) != 0 ? button_dead_man : 0) |
                                           ((tick.flags & flag_stop) != 0 ? button_stop : 0) |
                                           ((tick.flags & flag_reset) != 0 ? button_reset : 0);
             samples->push_back({tick.commanded_tool, buttons, first + i});

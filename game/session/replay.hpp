@@ -49,7 +49,7 @@ struct RecordedHand {
 };
 
 // Bits of the recorded device's buttons: dead-man switch, emergency stop, and the reset that releases it.
-inline constexpr std::uint32_t button_held = 1, button_stop = 2, button_reset = 4;
+inline constexpr std::uint32_t button_dead_man = 1, button_stop = 2, button_reset = 4;
 
 // Reads the whole session into memory, 40 bytes for each tick. Fails if it is damaged or has no tick with
 // a fresh sample.

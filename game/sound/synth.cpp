@@ -77,7 +77,7 @@ namespace {
 
 // Levels, of full scale, before the limiter. Chosen from the waveforms of lessons.
 constexpr double strike_level = 0.55, scrape_gain = 0.5, run_level = 0.06, run_pulse_level = 0.08,
-                 groan_level = 0.2, click_level = 0.5, slip_level = 1.2, crackle_level = 0.04,
+                 creep_level = 0.2, click_level = 0.5, slip_level = 1.2, crackle_level = 0.04,
                  tooth_level = 0.08, bell_level = 0.16, gong_level = 0.22;
 
 constexpr double smoothing_time = 4e-3, crackle_time = 25e-3;  // s
@@ -112,7 +112,7 @@ constexpr ResonatorMode casing_modes[] = {{173, 0.05, 1.0}, {291, 0.04, 0.9},   
 // A nut on its bolt: high and short.
 constexpr ResonatorMode nut_modes[] = {{2870, 0.02, 1.0}, {4330, 0.015, 0.7}, {6120, 0.01, 0.4}};
 // Joint and wrench together, excited while the bolt is being stretched.
-constexpr ResonatorMode groan_modes[] = {
+constexpr ResonatorMode creep_modes[] = {
     {187, 0.03, 1.0}, {311, 0.025, 0.8}, {534, 0.015, 0.6}, {905, 0.01, 0.3}};
 constexpr ResonatorMode ratchet_modes[] = {{1860, 0.012, 0.8}, {3170, 0.01, 1.0}, {4720, 0.006, 0.6}};
 // Chimes: two notes a fifth apart, and a low one. They are unlike any sound of steel.
@@ -207,10 +207,10 @@ double creep(Synth& s) {
             s.stuck_angle = 0.0;
             const double angle = stick_angle + extra_stick_angle * std::min(1.0, load) * s.noise.uniform();
             s.release_angle = std::max(angle, speed / max_slips);
-            hit(s.groan_pulses, groan_level * square(load) * s.noise.uniform(0.5, 1.0), 0.8e-3, s.rate);
+            hit(s.creep_pulses, creep_level * square(load) * s.noise.uniform(0.5, 1.0), 0.8e-3, s.rate);
         }
     }
-    return s.groan.next(s.groan_pulses.next());
+    return s.creep.next(s.creep_pulses.next());
 }
 
 // Noise of steel that is scraped off the nut's corners.
@@ -238,7 +238,7 @@ Synth make_synth(const servo::Setup& setup, int rate, std::uint64_t seed) {
     s.wrench = make_wrench(setup.wrench, s.rate);
     s.casing = {casing_modes, s.rate};
     s.nut = {nut_modes, s.rate};
-    s.groan = {groan_modes, s.rate};
+    s.creep = {creep_modes, s.rate};
     s.ratchet = {ratchet_modes, s.rate};
     s.bell = {bell_modes, s.rate};
     s.second_bell = {second_bell_modes, s.rate};

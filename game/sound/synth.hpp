@@ -112,10 +112,10 @@ struct Synth {
     double crackle_decay = 0.0;  // factor per sample
     Random noise{1};
 
-    // Struck bodies, and `groan` for creep, `ratchet` for clicks and teeth, the bells for `done`, `gong` for
-    // `mistake`; each with the force pulses that excite it.
-    ResonatorBank wrench, casing, nut, groan, ratchet, bell, second_bell, gong;
-    ForcePulses wrench_pulses, casing_pulses, nut_pulses, groan_pulses, ratchet_pulses, bell_pulses,
+    // Struck bodies, and `creep` for the stick-slip, `ratchet` for clicks and teeth, the bells for `done`,
+    // `gong` for `mistake`; each with the force pulses that excite it.
+    ResonatorBank wrench, casing, nut, creep, ratchet, bell, second_bell, gong;
+    ForcePulses wrench_pulses, casing_pulses, nut_pulses, creep_pulses, ratchet_pulses, bell_pulses,
         second_bell_pulses, gong_pulses;
 
     SmoothedValue slide_speed, contact_force;

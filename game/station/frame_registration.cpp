@@ -64,7 +64,7 @@ Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, cont
     one.pose = aligned.pose;
     one.points = static_cast<int>(fitted.size());
     one.rms = aligned.rms;
-    one.largest_left_out = largest(measured.leave_one_out);
+    one.largest_left_out = largest_residual(measured.leave_one_out);
     one.check_point = pairs.back();
     measured.check_error = content::check_error(one).value_or(0.0);
     return measured;

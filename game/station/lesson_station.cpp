@@ -76,12 +76,13 @@ class FrameSteppedStation final : public SteppedStation {
     }
 
     void set_hand_motion(const device::HandMotion& motion) override { arm_.set_motion(motion); }
-    void change_arm(const device::Description& arm, bool absolute) override {
+    void change_arm(const device::Description& arm, bool returns_offset) override {
         // The arms differ in what they sense, not in their limits, so the setup of the servo stays valid.
         device::Description changed = arm;
         changed.limits = layout_.mover->limits;
         layout_.mover = std::move(changed);
-        layout_.workspace.return_time = absolute ? return_time_ : std::numeric_limits<double>::infinity();
+        layout_.workspace.return_time =
+            returns_offset ? return_time_ : std::numeric_limits<double>::infinity();
         state_.gripper = {};
     }
     void step(double seconds) override {

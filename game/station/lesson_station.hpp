@@ -36,9 +36,9 @@ class LessonStation {
     virtual void set_puck_input(const device::PuckInput& /*input*/) {}
     virtual void set_hand_motion(const device::HandMotion& /*motion*/) {}
     // From now on another hand moves the simulated arm: `arm` as in start_frame_stepped_station().
-    // `absolute`: an offset between tool and hand decays to 0; false: it remains. Ignored by stations on
-    // threads.
-    virtual void change_arm(const device::Description& /*arm*/, bool /*absolute*/) {}
+    // `returns_offset`: an offset between tool and hand decays to 0; false: it remains. Ignored by stations
+    // on threads.
+    virtual void change_arm(const device::Description& /*arm*/, bool /*returns_offset*/) {}
     // Call once a frame with the time since the last one, s. Runs the ticks of that time if the station has
     // no threads.
     virtual void step(double /*seconds*/) {}

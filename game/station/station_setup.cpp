@@ -336,7 +336,7 @@ device::WheelConfig apply_station(const content::StationFile& station, PlannedSt
     if (is_mover_of(station, selection)) {
         const content::StationMover& arm = *station.arm;
         options.workspace = {content::orientation_of(arm.mounting), arm.scale, arm.power_ratio};
-        options.mover_limits = arm.limits;
+        options.mover_limit_bounds = arm.limits;
         options.mover_buttons = arm.buttons.value_or(options.mover_buttons);
     }
     if (!station.wheel || !selection.wheel || selection.wheel->id != station.wheel->device) return {};

@@ -152,7 +152,7 @@ Status Participation::complete() {
         return incomplete("an item is not answered", "an answer, or the choice not to answer");
     if (is_lesson(step.kind)) {
         const bool trained =
-            step.kind == StudyStepKind::training && progress_.training >= study_->training->duration;
+            step.kind == StudyStepKind::training && progress_.training_seconds >= study_->training->duration;
         if (!trained) return incomplete("the lesson is not finished", "a lesson to its end");
     }
     if (remaining_wait() > 0.0)
@@ -224,7 +224,7 @@ Status Participation::end_lesson(const std::map<std::string, double>& measures) 
                            {},
                            std::isfinite(value) ? std::optional(value) : std::nullopt});
     const auto duration = measures.find("duration_s");
-    const double trained = progress_.training + (duration == measures.end() ? 0.0 : duration->second);
+    const double trained = progress_.training_seconds + (duration == measures.end() ? 0.0 : duration->second);
     if (step.kind != StudyStepKind::training || trained >= study_->training->duration)
         entries.push_back({JournalKind::step_done, 0, step.id, {}, {}, std::nullopt});
     return append(std::move(entries));

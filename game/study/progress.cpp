@@ -131,7 +131,7 @@ Progress progress_of(std::span<const JournalEntry> entries, bool simulated) {
                     progress.training_lessons.back()[entry.item] = *entry.value;
                 }
                 if (entry.step == "training" && entry.item == "duration_s")
-                    progress.training += entry.value.value_or(0.0);
+                    progress.training_seconds += entry.value.value_or(0.0);
                 break;
             case JournalKind::step_done:
                 progress.done.emplace(entry.step, entry.time);

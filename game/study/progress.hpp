@@ -68,7 +68,7 @@ struct Progress {
     std::vector<std::string> continued;
     std::size_t interrupted_lessons = 0;  // each counted once
     std::string comment;
-    double training = 0.0;                                        // s in finished lessons of the training
+    double training_seconds = 0.0;                                // in finished lessons of the training
     std::vector<std::map<std::string, double>> training_lessons;  // the measures of each of them
     // Times of the first and of the last entry, s since 1970-01-01 UTC.
     std::int64_t begun = 0, latest = 0;

@@ -40,7 +40,7 @@ void put_training(std::string& out, const content::Study& study, const StudyData
     if (!study.training) return;
     std::vector<double> minutes;
     for (const ParticipantState& state : data.participants)
-        if (state.progress.training > 0.0) minutes.push_back(state.progress.training / 60.0);
+        if (state.progress.training_seconds > 0.0) minutes.push_back(state.progress.training_seconds / 60.0);
     const std::string planned = plot::duration_text(study.training->duration);
     if (minutes.empty())
         put(out, "A training of {} before the first condition was planned; nobody has trained yet. ",

@@ -221,9 +221,9 @@ ToolModelParts ratchet_handle_parts(const RatchetHead& head, double drive, int t
         HandleSection at;
         at.x = 0.55 * radius + (grip_from + 2.0 - 0.55 * radius) * t;
         at.z = z;
-        at.half = radius * (0.52 + 0.3 * square(square(1.0 - t))) - 0.08 * radius * std::sin(pi * t);
-        at.high = 0.5 * high * (0.62 + 0.25 * square(1.0 - t));
-        at.edge = 0.55 * std::min(at.half, at.high);
+        at.half_width = radius * (0.52 + 0.3 * square(square(1.0 - t))) - 0.08 * radius * std::sin(pi * t);
+        at.half_height = 0.5 * high * (0.62 + 0.25 * square(1.0 - t));
+        at.edge = 0.55 * std::min(at.half_width, at.half_height);
         neck.push_back(at);
     }
     parts.push_back({"neck", Finish::chrome_vanadium, {handle_shell(neck, detail)}});
@@ -242,8 +242,8 @@ ToolModelParts ratchet_handle_parts(const RatchetHead& head, double drive, int t
     parts.push_back({"grip", Finish::rubber, {moved(lathe_x(grip, fine ? 48 : 16), [z](const Vec3& q) {
                          return q + Vec3(0.0, 0.0, z);
                      })}});
-    add_text(parts, fmt::format("{}", teeth), 0.7 * neck[neck.size() / 2].half, 0.3 * end,
-             z + neck[neck.size() * 3 / 5].high - 0.05, detail);
+    add_text(parts, fmt::format("{}", teeth), 0.7 * neck[neck.size() / 2].half_width, 0.3 * end,
+             z + neck[neck.size() * 3 / 5].half_height - 0.05, detail);
     return parts;
 }
 

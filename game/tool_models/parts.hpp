@@ -39,13 +39,13 @@ Shell open_end_shell(const OpenEndHead& head, double edge, Detail detail);  // `
 
 // A handle in the plane y = 0 as a row of cross-sections with rounded edges.
 struct HandleSection {
-    double x = 0.0, z = 0.0;        // middle of the section
-    double slope = 0.0;             // rad, of the handle above +X
-    double half = 0.0, high = 0.0;  // half the width and half the height
-    double edge = 0.0;              // radius of the edges
-    double end_angle = 0.0;         // direction of a round end's outline: 0 at its side, pi/2 at its tip
-    // Half the width, and the depth, of the hollows in the upper and the lower face.
-    double hollow = 0.0, deep = 0.0;
+    double x = 0.0, z = 0.0;  // middle of the section
+    double slope = 0.0;       // rad, of the handle above +X
+    double half_width = 0.0, half_height = 0.0;
+    double edge = 0.0;       // radius of the edges
+    double end_angle = 0.0;  // direction of a round end's outline: 0 at its side, pi/2 at its tip
+    // The hollows in the upper and the lower face.
+    double hollow_half_width = 0.0, hollow_depth = 0.0;
 };
 Shell handle_shell(const std::vector<HandleSection>& sections, Detail detail);
 

@@ -59,8 +59,8 @@ ToolModelPart insert_part(const OpenEndHead& head, double end, Detail detail) {
         HandleSection at;
         at.x = from + (end + 6.0 - from) * i / steps;
         const double spread = std::max(0.0, 1.0 - (at.x - from) / (head.radius + 6.0 - from));
-        at.half = half + (std::min(0.75 * head.radius, half + 8.0) - half) * square(spread);
-        at.high = 0.5 * head.thickness - 0.15;
+        at.half_width = half + (std::min(0.75 * head.radius, half + 8.0) - half) * square(spread);
+        at.half_height = 0.5 * head.thickness - 0.15;
         at.edge = edge;
         shank.push_back(at);
     }

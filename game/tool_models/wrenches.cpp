@@ -109,16 +109,16 @@ Shell handle_shell(const std::vector<HandleSection>& sections, Detail detail) {
         const double e = s.edge, c = std::cos(s.end_angle), b = std::sin(s.end_angle);
         for (int i = 0; i <= steps; ++i) {
             const double angle = 0.5 * pi * i / steps, in = e * (1.0 - std::cos(angle));
-            quarter.push_back({s.half - in * c, s.high - e * (1.0 - std::sin(angle)), in * b});
+            quarter.push_back({s.half_width - in * c, s.half_height - e * (1.0 - std::sin(angle)), in * b});
         }
         const double flat = quarter.back().side;
-        const double rim = std::min(s.hollow > 0.0 ? s.hollow : flat, 0.92 * flat);
-        const double slope = std::min(1.5 * s.deep + 0.2 * rim, 0.5 * rim);
+        const double rim = std::min(s.hollow_half_width > 0.0 ? s.hollow_half_width : flat, 0.92 * flat);
+        const double slope = std::min(1.5 * s.hollow_depth + 0.2 * rim, 0.5 * rim);
         constexpr struct {
             double out, down;
         } bowl[] = {{0.0, 0.0}, {0.2, 0.12}, {0.5, 0.5}, {0.8, 0.88}, {1.0, 1.0}};
         for (const auto& [out, down] : bowl)
-            quarter.push_back({rim - out * slope, s.high - down * s.deep, e * b});
+            quarter.push_back({rim - out * slope, s.half_height - down * s.hollow_depth, e * b});
         Loop loop;
         const double along_x = std::cos(s.slope), along_z = std::sin(s.slope);
         const auto add = [&](const SectionPoint& q, double side, double up) {
@@ -139,10 +139,10 @@ void add_round_end(std::vector<HandleSection>& sections, const HandleSection& la
     for (int i = 1; i <= steps; ++i) {
         HandleSection s = last;
         s.end_angle = final_angle * i / steps;
-        s.half = last.half * std::cos(s.end_angle);
-        s.x += std::cos(last.slope) * last.half * std::sin(s.end_angle);
-        s.z += std::sin(last.slope) * last.half * std::sin(s.end_angle);
-        s.hollow = s.deep = 0.0;
+        s.half_width = last.half_width * std::cos(s.end_angle);
+        s.x += std::cos(last.slope) * last.half_width * std::sin(s.end_angle);
+        s.z += std::sin(last.slope) * last.half_width * std::sin(s.end_angle);
+        s.hollow_half_width = s.hollow_depth = 0.0;
         sections.push_back(s);
     }
 }
@@ -212,21 +212,22 @@ std::vector<HandleSection> forged_handle(const ToolParameters& p, double from, d
     for (const double x : xs) {
         HandleSection at;
         at.x = x;
-        at.half = waisted(size.half, x / end);
+        at.half_width = waisted(size.half, x / end);
         if (x < neck_end) {
             const double to_end = neck_end - std::max(x, neck_start);
-            at.half += neck_radius - std::sqrt(square(neck_radius) - square(to_end));
+            at.half_width += neck_radius - std::sqrt(square(neck_radius) - square(to_end));
             if (x < neck_start)
-                at.half = std::min(at.half, 0.96 * std::sqrt(std::max(square(R) - x * x, 1.0)));
+                at.half_width = std::min(at.half_width, 0.96 * std::sqrt(std::max(square(R) - x * x, 1.0)));
         }
         const double thin = smooth_step((x - thick_from) / (thick_to - thick_from));
-        at.high = (1.0 - thin) * 0.95 * head_high + thin * size.high;
-        at.edge = 0.42 * std::min(at.high, size.high);
+        at.half_height = (1.0 - thin) * 0.95 * head_high + thin * size.high;
+        at.edge = 0.42 * std::min(at.half_height, size.high);
         const double inside = std::min(x - hollow_from, hollow_to - x);
         if (fine && inside > 0.0 && length > 4.0 * size.half) {
             const double share = std::min(inside / ramp, 1.0);
-            at.hollow = (at.half - 0.34 * size.half) * std::max(0.25, std::sqrt(1.0 - square(1.0 - share)));
-            at.deep = deep * smooth_step(2.5 * share);
+            at.hollow_half_width =
+                (at.half_width - 0.34 * size.half) * std::max(0.25, std::sqrt(1.0 - square(1.0 - share)));
+            at.hollow_depth = deep * smooth_step(2.5 * share);
         }
         sections.push_back(at);
     }
@@ -295,10 +296,11 @@ ToolModelParts ring_parts(const ToolParameters& p, Detail detail) {
         at.x = x;
         at.z = lift * smooth_step(t);
         at.slope = std::atan(lift / crank * 6.0 * t * (1.0 - t));
-        at.half = half * (1.0 + 0.12 * smooth_step((x - crank_from - crank) / (end - crank_from - crank)) +
-                          0.15 * (1.0 - smooth_step((x - from) / (crank_from + crank - from))));
-        at.high = 0.3 * ring.thickness + (1.35 * size.high - 0.3 * ring.thickness) * smooth_step(t);
-        at.edge = 0.6 * std::min(at.high, at.half);
+        at.half_width =
+            half * (1.0 + 0.12 * smooth_step((x - crank_from - crank) / (end - crank_from - crank)) +
+                    0.15 * (1.0 - smooth_step((x - from) / (crank_from + crank - from))));
+        at.half_height = 0.3 * ring.thickness + (1.35 * size.high - 0.3 * ring.thickness) * smooth_step(t);
+        at.edge = 0.6 * std::min(at.half_height, at.half_width);
         sections.push_back(at);
     }
     const HandleSection last = sections.back();

@@ -265,7 +265,7 @@ void App::draw_screen(const ScreenContext& context) {
     if (in_lesson && tour_) draw_tour(*tour_, *active_, texts, context.size, context.scale);
     if (settings_) {
         const ScreenAction action = settings_->draw(
-            context, preferences_, {active_ && in_lesson, study_.has_value(), room_ && room_->present});
+            context, preferences_, {active_ && in_lesson, study_.has_value(), room_ && room_->has_display});
         apply_preferences();
         perform(action);
     } else if (start_thread_ || arm_screen_.needs.any()) {
@@ -277,7 +277,7 @@ void App::draw_screen(const ScreenContext& context) {
     } else if (in_lesson && active_->clock.paused) {
         const bool lost = missing_headset_.noticed && active_->station && active_->station->tracked;
         perform(draw_pause(context, preferences_, active_->session->lesson().mode,
-                           {lost, room_ && room_->present}));
+                           {lost, room_ && room_->has_display}));
     } else if (in_lesson && in_room()) {
         perform(draw_room_bar(context, {controls_text(room_->controller), !room_->arm,
                                         lesson::needs_second_wrench(active_->session->assembly())}));

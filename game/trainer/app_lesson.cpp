@@ -90,7 +90,7 @@ Result<LessonRequest> App::study_request() {
     choice.mode = settings.mode;
     choice.task = settings.task;
     choice.law = settings.law;
-    if (shown_in_headset() && !(room_ && room_->present))
+    if (shown_in_headset() && !(room_ && room_->has_display))
         return fail(ErrorCode::no_device, "the headset shows nothing", "the headset on and worn");
     choice.equipment = equipment_for(lesson.devices, lesson.hand == "free", choice.equipment);
     use_glove(lesson.glove, choice.equipment);

@@ -170,7 +170,7 @@ void App::follow_touch_check(std::span<const platform::InputEvent> events, doubl
     TouchCheck& touch = *room_->touch;
     active_->clock.paused = true;
     if (settings_ || arm_screen_.needs.any()) {  // another screen covers it
-        touch.held = ~0U;
+        touch.held_buttons = ~0U;
         return;
     }
     const TouchAnswer answer = answer_of(touch, events, enter_answers);
@@ -307,7 +307,7 @@ void App::follow_placement(const view::ImmersiveFrame& immersive,
 // Places workpiece and panel, and adds the input of the hands as events.
 void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
     const view::ImmersiveFrame* immersive = window.immersive;
-    if (room_) room_->plays_in_room = room_->present = false;
+    if (room_) room_->plays_in_room = room_->has_display = false;
     wand_ray_.reset();
     if (immersive == nullptr) {
         pause_unseen(false, false);
@@ -316,7 +316,7 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     }
     if (!room_) room_.emplace();
     RoomState& room = *room_;
-    room.present = true;
+    room.has_display = true;
     // On walls a lesson by mouse is played in the window, and the walls show it.
     const Equipment& equipment = (active_ ? context_->choice : options_.choice).equipment;
     room.plays_in_room = immersive->tracks_hands || !active_ || equipment.has_hardware();

@@ -23,7 +23,7 @@ constexpr float min_run = 2.0F;                       // rad/s
 constexpr float min_load = 0.3F;
 constexpr double creep_for_caption = 0.02;  // rad under load, several stick-slip cycles (sound/synth.cpp)
 constexpr double creep_decay_time = 1.0;    // s
-constexpr double min_duration = 0.15;  // s, after which a lasting sound other than `groan` gets a caption
+constexpr double min_duration = 0.15;  // s, after which a lasting sound other than `creep` gets a caption
 constexpr double decay_rate = 3.0;     // how many times faster progress falls after the sound than it rose
 
 double& of(std::array<double, caption_count>& all, Caption caption) {
@@ -58,7 +58,7 @@ void observe(Captions& captions, const sound::SoundCues& cues, double dt) {
     show_if(captions, Caption::strike_casing, struck && cues.surface == sound::StruckSurface::casing);
     show_if(captions, Caption::strike_nut, struck && cues.surface == sound::StruckSurface::nut);
     const double creep_angle = cues.load > min_load ? static_cast<double>(cues.creep_speed) * dt : 0.0;
-    accumulate(captions, Caption::groan, creep_angle / creep_for_caption, dt / creep_decay_time);
+    accumulate(captions, Caption::creep, creep_angle / creep_for_caption, dt / creep_decay_time);
     observe_lasting(captions, Caption::scrape, cues.slide_speed > min_slide && cues.contact_force > min_press,
                     dt);
     show_if(captions, Caption::tooth, cues.tooth);

@@ -24,7 +24,7 @@ enum class Caption : std::uint8_t {
     done,
     strike_casing,
     strike_nut,
-    groan,   // stick-slip of a loaded nut
+    creep,   // stick-slip of a loaded nut
     scrape,  // the wrench slides on a part
     tooth,   // a ratchet clicks over its teeth
     run      // a free nut runs down
@@ -35,7 +35,7 @@ inline constexpr double caption_duration = 2.0;  // s
 
 struct Captions {
     std::array<double, caption_count> remaining{};  // s for which each is still shown
-    // Progress of a lasting sound towards its caption, 0 … 1: how long it has sounded, or for `groan` how far
+    // Progress of a lasting sound towards its caption, 0 … 1: how long it has sounded, or for `creep` how far
     // the nut has crept. At 1 the caption appears.
     std::array<double, caption_count> progress{};
 };

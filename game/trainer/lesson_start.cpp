@@ -267,7 +267,7 @@ void place_trainee(ActiveLesson& active, const LessonContext& context, float asp
         station.empty_hand_wrist =
             inverse(station.home) * fingers * Pose{open.position[hand::wrist], open.rotation[hand::wrist]};
     }
-    active.view.close_up.enabled = context.options.mode == lesson::Mode::guided;
+    active.view.close_up.wanted = context.options.mode == lesson::Mode::guided;
     active.view.camera.jump(first_view(active, context, aspect));
 }
 

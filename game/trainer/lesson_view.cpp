@@ -90,7 +90,7 @@ render::Eye eye_of(const ActiveLesson& active, float aspect) {
 
 void update_close_up(ActiveLesson& active) {
     CloseUp& close_up = active.view.close_up;
-    const bool allowed = close_up.enabled && !active.clock.finished &&
+    const bool allowed = close_up.wanted && !active.clock.finished &&
                          active.session->lesson().mode != lesson::Mode::assessment;
     close_up.tool = tool_at_work(active);
     const auto joint = allowed ? nut_near(active, close_up.tool) : std::nullopt;
@@ -251,7 +251,7 @@ void view_system(scene::SceneWorld& world, LessonFrame& frame) {
                                                   : Vec3(view::viewpoint_of(active.view.camera.shown).eye));
 
     const bool assists = active.session->lesson().mode != lesson::Mode::assessment;
-    if (frame.input.triggered(Action::close_up)) active.view.close_up.enabled = !active.view.close_up.enabled;
+    if (frame.input.triggered(Action::close_up)) active.view.close_up.wanted = !active.view.close_up.wanted;
     update_close_up(active);
     active.scene.cut_away.strength = 0.0F;
     if (!assists) return;

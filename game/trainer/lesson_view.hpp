@@ -19,7 +19,7 @@ namespace bolt::trainer {
 struct ActiveLesson;
 
 struct CloseUp {
-    bool enabled = false;                         // by the trainee or by the lesson's mode
+    bool wanted = false;                          // by the trainee or by the lesson's mode
     std::optional<std::size_t> joint;             // near the tool; none: no close-up is shown
     bool with_wrench = false;                     // the eye was chosen for the wrench; false: for fingers
     Quat chosen_orientation{1.0, 0.0, 0.0, 0.0};  // of the tool, when the eye was chosen

@@ -66,7 +66,7 @@ struct RoomState {
     bool touch_done = false;          // the check has ended or was skipped since the room's origin moved
     Vignette vignette;
     Pose drawn_scene;                  // pose of the scene's frame in the room, as it was last drawn
-    bool present = false;              // a headset or walls show this frame
+    bool has_display = false;          // a headset or walls show this frame
     bool plays_in_room = false;        // the user plays in the room in this frame; false: in the window
     bool seen = false;                 // the user saw the lesson in the last frame
     bool paused = false;               // the lesson is paused because the user does not see it

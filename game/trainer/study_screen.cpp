@@ -275,7 +275,7 @@ ScreenAction StudyScreen::draw_lesson(const ScreenContext& context, const study:
     if (step.kind == study::StudyStepKind::training) {
         draw_heading(context, context.words["study.training"]);
         draw_wrapped(words::format_text(context.words, "study.trained",
-                                        {{"done", minutes(participation_.progress().training)},
+                                        {{"done", minutes(participation_.progress().training_seconds)},
                                          {"of", minutes(study.training->duration)}}),
                      muted_text);
     } else if (step.kind == study::StudyStepKind::retention) {

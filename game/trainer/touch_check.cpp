@@ -35,8 +35,8 @@ void measure(TouchCheck& check, const std::optional<station::MoverSample>& mover
     if (mover) check.touched.push_back(check.arm_in_room * (mover->pose * check.tip));
     if (mover && (check.shown_for < options.duration || check.touched.size() < options.min_samples)) return;
     const Result<Vec3> mean = station_setup::average_touch(check.touched, options);
-    check.moved = !mover || !mean;
-    if (check.moved) return show_phase(check, TouchPhase::waiting);
+    check.failed_touch = !mover || !mean;
+    if (check.failed_touch) return show_phase(check, TouchPhase::waiting);
     check.error = glm::length(*mean - check.marker);
     show_phase(check, check.error <= max_check_error ? TouchPhase::passed : TouchPhase::failed);
 }
@@ -60,7 +60,7 @@ bool update(TouchCheck& check, const std::optional<station::MoverSample>& mover,
             double seconds) {
     check.shown_for += seconds;
     const std::uint32_t buttons = mover ? mover->buttons : ~0U;
-    const bool pressed = (buttons & ~std::exchange(check.held, buttons)) != 0 && mover;
+    const bool pressed = (buttons & ~std::exchange(check.held_buttons, buttons)) != 0 && mover;
     if (check.phase == TouchPhase::measuring) {
         measure(check, mover);
         return false;
@@ -69,7 +69,7 @@ bool update(TouchCheck& check, const std::optional<station::MoverSample>& mover,
     if (check.phase != TouchPhase::waiting) return true;
     if (!mover) return false;
     check.touched.clear();
-    check.moved = false;
+    check.failed_touch = false;
     show_phase(check, TouchPhase::measuring);
     return false;
 }
@@ -94,7 +94,7 @@ ScreenAction draw_touch_check(const ScreenContext& context, const TouchCheck& ch
     begin_dialog(context, "##touch", 420.0F * context.scale, 0.94F);
     if (asks) {
         draw_wrapped(words["touch.ask"], muted_text);
-        if (check.moved) draw_wrapped(words["touch.moved"], warning_text);
+        if (check.failed_touch) draw_wrapped(words["touch.moved"], warning_text);
     } else if (check.phase == TouchPhase::passed) {
         draw_wrapped(words::format_text(words, "touch.right", {{"error", millimetres(check.error)}}),
                      muted_text);

@@ -29,11 +29,11 @@ struct TouchCheck {
     Vec3 tip{0.0};     // m, in the frame of the arm's handle
 
     TouchPhase phase = TouchPhase::waiting;
-    bool moved = false;         // the last touch failed: the hand moved, or the arm was lost
-    double error = 0.0;         // m, of the result
-    double shown_for = 0.0;     // s for which the phase is shown
-    std::vector<Vec3> touched;  // m, positions of the tip in the room
-    std::uint32_t held = ~0U;  // buttons of the arm that are already held; only another one counts as a press
+    bool failed_touch = false;         // the last touch: the hand moved, or the arm was lost
+    double error = 0.0;                // m, of the result
+    double shown_for = 0.0;            // s for which the phase is shown
+    std::vector<Vec3> touched;         // m, positions of the tip in the room
+    std::uint32_t held_buttons = ~0U;  // of the arm, already held; only another one counts as a press
 };
 
 // True until there is a result.

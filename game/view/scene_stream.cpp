@@ -136,7 +136,7 @@ bool can_be_drawn(const render::Object& object) {
     if (!std::all_of(joints.begin(), joints.end(), is_finite)) return false;
     const render::MeshRange& range = object.model->meshes[object.mesh];
     for (std::uint32_t i = 0; i < range.count; ++i)
-        if (object.model->parts[range.first + i].deformable.joints.size() > joints.size()) return false;
+        if (object.model->parts[range.first + i].deformable.joint_boxes.size() > joints.size()) return false;
     return true;
 }
 

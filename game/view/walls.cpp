@@ -272,8 +272,8 @@ static xr::HandInput hand_of(const head_tracking::Wand& wand) {
     return hand;
 }
 
-Result<ImmersiveFrame> Walls::begin_frame(double seconds) {
-    const tracking::FilteredHead head = head_->at(seconds);
+Result<ImmersiveFrame> Walls::begin_frame(double now) {
+    const tracking::FilteredHead head = head_->at(now);
     const bool fixed = displays_.head.tracker == content::HeadTracker::fixed;
     if (!fixed) log_status(head.status);
     BOLT_TRY_ASSIGN(ImmersiveFrame immersive,

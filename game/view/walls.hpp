@@ -77,9 +77,9 @@ class Walls {
     // of the control window.
     std::vector<platform::InputEvent> poll_events();
 
-    // The next frame: prepares the swapchains, and reads the pose of the head at the time `seconds` of the
+    // The next frame: prepares the swapchains, and reads the pose of the head at the time `now`, s on the
     // steady clock. Group i belongs to wall i; it is empty for a wall of another process.
-    Result<ImmersiveFrame> begin_frame(double seconds);
+    Result<ImmersiveFrame> begin_frame(double now);
     // As above, with a head that another process has read.
     Result<ImmersiveFrame> begin_frame(const Pose& head, bool tracked);
     // Adds the pictures that the renderer has drawn for the frame to `windows`.

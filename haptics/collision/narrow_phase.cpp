@@ -258,13 +258,13 @@ class SurfaceQueryPass {
         }
         const bool outside = lower - accumulated > 0.0;
         std::array<SeparatingPlane, max_planes> planes;
-        if (octree_query.leaf != nullptr && band_ <= octree_query.unlisted) {
+        if (octree_query.leaf != nullptr && band_ <= octree_query.unlisted_distance) {
             if (outside && defer(index, at, octree_query, lower - accumulated, accumulated)) return;
             const std::optional<PointQueryResult> near =
                 query_listed(surface_, octree_, octree_query, at, band_, planes);
             if (near) return store_result(cache, index, at, accumulated, *near, near->distance, planes);
             if (outside) {
-                store_bound(cache, index, at, octree_query.unlisted, accumulated);
+                store_bound(cache, index, at, octree_query.unlisted_distance, accumulated);
                 return;
             }
         }

@@ -406,7 +406,7 @@ std::optional<PointQueryResult> query_listed(const Solid& solid, const TriangleO
         compare(i);
         within = in_float(g.nearest.squared);
     }
-    if (!(g.nearest.squared <= found.unlisted * found.unlisted)) return std::nullopt;
+    if (!(g.nearest.squared <= found.unlisted_distance * found.unlisted_distance)) return std::nullopt;
     const SeparatingPlane first_plane = nearest_plane(g);
     if (leaf.convex) {
         const bool writes_plane = first_plane.distance <= band && !planes.empty();

@@ -282,10 +282,11 @@ OctreeQuery query(const TriangleOctree& octree, const Vec3& point, OctreeCursor&
     const auto distance = static_cast<double>(node->distance);
     OctreeQuery result{distance - displacement, std::abs(distance) + displacement, nullptr, 0.0};
     const Vec3 inward = half - glm::abs(offset);
-    const double unlisted = std::min({inward.x, inward.y, inward.z}) + listing_distance - octree.rounding;
-    result.unlisted = unlisted;
+    const double unlisted_distance =
+        std::min({inward.x, inward.y, inward.z}) + listing_distance - octree.rounding;
+    result.unlisted_distance = unlisted_distance;
     if (node->next == 0) {
-        if (distance > 0.0) result.lower = std::max(result.lower, unlisted);
+        if (distance > 0.0) result.lower = std::max(result.lower, unlisted_distance);
         return result;
     }
     result.leaf = &octree.leaves[static_cast<std::size_t>(-node->next)];
@@ -294,7 +295,8 @@ OctreeQuery query(const TriangleOctree& octree, const Vec3& point, OctreeCursor&
         return result;
     }
     const double above = glm::dot(result.leaf->normal, point) - result.leaf->height;
-    if (result.leaf->front && above > 0.0) result.lower = std::max(result.lower, std::min(above, unlisted));
+    if (result.leaf->front && above > 0.0)
+        result.lower = std::max(result.lower, std::min(above, unlisted_distance));
     return result;
 }
 

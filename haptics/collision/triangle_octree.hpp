@@ -60,7 +60,7 @@ struct OctreeQuery {
     const OctreeLeaf* leaf = nullptr;                              // null: no triangles are listed
     // m; lower bound of the distance to any triangle that `leaf` does not list. Without a leaf it is valid
     // only if the cell has no triangles, not if it has more than max_listed.
-    double unlisted = 0.0;
+    double unlisted_distance = 0.0;
 };
 OctreeQuery query(const TriangleOctree& octree, const Vec3& point);
 
@@ -73,8 +73,8 @@ struct OctreeCursor {
 OctreeQuery query(const TriangleOctree& octree, const Vec3& point, OctreeCursor& last);
 
 // The signed distance and the separating planes of query_point(), from the triangles that `found.leaf` lists.
-// `found.leaf` must not be null. Empty if the nearest listed triangle is further than `found.unlisted`.
-// `band` must not exceed listing_distance.
+// `found.leaf` must not be null. Empty if the nearest listed triangle is further than
+// `found.unlisted_distance`. `band` must not exceed listing_distance.
 std::optional<PointQueryResult> query_listed(const Solid& solid, const TriangleOctree& octree,
                                              const OctreeQuery& found, const Vec3& point, double band,
                                              std::span<SeparatingPlane> planes);

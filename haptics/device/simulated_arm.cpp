@@ -49,7 +49,7 @@ void step(ArmModel& arm, const force::OutputCommand& command, double dt) {
                                            p.angular_damping, p.angular_friction, h);
         arm.pose.position += h * arm.velocity;
         arm.pose.orientation = glm::normalize(rotation(h * arm.angular_velocity) * arm.pose.orientation);
-        arm.energy_out +=
+        arm.energy_to_hand +=
             h * (glm::dot(had.force, arm.velocity) + glm::dot(had.torque, arm.angular_velocity));
     }
 }

@@ -37,7 +37,7 @@ struct ArmModel {
     // m/s and rad/s of the intention. The hand's damper acts on the difference, so that an arm whose
     // intention moves steadily does not lag behind it.
     Vec3 intention_velocity{0.0}, intention_angular_velocity{0.0};
-    double energy_out = 0.0;  // J delivered to the hand: force times motion, integrated every 25 µs
+    double energy_to_hand = 0.0;                 // J: force times motion, integrated every 25 µs
     std::array<force::OutputCommand, 4> sent{};  // the latest commands, newest first
 };
 

@@ -229,7 +229,8 @@ bool advance_pull_point(GuideState& s, const Vec3& tool, double limit, IsSegment
 
 // J stored in the springs at the target. Along the path the force is not a potential.
 double stored_in(const GuidingParameters& g, const GuideState& s, const GuidedTool& tool) {
-    const double aligning = aligning_potential(g.max_torque, s.target.hexagon, tool.jaw, tool.normal);
+    const double aligning =
+        aligning_potential(g.max_torque, s.target.hexagon, tool.head_direction, tool.normal);
     const double distance = glm::length(s.target.point - tool.position);
     return (s.at_end ? s.force_share * guiding_potential(g, distance) : 0.0) + s.torque_share * aligning;
 }
@@ -283,7 +284,7 @@ ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& 
     ForceRequest out;
     out.command.force = s.force;
     out.command.torque =
-        s.torque_share * aligning_torque(g.max_torque, s.target.hexagon, tool.jaw, tool.normal);
+        s.torque_share * aligning_torque(g.max_torque, s.target.hexagon, tool.head_direction, tool.normal);
     out.stored_energy = stored_in(g, s, tool);
     out.injected_energy = out.stored_energy - stored_before + guided_work;
     // Another path is planned after `time_to_replan`.

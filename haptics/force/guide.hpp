@@ -102,11 +102,11 @@ bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegm
 // tool's line of sight and aligns the jaw at the end. The force is continuous: it fades in and out, and
 // target or path change only while the force is zero.
 
-// The tool's jaw in the assembly's frame.
+// The tool's head in the assembly's frame.
 struct GuidedTool {
-    Vec3 position{0.0};          // m
-    Vec3 jaw{1.0, 0.0, 0.0};     // unit, direction that aligns with a flat of the hexagon
-    Vec3 normal{0.0, 0.0, 1.0};  // unit, normal of the jaw's plane
+    Vec3 position{0.0};                  // m
+    Vec3 head_direction{1.0, 0.0, 0.0};  // unit; aligns with a flat of the hexagon
+    Vec3 normal{0.0, 0.0, 1.0};          // unit, normal of the jaw's plane
 };
 
 struct GuideState {

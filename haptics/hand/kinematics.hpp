@@ -47,21 +47,21 @@ struct AngleRange {
 inline constexpr double range_margin = to_radians(10.0);
 
 // The range from `low` to `high`, both in degrees, widened by `range_margin` at both ends.
-constexpr AngleRange degrees(double low, double high) {
+constexpr AngleRange joint_range_deg(double low, double high) {
     return {to_radians(low) - range_margin, to_radians(high) + range_margin};
 }
 
-inline constexpr AngleRange mcp_range = degrees(-45.0, 90.0);
-inline constexpr AngleRange pip_range = degrees(0.0, 110.0);
-inline constexpr AngleRange dip_range = degrees(0.0, 90.0);
-inline constexpr AngleRange abduction_range = degrees(-10.0, 20.0);
-inline constexpr AngleRange thumb_roll_range = degrees(0.0, 90.0);
-inline constexpr AngleRange thumb_abduction_range = degrees(0.0, 60.0);
-inline constexpr AngleRange thumb_mcp_range = degrees(0.0, 50.0);
-inline constexpr AngleRange thumb_ip_range = degrees(-20.0, 80.0);
-inline constexpr AngleRange arch_range = degrees(0.0, 27.0);
-inline constexpr AngleRange wrist_flexion_range = degrees(-70.0, 80.0);
-inline constexpr AngleRange wrist_deviation_range = degrees(-30.0, 20.0);
+inline constexpr AngleRange mcp_range = joint_range_deg(-45.0, 90.0);
+inline constexpr AngleRange pip_range = joint_range_deg(0.0, 110.0);
+inline constexpr AngleRange dip_range = joint_range_deg(0.0, 90.0);
+inline constexpr AngleRange abduction_range = joint_range_deg(-10.0, 20.0);
+inline constexpr AngleRange thumb_roll_range = joint_range_deg(0.0, 90.0);
+inline constexpr AngleRange thumb_abduction_range = joint_range_deg(0.0, 60.0);
+inline constexpr AngleRange thumb_mcp_range = joint_range_deg(0.0, 50.0);
+inline constexpr AngleRange thumb_ip_range = joint_range_deg(-20.0, 80.0);
+inline constexpr AngleRange arch_range = joint_range_deg(0.0, 27.0);
+inline constexpr AngleRange wrist_flexion_range = joint_range_deg(-70.0, 80.0);
+inline constexpr AngleRange wrist_deviation_range = joint_range_deg(-30.0, 20.0);
 
 // Clamps each angle to its range; NaN becomes 0. The abduction range of a finger decreases linearly to zero
 // at 90° of MCP flexion (I. A. Kapandji, The Physiology of the Joints, vol. 1, on the collateral ligaments;

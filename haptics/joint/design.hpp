@@ -173,9 +173,9 @@ struct TorqueLevers {
     double bearing = 0.0;  // μ_K r_b
 
     [[nodiscard]] double friction() const { return thread + bearing; }
-    [[nodiscard]] double tighten() const { return lead + friction(); }
+    [[nodiscard]] double tightening_lever() const { return lead + friction(); }
     // Positive: loosening needs a torque. Negative: the nut loosens by itself.
-    [[nodiscard]] double loosen() const { return -lead + friction(); }
+    [[nodiscard]] double loosening_lever() const { return -lead + friction(); }
 };
 
 TorqueLevers torque_levers(const ScrewThread& thread, double mu_thread, double mu_bearing,

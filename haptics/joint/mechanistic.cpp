@@ -354,7 +354,7 @@ Resistance resistance_together(const MechanisticParameters& p, const Mechanistic
     return r;
 }
 
-double free_closure(const MechanisticParameters& p, const MechanisticState& s, double angle) {
+double closure_at_angle(const MechanisticParameters& p, const MechanisticState& s, double angle) {
     return p.levers.lead * angle - p.start_gap - s.plastic - s.stripped - s.embedding - s.neighbour_closure;
 }
 
@@ -379,7 +379,7 @@ void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn&
         s.stage = Stage::navigation;
         return;
     }
-    SeatSpring::Load load = p.seat.at(free_closure(p, s, angle), s.clamp);
+    SeatSpring::Load load = p.seat.at(closure_at_angle(p, s, angle), s.clamp);
     s.clamp = load.force;
     s.stiffness = load.stiffness;
     Capacity capacity;
@@ -387,12 +387,12 @@ void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn&
     capacity.bolt = p.bolt.at(s.plastic);
     capacity.strip = p.strip_load * std::max(0.0, 1.0 - s.stripped / p.strip_length);
     if (s.clamp > capacity.force()) {
-        const double closure = free_closure(p, s, angle);
+        const double closure = closure_at_angle(p, s, angle);
         flow(p, s, closure, capacity, dt);
-        const double force_change = load.stiffness * (free_closure(p, s, angle) - closure);
+        const double force_change = load.stiffness * (closure_at_angle(p, s, angle) - closure);
         load = s.condition == JointCondition::broken
                    ? SeatSpring::Load{}
-                   : p.seat.at(free_closure(p, s, angle), load.force + force_change);
+                   : p.seat.at(closure_at_angle(p, s, angle), load.force + force_change);
         s.clamp = load.force;
         s.stiffness = load.stiffness;
         capacity.bolt = p.bolt.at(s.plastic);

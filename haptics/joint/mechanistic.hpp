@@ -144,7 +144,7 @@ struct NutTurn {
 // embedding and yield continue at rest. No allocation; cannot fail.
 void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn& turn, double dt);
 
-// The closure x above, m, in this state at this angle.
-double free_closure(const MechanisticParameters& p, const MechanisticState& s, double angle);
+// The closure x above, m, in this state.
+double closure_at_angle(const MechanisticParameters& p, const MechanisticState& s, double angle);
 
 }  // namespace bolt::joint

@@ -33,10 +33,11 @@ double friction_share_of(const Resistance& r, double torque, double speed) {
     return friction > 0.0 ? std::clamp((torque - r.lead_torque) / friction, -1.0, 1.0) : 0.0;
 }
 
-NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const NutDrive& drive, double dt) {
+NutStep step_rigid(const Resistance& resistance, double inertia, NutMotion nut, const NutDrive& drive,
+                   double dt) {
     // A nut that would run down by its own weight is held by the fingers that started it: it rests at zero
     // torque.
-    Resistance r = given;
+    Resistance r = resistance;
     r.tighten = std::max(r.tighten, 0.0);
     r.loosen = std::min(r.loosen, 0.0);
 
@@ -135,9 +136,10 @@ double wound_torque(const NutDrive& drive, double nut_angle) {
     return drive.torque_limit > 0.0 ? std::clamp(torque, -drive.torque_limit, drive.torque_limit) : torque;
 }
 
-NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const NutDrive& drive, double dt) {
-    if (drive.engaged && drive.click.trips()) return step_clicking(given, inertia, nut, drive, dt);
-    return step_rigid(given, inertia, nut, drive, dt);
+NutStep step_nut(const Resistance& resistance, double inertia, NutMotion nut, const NutDrive& drive,
+                 double dt) {
+    if (drive.engaged && drive.click.trips()) return step_clicking(resistance, inertia, nut, drive, dt);
+    return step_rigid(resistance, inertia, nut, drive, dt);
 }
 
 namespace {

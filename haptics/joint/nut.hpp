@@ -86,7 +86,8 @@ struct NutStep {
 // The step is stable if the slope of the resistance is at least −(0.9 inertia/dt² + stiffness), N·m/rad.
 // While a joint is loosened the slope may be lower. The step then uses this bound instead of the slope, and
 // the nut turns less than it should.
-NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const NutDrive& drive, double dt);
+NutStep step_nut(const Resistance& resistance, double inertia, NutMotion nut, const NutDrive& drive,
+                 double dt);
 
 // N·m that the drive applies to a nut at rest at this angle.
 double wound_torque(const NutDrive& drive, double nut_angle);

@@ -356,9 +356,9 @@ Output tick(const Setup& setup, State& state, const TickInput& input, force::IsS
 
 force::GuidedTool guided_tool(const Setup& setup, const ToolPose& tool) {
     const Vec3 across = glm::cross(tool.normal, tool.handle);
-    const Vec3 jaw =
+    const Vec3 head_direction =
         std::cos(setup.wrench.head_angle) * tool.handle + std::sin(setup.wrench.head_angle) * across;
-    return {tool.position, jaw, tool.normal};
+    return {tool.position, head_direction, tool.normal};
 }
 
 force::GuideTarget guide_target(const Setup& setup, std::span<const joint::JointState> joints, int joint) {

@@ -97,12 +97,12 @@ collision::ContactQueryResult find_grip_contacts(const Setup& setup, const ToolC
     for (std::size_t i = 0; i < contact.shapes.size(); ++i) {
         if (contact.shape_solids[i].empty()) continue;
         const NutGeometry& nut = setup.nuts[i];
-        const bool in_tool = static_cast<int>(i) == contact.joint_in_tool;
+        const bool at_head = static_cast<int>(i) == contact.joint_at_head;
         const Pose nut_frame =
-            in_tool ? pose_in_tool(setup, nut, contact.nut_poses[i], pose) : contact.nut_poses[i];
+            at_head ? pose_in_tool(setup, nut, contact.nut_poses[i], pose) : contact.nut_poses[i];
         const std::size_t count =
             collision::grip_contacts(query_of(setup, contact, i, band), pose, nut_frame, contacts);
-        if (in_tool)
+        if (at_head)
             collision::remove_axial_moment(nut_frame.position, nut.axis, std::span(contacts).first(count));
         for (std::size_t k = 0; k < count; ++k) {
             collision::Contact& c = contacts[k];
@@ -237,7 +237,7 @@ void use_tool(ToolContact& contact, std::size_t from, std::size_t to) {
     swap_in(contact, from);
     swap_in(contact, to);
     contact.cache.nuts_unchanged = contact.cache.meshes_unchanged = false;
-    contact.joint_in_tool = -1;
+    contact.joint_at_head = -1;
     contact.in_hand = false;
 }
 
@@ -274,13 +274,14 @@ force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& commanded_tool,
                                       bool held, int engaged_joint) {
     update_nut_poses(setup, contact, joints, held);
-    const int in_tool_before = contact.joint_in_tool;
+    const int joint_at_head_before = contact.joint_at_head;
     if (engaged_joint >= 0)
-        contact.joint_in_tool = engaged_joint;
-    else if (contact.joint_in_tool >= 0 &&
-             (!held || head_is_clear(setup, contact, static_cast<std::size_t>(contact.joint_in_tool))))
-        contact.joint_in_tool = -1;
-    contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && contact.joint_in_tool == in_tool_before;
+        contact.joint_at_head = engaged_joint;
+    else if (contact.joint_at_head >= 0 &&
+             (!held || head_is_clear(setup, contact, static_cast<std::size_t>(contact.joint_at_head))))
+        contact.joint_at_head = -1;
+    contact.cache.nuts_unchanged =
+        contact.cache.nuts_unchanged && contact.joint_at_head == joint_at_head_before;
     if (!held || !contact.in_hand) {
         contact.god_object = proxy::start_god_object(commanded_tool);
         contact.last_step = {};

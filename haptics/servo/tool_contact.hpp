@@ -66,7 +66,7 @@ struct ToolContact {
     std::vector<collision::TurnedShape> shapes;          // by joint: the hexagon or socket that a tool turns
     std::vector<Pose> nut_poses;                         // by joint, in the assembly's frame
     // Joint whose nut the tool's head holds, or has released and is not yet clear of; −1: none.
-    int joint_in_tool = -1;
+    int joint_at_head = -1;
     proxy::GodObjectStep last_step;  // result of the last tick
     ContactCache cache;
     bool in_hand = false;           // the wrench was held in the last tick

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double max_nut_speed = 100.0;               // rad/s; faster is a jump
 constexpr double rest_motion = to_radians(0.02);      // rad; less is rest
-constexpr double rest_time = 0.1;                     // s of rest until a nut counts as stuck
-constexpr double breakaway_motion = to_radians(0.1);  // rad by which a stuck nut breaks away
+constexpr double rest_time = 0.1;                     // s without motion until a nut is at rest
+constexpr double breakaway_motion = to_radians(0.1);  // rad by which a resting nut breaks away
 constexpr double yield_pause = 0.3;                   // s without yield until its cue may be given again
 constexpr double detent_wait = 0.02;                  // s; a late detent would feel like another one
 
@@ -70,17 +70,17 @@ void engage(VibrationState& state, const VibrationOptions& options, const Vibrat
     state.angle = state.rest_angle = input.angle;
     state.share = share_of(input);
     state.growth = state.speed = 0.0;
-    state.detent_angle_at_last_cue = detent_below(options, input.angle);
+    state.last_detent_angle = detent_below(options, input.angle);
     state.rest_since = state.time;
-    state.stuck = false;
+    state.at_rest = false;
 }
 
 void add_detents(VibrationState& state, const VibrationOptions& options, const VibrationInput& input) {
-    const double turned = input.angle - state.detent_angle_at_last_cue;
+    const double turned = input.angle - state.last_detent_angle;
     if (std::abs(turned) < options.detent_angle) return;
     // After a reversal the next detent comes after a whole detent_angle, so that the cue does not repeat at
     // one angle.
-    state.detent_angle_at_last_cue += options.detent_angle * std::trunc(turned / options.detent_angle);
+    state.last_detent_angle += options.detent_angle * std::trunc(turned / options.detent_angle);
     if (input.stage == joint::Stage::navigation) add_event(state, options, VibrationCue::detent);
 }
 
@@ -103,18 +103,18 @@ void add_stage_changes(VibrationState& state, const VibrationOptions& options, c
 
 void add_breakaway(VibrationState& state, const VibrationOptions& options, const VibrationInput& input) {
     const double moved = std::abs(input.angle - state.rest_angle);
-    if (state.stuck && moved > breakaway_motion) {
+    if (state.at_rest && moved > breakaway_motion) {
         const double share = share_of(input);
         if (input.stage != joint::Stage::navigation && share >= options.min_share)
             add_event(state, options, VibrationCue::breakaway, load_scale(options, share));
-        state.stuck = false;
+        state.at_rest = false;
     }
-    if (state.stuck) return;
+    if (state.at_rest) return;
     if (moved > rest_motion) {
         state.rest_angle = input.angle;
         state.rest_since = state.time;
     }
-    state.stuck = state.time - state.rest_since >= rest_time;
+    state.at_rest = state.time - state.rest_since >= rest_time;
 }
 
 // Sets the load pulse.

@@ -104,13 +104,13 @@ struct VibrationState {
     // The nut of the last tick.
     std::int16_t joint = -1;
     joint::Stage stage = joint::Stage::navigation;
-    double angle = 0.0, share = 0.0;        // rad, and |torque| / target
-    double growth = 0.0;                    // 1/s, smoothed rate of `share`
-    double speed = 0.0;                     // rad/s, smoothed
-    double detent_angle_at_last_cue = 0.0;  // rad, multiple of detent_angle
+    double angle = 0.0, share = 0.0;  // rad, and |torque| / target
+    double growth = 0.0;              // 1/s, smoothed rate of `share`
+    double speed = 0.0;               // rad/s, smoothed
+    double last_detent_angle = 0.0;   // rad, multiple of detent_angle
     // rad and s: the nut's angle and the time when it last moved by more than 0.02°.
     double rest_angle = 0.0, rest_since = 0.0;
-    bool stuck = false;  // the nut has stood still for 0.1 s or more
+    bool at_rest = false;  // the nut has stood still for 0.1 s or more
 
     std::int16_t seated_joint = -1;  // joint whose seat cue is not repeated; −1: none
     double seat_angle = 0.0;         // rad, angle of that nut at its seat cue

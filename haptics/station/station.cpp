@@ -104,7 +104,7 @@ Result<DeviceLayout> make_layout(const StationOptions& options, std::optional<de
                                  std::optional<device::Description> wheel) {
     DeviceLayout layout;
     layout.mover = std::move(mover);
-    if (layout.mover) layout.mover->limits = force::lowered(layout.mover->limits, options.mover_limits);
+    if (layout.mover) layout.mover->limits = force::lowered(layout.mover->limits, options.mover_limit_bounds);
     layout.wheel = std::move(wheel);
     layout.mover_buttons = options.mover_buttons;
     layout.wheel_buttons = options.wheel_buttons;

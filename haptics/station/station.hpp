@@ -53,12 +53,12 @@ struct StationOptions {
     device::DeviceFactory mover, wheel;  // empty: no such device
     Buttons mover_buttons, wheel_buttons;
     WorkspaceOptions workspace;
-    force::LimitBounds mover_limits;  // upper bounds on the limits that the mover reports
-    double handle_length = 0.0;       // m, of the wrench
-    Pose home;                        // initial pose of the tool in the assembly's frame
-    std::filesystem::path glove;      // serial port; empty: no glove
-    std::optional<HandSetup> hand;    // wearer of the glove; none: the controls determine the grip
-    double open_timeout = 3.0;        // s, per device, excluding its preparation
+    force::LimitBounds mover_limit_bounds;  // upper bounds on the limits that the mover reports
+    double handle_length = 0.0;             // m, of the wrench
+    Pose home;                              // initial pose of the tool in the assembly's frame
+    std::filesystem::path glove;            // serial port; empty: no glove
+    std::optional<HandSetup> hand;          // wearer of the glove; none: the controls determine the grip
+    double open_timeout = 3.0;              // s, per device, excluding its preparation
     // Called by start(); empty: a device that needs preparation is an error.
     device::PreparationHandler on_preparation;
     device::DeviceThreadOptions device_threads{{}, 70};  // priority below the servo's
@@ -70,8 +70,8 @@ struct StationOptions {
 };
 
 // The layout of these devices: workspace and lever arm from the options, or fitted to the devices. The
-// mover's limits are lowered to `mover_limits` first. Fails if there is no device or a device cannot take its
-// role.
+// mover's limits are lowered to `mover_limit_bounds` first. Fails if there is no device or a device cannot
+// take its role.
 Result<DeviceLayout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
                                  std::optional<device::Description> wheel);
 

@@ -72,7 +72,7 @@ TEST_CASE("Comparison page: a record of another joint has a label and no errors"
         for (double& torque : curve.curve.torque) torque *= 0.02;
     auto joint = analysis::compare_joint("B1", c.joints[0].simulated, small);
     REQUIRE(joint);
-    CHECK(has(joint->other_joint, "differ by a factor of 5"));
+    CHECK(has(joint->mismatch_reason, "differ by a factor of 5"));
     CHECK(joint->errors.all.count == 0);
     c.measured = small;
     c.joints = {*joint};
@@ -90,7 +90,7 @@ TEST_CASE("Comparison page: a record of another joint has a label and no errors"
     asserted.same_joint = true;
     joint = analysis::compare_joint("B1", c.joints[0].simulated, small, asserted);
     REQUIRE(joint);
-    CHECK(joint->other_joint.empty());
+    CHECK(joint->mismatch_reason.empty());
     CHECK(joint->errors.all.count > 0);
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("Comparison page: a joint with another slope has a label and no errors
         for (double& angle : curve.curve.angle) angle *= 1.5;
     auto joint = analysis::compare_joint("B1", ours, softer);
     REQUIRE(joint);
-    CHECK(joint->other_joint ==
+    CHECK(joint->mismatch_reason ==
           "the torque rises in linearity by a factor of 1.51 more steeply than measured; expected at most "
           "1.4 for one joint");
     CHECK(joint->errors.all.count == 0);
@@ -120,7 +120,7 @@ TEST_CASE("Comparison page: a joint with another slope has a label and no errors
     asserted.same_joint = true;
     joint = analysis::compare_joint("B1", ours, softer, asserted);
     REQUIRE(joint);
-    CHECK(joint->other_joint.empty());
+    CHECK(joint->mismatch_reason.empty());
     CHECK(joint->errors.all.count > 0);
 }
 
@@ -130,10 +130,11 @@ TEST_CASE("Comparison page: a joint that keeps its load over three times the ang
     const std::vector<MeasuredCurve> measured{{"1", curve_of(held, 0.0, 120.0, 5.0, Direction::loosen)}};
     const auto joint = analysis::compare_joint("B1", ours, measured);
     REQUIRE(joint);
-    CHECK_MESSAGE(has(joint->other_joint, "falls after the breakaway by a factor of 3."), joint->other_joint);
+    CHECK_MESSAGE(has(joint->mismatch_reason, "falls after the breakaway by a factor of 3."),
+                  joint->mismatch_reason);
     CHECK(joint->errors.all.count == 0);
     const auto same = analysis::compare_joint(
         "B1", ours, {{"1", curve_of(loosening_torque, 0.0, 120.0, 5.0, Direction::loosen)}});
     REQUIRE(same);
-    CHECK_MESSAGE(same->other_joint.empty(), same->other_joint);
+    CHECK_MESSAGE(same->mismatch_reason.empty(), same->mismatch_reason);
 }

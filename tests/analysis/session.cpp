@@ -88,7 +88,7 @@ TEST_CASE("Comparison: a record of another thread has no errors, however equal i
     measured.thread = "M8x1";
     const Result<Comparison> c = analysis::compare(*reader, measured, "");
     REQUIRE_MESSAGE(c, (c ? "" : c.error().message()));
-    CHECK(c->joints[0].other_joint == "the measured thread is M8×1, the joint's M8×1.25");
+    CHECK(c->joints[0].mismatch_reason == "the measured thread is M8×1, the joint's M8×1.25");
     CHECK(c->errors.all.count == 0);
     measured.thread = "M9";
     const Result<Comparison> unknown = analysis::compare(*reader, measured, "");
@@ -106,8 +106,8 @@ TEST_CASE("Comparison: a record of a bolt of another length or class has no erro
         measured.property_class = grade;
         const Result<Comparison> c = analysis::compare(*reader, measured, "");
         if (!c) return c.error().message();
-        CHECK((c->errors.all.count == 0) != c->joints[0].other_joint.empty());
-        return c->joints[0].other_joint;
+        CHECK((c->errors.all.count == 0) != c->joints[0].mismatch_reason.empty());
+        return c->joints[0].mismatch_reason;
     };
     CHECK(why("30", "8.8") == "");
     CHECK(why("45", "") == "the measured bolt is 45 mm long, the joint's 30 mm");

@@ -71,8 +71,8 @@ TEST_CASE("Octree: near the surface a query over a leaf's list equals a full sea
             const auto of_list = query_listed(solid, octree, seen, p, band, listed);
             const PointQueryResult of_search = query_point(solid, p, infinite_distance, band, searched);
             if (!of_list) {
-                REQUIRE(std::abs(of_search.distance) > seen.unlisted - 1e-9);
-                REQUIRE(seen.unlisted > listing_distance - 1e-4);
+                REQUIRE(std::abs(of_search.distance) > seen.unlisted_distance - 1e-9);
+                REQUIRE(seen.unlisted_distance > listing_distance - 1e-4);
                 continue;
             }
             REQUIRE(of_list->distance == of_search.distance);

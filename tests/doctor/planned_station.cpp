@@ -141,7 +141,7 @@ TEST_CASE("Planned station: what a station file says holds for its devices only"
     CHECK(same.options.workspace.scale == 3.0);
     CHECK(same.options.workspace.power_ratio == 0.25);
     CHECK(same.options.mover_buttons == Buttons{4, 8, 16, 32});
-    CHECK(same.options.mover_limits == arm.limits);
+    CHECK(same.options.mover_limit_bounds == arm.limits);
     CHECK(same.options.wheel_buttons == Buttons{2, 0, 1, 0});
     CHECK(config == wheel.config);
 
@@ -149,7 +149,7 @@ TEST_CASE("Planned station: what a station file says holds for its devices only"
     CHECK(other.options.workspace.rotation == Quat(1, 0, 0, 0));
     CHECK(!other.options.workspace.scale);
     CHECK(other.options.mover_buttons == Buttons{});
-    CHECK(other.options.mover_limits == force::LimitBounds{});
+    CHECK(other.options.mover_limit_bounds == force::LimitBounds{});
     CHECK(other.options.wheel_buttons == Buttons{});
     CHECK(usual == device::WheelConfig{});
 }

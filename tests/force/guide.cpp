@@ -166,10 +166,10 @@ TEST_CASE(
     CHECK(glm::length(request.command.force - guiding_force(guiding, hand, Vec3(0.0))) < 1e-12);
     CHECK(request.command.torque == Vec3(0.0));
     GuidedTool near = tool_at(Vec3(0.05, 0, 0));
-    near.jaw = glm::normalize(Vec3(1.0, 0.0, -0.1));
+    near.head_direction = glm::normalize(Vec3(1.0, 0.0, -0.1));
     for (int i = 0; i < 250; ++i) request = guide(guiding, state, near, target, all_free, dt);
-    CHECK(glm::length(request.command.torque -
-                      aligning_torque(guiding.max_torque, target.hexagon, near.jaw, near.normal)) < 1e-12);
+    CHECK(glm::length(request.command.torque - aligning_torque(guiding.max_torque, target.hexagon,
+                                                               near.head_direction, near.normal)) < 1e-12);
     CHECK(request.command.torque.y < 0.0);
 }
 
@@ -344,8 +344,8 @@ TEST_CASE("Guide: the passivity controller does not count guiding work as genera
         }
         CHECK(glm::length(arm.pose.position - target.point) < 1e-3);
         CHECK(glm::length(arm.velocity) < 5e-3);
-        CHECK(arm.energy_out > 0.2);  // the guide does work on the hand
-        CHECK(stage.passivity.removed < 0.15 * arm.energy_out);
+        CHECK(arm.energy_to_hand > 0.2);  // the guide does work on the hand
+        CHECK(stage.passivity.removed < 0.15 * arm.energy_to_hand);
     }
 }
 

@@ -95,12 +95,12 @@ PressResult press_wall(const Scene& scene, const OutputLimits& limits, StoredEne
         ForceRequest request = wall_of(scene, input.pose);
         if (energy == StoredEnergy::omitted) request.stored_energy = 0.0;
         test::step(arm, render(limits, stage, input, request, dt), dt);
-        outcome.greatest_energy = std::max(outcome.greatest_energy, arm.energy_out);
+        outcome.greatest_energy = std::max(outcome.greatest_energy, arm.energy_to_hand);
         const double x = glm::dot(arm.pose.position, scene.way);
         if (t >= 2.6 && t < 2.9) early.add(x);
         if (t >= 3.7 && t < 4.0) late.add(x);
     }
-    outcome.energy = arm.energy_out;
+    outcome.energy = arm.energy_to_hand;
     outcome.early_swing = early.width();
     outcome.late_swing = late.width();
     return outcome;

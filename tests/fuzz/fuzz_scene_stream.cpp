@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace bolt;
     render::GpuModel model;
     model.parts.resize(2);
-    model.parts[1].deformable.joints.resize(2);
+    model.parts[1].deformable.joint_boxes.resize(2);
     model.meshes = {{0, 1}, {1, 1}};
     const render::EnvironmentLight light;
     const view::StreamedModels models{{&model}, &light};

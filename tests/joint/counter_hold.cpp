@@ -54,7 +54,7 @@ bool same(const JointState& a, const JointState& b) {
 TEST_CASE("Counter-hold: torques on the head of an M16 at 206 N·m agree with the reference") {
     JointDesign d = design_with(0.12, CounterHold::second_wrench);
     const TorqueLevers levers = torque_levers(d.thread.thread, 0.12, 0.12, d.bearing_diameter());
-    const double clamp = 206.0 / levers.tighten();
+    const double clamp = 206.0 / levers.tightening_lever();
     const HeldPartTorques torques = held_part_torques(d, clamp);
     CHECK(torques.thread == doctest::Approx(109.0).epsilon(0.01));
     CHECK(torques.friction == doctest::Approx(97.0).epsilon(0.01));

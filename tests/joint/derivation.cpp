@@ -91,7 +91,7 @@ TEST_CASE("Derive: the slopes of the resistance are its derivatives over the ang
         const auto at = [&](double by) {
             MechanisticState t = s;
             t.angle += by;
-            t.clamp = p.seat.at(free_closure(p, t, t.angle)).force;
+            t.clamp = p.seat.at(closure_at_angle(p, t, t.angle)).force;
             return resistance(p, t);
         };
         const double h = 1e-5;

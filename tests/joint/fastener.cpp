@@ -164,6 +164,6 @@ TEST_CASE("Fasteners: the ratio of loosening to tightening torque of M16 is the 
         {0.08, 0.646}, {0.12, 0.749}, {0.14, 0.781}, {0.20, 0.841}, {0.30, 0.891}};
     for (const auto& [mu, ratio] : published) {
         const TorqueLevers levers = torque_levers(m16.thread, mu, mu, D_Km);
-        CHECK(levers.loosen() / levers.tighten() == doctest::Approx(ratio).epsilon(0.01));
+        CHECK(levers.loosening_lever() / levers.tightening_lever() == doctest::Approx(ratio).epsilon(0.01));
     }
 }

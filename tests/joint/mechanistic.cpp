@@ -124,7 +124,7 @@ TEST_CASE(
         const double on = joints[0].torque / joints[0].clamp;
         for (int i = 0; i < 100; ++i) turn_nut(group, joints, 0, joints[0].nut.angle - 1e-4, -1.0, 1e-3);
         const double off = -joints[0].torque / joints[0].clamp;
-        CHECK(on == doctest::Approx(group.joints[0].levers.tighten()).epsilon(1e-9));
+        CHECK(on == doctest::Approx(group.joints[0].levers.tightening_lever()).epsilon(1e-9));
         CHECK(off / on == doctest::Approx(ratio).epsilon(0.01));
     }
 }
@@ -163,7 +163,7 @@ TEST_CASE(
                                    }())
                             .loosen;
     CHECK(rested.loosen / wear > 1.2);
-    CHECK(-rested.loosen > F * p.levers.loosen());
+    CHECK(-rested.loosen > F * p.levers.loosening_lever());
     for (int i = 0; i < 2000; ++i) turn_nut(group, joints, 0, joints[0].nut.angle - 1e-4, -1.0, 1e-3);
     CHECK(joints[0].mechanistic.breakaway < 0.01);
 }

@@ -134,7 +134,7 @@ TEST_CASE("Tapped hole: torque and clamp force obey Motosh with the head's beari
     const GroupParameters group = test::single(design);
     const std::vector<CurveSample> run = torque_angle_curve(group, {.torque = 80.0});
     const double levers =
-        torque_levers(design.thread.thread, 0.12, 0.12, design.bearing_diameter()).tighten();
+        torque_levers(design.thread.thread, 0.12, 0.12, design.bearing_diameter()).tightening_lever();
     const CurveSample& last = run.back();
     CHECK(last.torque >= 80.0);
     CHECK(last.torque / (last.clamp * levers) == doctest::Approx(1.0).epsilon(1e-3));

@@ -18,7 +18,7 @@ bool same(const JointTrack& a, const JointTrack& b) {
     return a.result.torque == b.result.torque && a.result.angle == b.result.angle &&
            a.result.strokes == b.result.strokes && a.mark == b.mark && a.peak_torque == b.peak_torque &&
            a.turned_torque == b.turned_torque && a.begin_angle == b.begin_angle && a.yielded == b.yielded &&
-           a.over_torqued == b.over_torqued && a.done_in_pass == b.done_in_pass;
+           a.over_torque_reported == b.over_torque_reported && a.done_in_pass == b.done_in_pass;
 }
 
 void work(Script& s) {

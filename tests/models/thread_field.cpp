@@ -68,7 +68,7 @@ TEST_CASE("Thread field: the faces cover the cylinder once and leave no side ope
         CAPTURE(d);
         CAPTURE(pitch);
         const ThreadField field = bolt_thread(d, pitch, z0, length);
-        const FieldMesh mesh = polygons(field);
+        const FieldMesh mesh = thread_polygons(field);
         CHECK(open_sides(mesh, field) == 0);
         CHECK(area(mesh) == doctest::Approx(2.0 * pi * (length - z0)).epsilon(1e-9));
     }
@@ -76,7 +76,7 @@ TEST_CASE("Thread field: the faces cover the cylinder once and leave no side ope
 
 TEST_CASE("Thread field: every corner lies on the planes of all its faces, not above the crest") {
     const ThreadField field = bolt_thread(16.0, 2.0, 27.0, 75.0);
-    const FieldMesh mesh = polygons(field);
+    const FieldMesh mesh = thread_polygons(field);
     for (const FieldFace& face : mesh.faces)
         for (const int v : face.corners) {
             const FieldVertex& corner = mesh.vertices[static_cast<std::size_t>(v)];
@@ -88,7 +88,7 @@ TEST_CASE("Thread field: every corner lies on the planes of all its faces, not a
 
 TEST_CASE("Thread field: the check finds a missing face") {
     const ThreadField field = bolt_thread(16.0, 2.0, 27.0, 75.0);
-    FieldMesh mesh = polygons(field);
+    FieldMesh mesh = thread_polygons(field);
     mesh.faces.erase(mesh.faces.begin() + 20);
     CHECK(open_sides(mesh, field) > 0);
 }

@@ -76,7 +76,7 @@ struct Seen {
     std::vector<VertexAttributes> attributes;
 };
 Seen seen(test::Studio& studio, const Object& object, const MeshPart& part) {
-    const DeformPass& pass = studio.renderer().deformed();
+    const DeformPass& pass = studio.renderer().deform_pass();
     const DeformedPart where = pass.parts().at({object.deformation.get(), &part});
     const std::vector<std::byte> bytes = read_back(studio, pass.vertices());
     Seen result{std::vector<glm::vec3>(part.deformable.vertices),

@@ -184,7 +184,7 @@ TEST_CASE("Haptics section: shows all metrics, and names those that an old sessi
     CHECK(markup_fault(page("t", html)) == "");
     CHECK(has("▲ jerked 3 times"));
     CHECK(has("12.0"));
-    session.metrics.recorded = false;
+    session.metrics.has_contacts_and_faults = false;
     html = haptics_section(session);
     CHECK(has("older format"));
     session.metrics = {};

@@ -199,7 +199,7 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
     for (const lesson::Deduction& reason : data.reasons) data.score += reason.points;
     data.complete = !options.cut_short;
     data.finished = !options.cut_short;
-    data.recorded = data.duration = static_cast<double>(session.ticks.size()) * options.dt;
+    data.recorded_duration = data.duration = static_cast<double>(session.ticks.size()) * options.dt;
     return session;
 }
 

@@ -58,7 +58,7 @@ TEST_CASE("Replay device: a recorded hand repeats its motion, grip and release i
     device::DeviceSnapshot snapshot;
     station::DeviceLayout layout;
     layout.mover = hand->description;
-    layout.mover_buttons = {button_held, 0, button_stop, button_reset};
+    layout.mover_buttons = {button_dead_man, 0, button_stop, button_reset};
     layout.home = hand->first;
     const servo::Setup setup = bolt::test::two_joints(station::limits_of(layout));
     station::StationState state = station::initial_state(layout);

@@ -113,7 +113,7 @@ Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputL
         step_god_object(parameters, tool, input.pose, t.scene, dt);
         const ForceRequest request{tool.rendered, stored_energy(parameters.coupling, tool.offset)};
         test::step(arm, render(limits, stage, input, request, dt), dt);
-        outcome.greatest_energy = std::max(outcome.greatest_energy, arm.energy_out);
+        outcome.greatest_energy = std::max(outcome.greatest_energy, arm.energy_to_hand);
         outcome.deepest = std::min(outcome.deepest, clearance(t.scene, tool.constrained_tool));
         outcome.touched = outcome.touched || glm::length(tool.rendered.force) > 0.2;
         const double places[] = {arm.pose.position.z, (arm.pose * Vec3(-0.23, 0, 0)).z};
@@ -122,7 +122,7 @@ Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputL
             if (time >= 4.5) late[i].add(places[i]);
         }
     }
-    outcome.energy = arm.energy_out;
+    outcome.energy = arm.energy_to_hand;
     outcome.early_swing = std::max(early[0].width(), early[1].width());
     outcome.late_swing = std::max(late[0].width(), late[1].width());
     return outcome;

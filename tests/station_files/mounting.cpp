@@ -23,7 +23,7 @@ DeviceLayout layout_of(const content::StationMover& arm, const device::Descripti
                        double handle_length = 0.23) {
     StationOptions options;
     options.workspace = {content::orientation_of(arm.mounting), arm.scale, arm.power_ratio};
-    options.mover_limits = arm.limits;
+    options.mover_limit_bounds = arm.limits;
     options.mover_buttons = arm.buttons.value_or(options.mover_buttons);
     options.handle_length = handle_length;
     options.home = test::with_arm().home;

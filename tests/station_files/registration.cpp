@@ -158,14 +158,14 @@ TEST_CASE("Registration: what an alignment gives is always accepted by the reade
             const Vec3 from(random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2));
             pairs.push_back({from, pose * from + 1e-3 * (trial % 3) * random_direction(random)});
         }
-        const Result<RigidAlignment> aligned = align_points(pairs, any_scale);
+        const Result<RigidAlignment> aligned = align_points(pairs, any_scale_limits);
         if (!aligned) continue;
         Registration one;
         one.date = "2026-03-02T09:15:00Z";
         one.pose = aligned->pose;
         one.points = static_cast<int>(pairs.size());
         one.rms = aligned->rms;
-        one.largest_left_out = largest(leave_one_out_residuals(pairs));
+        one.largest_left_out = largest_residual(leave_one_out_residuals(pairs));
         StationFile station;
         station.registrations.push_back(one);
         const auto again = parse_station(station_json(station), "s.json");

@@ -93,7 +93,7 @@ TEST_CASE("Study results: the methods say what was done, and describe only the t
     CHECK_FALSE(has(text, "Friedman"));
     CHECK_FALSE(has(text, "rank sum"));
     ParticipantState& state = data.participants[0];
-    state.progress.training = 660.0;
+    state.progress.training_seconds = 660.0;
     state.progress.done = {{"end-of-visit", 1000}, {"retention", 1000 + 9 * 86400}};
     text = methods(study, data);
     CHECK(has(text, "1 participant trained for 11.0 min in lessons (planned: 8 min 00 s)"));

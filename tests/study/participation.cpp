@@ -49,7 +49,7 @@ TEST_CASE("Study: the steps are those of the plan, in its order") {
     folder.now += 7 * 86400;
     CHECK(do_all(participation) == std::vector<std::string>{"retention", "retention/paper", "farewell"});
     CHECK(participation.due() == nullptr);
-    CHECK(participation.progress().training == 600.0);
+    CHECK(participation.progress().training_seconds == 600.0);
     const auto conditions = content::conditions_of(study, 0);
     for (const Step& step : participation.steps())
         if (step.kind == StudyStepKind::lesson) CHECK(step.condition == conditions[step.part]);

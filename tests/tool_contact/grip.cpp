@@ -50,7 +50,7 @@ struct Watch {
         const ToolContact& t = *bench.state.tool_contact;
         for (std::size_t i = 0; i < t.shapes.size() && t.in_hand; ++i) {
             Pose to_nut = inverse(t.nut_poses[i]) * t.god_object.constrained_tool;
-            if (static_cast<int>(i) == t.joint_in_tool) {  // beyond the play the hexagon turns with the jaw
+            if (static_cast<int>(i) == t.joint_at_head) {  // beyond the play the hexagon turns with the jaw
                 const NutGeometry& nut = bench.setup.nuts[i];
                 const double play = half_play(bench.setup.wrench, nut.across_flats, 0.0);
                 const double off =

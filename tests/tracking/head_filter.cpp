@@ -105,15 +105,15 @@ TEST_CASE("Head filter: a dropout is held, then faded to the fixed head without 
     run.lose(0.4);
     CHECK(run.head.status == HeadStatus::held);
     CHECK(distance(run.head.pose, still(0.0)) < 1e-12);
-    while (run.now < last + run.with.dropout_time + 0.5 * run.with.fade) run.frame({});
+    while (run.now < last + run.with.dropout_time + 0.5 * run.with.fade_time) run.frame({});
     CHECK(run.head.status == HeadStatus::faded);
     const double way = distance(still(0.0), run.with.fixed_head);
     CHECK(distance(run.head.pose, still(0.0)) == doctest::Approx(0.5 * way).epsilon(0.05));
-    run.lose(0.5 * run.with.fade + 0.1);
+    run.lose(0.5 * run.with.fade_time + 0.1);
     CHECK(distance(run.head.pose, run.with.fixed_head) < 1e-12);
     CHECK(run.head.status == HeadStatus::faded);
-    CHECK(run.largest_step < 1.875 * way / run.with.fade * period * 1.01);  // the peak of a minimum jerk
-    CHECK(run.largest_turn < 1.875 * 0.5 / run.with.fade * period * 1.01);
+    CHECK(run.largest_step < 1.875 * way / run.with.fade_time * period * 1.01);  // the peak of a minimum jerk
+    CHECK(run.largest_turn < 1.875 * 0.5 / run.with.fade_time * period * 1.01);
 }
 
 TEST_CASE("Head filter: a head that returns is approached without a step, at any moment of the dropout") {
@@ -197,7 +197,7 @@ TEST_CASE("Head filter: noise at two places is never accepted as a jump") {
     run.track(run.with.dropout_time - 2.0 * period, noise);
     CHECK(run.head.status == HeadStatus::held);
     CHECK(distance(run.head.pose, last) < 1e-12);
-    run.track(run.with.fade + 0.1, noise);
+    run.track(run.with.fade_time + 0.1, noise);
     CHECK(run.head.status == HeadStatus::faded);
     CHECK(distance(run.head.pose, run.with.fixed_head) < 1e-12);
 }

@@ -66,11 +66,11 @@ TEST_CASE("Captions: a lasting sound has one caption while it lasts; a short bli
     for (int i = 0; i < 90; ++i) observe(captions, groans, dt);  // 0.018 rad
     CHECK(visible_captions(captions).empty());
     for (int i = 0; i < 50; ++i) observe(captions, groans, dt);
-    CHECK(visible_captions(captions) == std::vector{Caption::groan});
+    CHECK(visible_captions(captions) == std::vector{Caption::creep});
     for (int frame = 0; frame < 50; ++frame) {  // five seconds
         for (int i = 0; i < 100; ++i) observe(captions, groans, dt);
         update(captions, 0.1);
-        CHECK(says(captions, Caption::groan));
+        CHECK(says(captions, Caption::creep));
     }
     Captions blips;
     for (int i = 0; i < 5000; ++i) observe(blips, i % 1000 < 50 ? groans : sound::SoundCues{}, dt);
@@ -125,10 +125,10 @@ TEST_CASE("Captions: a played lesson shows exactly the captions of the sounds th
     std::filesystem::remove(file);
     REQUIRE(c.finished());
     CHECK(said.count(Caption::run) == 1);
-    CHECK(said.count(Caption::groan) == 1);
+    CHECK(said.count(Caption::creep) == 1);
     CHECK(said.count(Caption::done) == 1);
     CHECK(before_tightening.count(Caption::run) == 1);
-    CHECK(before_tightening.count(Caption::groan) == 0);
+    CHECK(before_tightening.count(Caption::creep) == 0);
     CHECK(said.count(Caption::slip) == 0);
     CHECK(said.count(Caption::mistake) == 0);
     CHECK(said.count(Caption::click) == 0);

@@ -19,7 +19,7 @@ struct TwoModels {
         rigid.parts.resize(1);
         rigid.meshes = {{0, 1}, {0, 1}};
         skinned.parts.resize(1);
-        skinned.parts[0].deformable.joints.resize(3);
+        skinned.parts[0].deformable.joint_boxes.resize(3);
         skinned.meshes = {{0, 1}};
         streamed = {{&rigid, &skinned}, &light};
     }

@@ -213,7 +213,7 @@ void reset(ServoFixture& servo) {
     servo::ToolContact contact = std::move(*servo.state.tool_contact);
     contact.narrow_phase = collision::make_narrow_phase(contact.world, contact.wrench);
     contact.god_object = {};
-    contact.joint_in_tool = -1;
+    contact.joint_at_head = -1;
     contact.last_step = {};
     contact.in_hand = false;
     contact.touched = {};

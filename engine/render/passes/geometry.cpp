@@ -21,11 +21,11 @@ shared::DeformPart push_constants_of(const MeshPart& part, const Deformation& de
     constants.vertices = deformable.vertices;
     constants.first_vertex = static_cast<std::uint32_t>(part.first_vertex);
     constants.first_influence = deformable.first_influence;
-    constants.skinned = !deformable.joints.empty() && !deformation.joints.empty() ? 1 : 0;
+    constants.skinned = !deformable.joint_boxes.empty() && !deformation.joints.empty() ? 1 : 0;
     constants.first_delta = deformable.first_delta;
     constants.delta_floats = deformable.delta_floats;
     constants.targets =
-        static_cast<std::uint32_t>(std::min(deformable.targets.size(), deformation.weights.size()));
+        static_cast<std::uint32_t>(std::min(deformable.target_boxes.size(), deformation.weights.size()));
     constants.own_normals = deformable.own_normals ? 1 : 0;
     return constants;
 }
@@ -51,10 +51,10 @@ Status DeformPass::plan(PassContext& context, std::vector<Job>& jobs) {
             const MeshPart& part = object.model->parts[i];
             if (part.deformable.vertices == 0 || !planned.insert({deformation, &part}).second) continue;
             Job job{&object, &part, push_constants_of(part, *deformation)};
-            if (job.constants.skinned != 0 && part.deformable.joints.size() > deformation->joints.size())
+            if (job.constants.skinned != 0 && part.deformable.joint_boxes.size() > deformation->joints.size())
                 return fail(ErrorCode::failed,
                             fmt::format("a deformation has {} joints, but a part uses joint {}",
-                                        deformation->joints.size(), part.deformable.joints.size() - 1),
+                                        deformation->joints.size(), part.deformable.joint_boxes.size() - 1),
                             "a joint for each index");
             job.constants.positions = words;
             job.constants.attributes = words + position_words * part.deformable.vertices;

@@ -47,7 +47,7 @@ struct FieldMesh {
 };
 
 // Returns the surface r(θ, z) between the ends as plane polygons.
-FieldMesh polygons(const ThreadField& field);
+FieldMesh thread_polygons(const ThreadField& field);
 
 // Returns θ of a vertex within the range of a sector: sector 1 ends at 2π, not at 0.
 double theta_in_sector(const FieldVertex& vertex, int sector);

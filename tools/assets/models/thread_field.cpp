@@ -159,7 +159,7 @@ double theta_in_sector(const FieldVertex& vertex, int sector) {
     return sector == 1 && vertex.theta < snap ? 2.0 * pi : vertex.theta;
 }
 
-FieldMesh polygons(const ThreadField& field) {
+FieldMesh thread_polygons(const ThreadField& field) {
     const double P = field.pitch, w = field.crest_half_width;
     const double flank = (field.r_crest - field.r_root) * std::tan(field.half_angle);
     const double slope = 1.0 / std::tan(field.half_angle);

@@ -261,7 +261,7 @@ struct RodBuilder {
 }  // namespace
 
 Result<TopoDS_Shape> threaded_rod(const ThreadField& field) {
-    const FieldMesh mesh = polygons(field);
+    const FieldMesh mesh = thread_polygons(field);
     RodBuilder builder{field, mesh, {}, {}, {}, {}};
     builder.build.MakeShell(builder.shell);
     for (const FieldVertex& vertex : mesh.vertices) {

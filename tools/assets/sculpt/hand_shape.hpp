@@ -13,11 +13,11 @@ using namespace hand;  // the joints and their names
 
 // The position of a point relative to a digit.
 struct DigitPosition {
-    double depth = 0.0;    // distance to the digit's skin, negative inside
-    double travel = 0.0;   // m from the first joint (the metacarpal), measured along the bones
-    double height = 0.0;   // −1 on the side of the palm, +1 on the back
-    Vec3 axis{0.0};        // nearest point on the axes of the digit's bones
-    std::size_t bone = 0;  // the bone with that point; 0: metacarpal
+    double depth = 0.0;            // distance to the digit's skin, negative inside
+    double travel = 0.0;           // m from the first joint (the metacarpal), measured along the bones
+    double height = 0.0;           // −1 on the side of the palm, +1 on the back
+    Vec3 nearest_axis_point{0.0};  // on the axes of the digit's bones
+    std::size_t bone = 0;          // the bone with that point; 0: metacarpal
 };
 
 class HandShape {

@@ -44,7 +44,7 @@ std::string JointRooms::fitting_extension(const content::WrenchDesign& design) {
         if (bar <= design.extension) continue;
         longer.extension = bar;
         const ToolGeometry* shape = tools_.generate(longer);
-        if (shape != nullptr && room_of(*shape).enough)
+        if (shape != nullptr && room_of(*shape).is_sufficient)
             return fmt::format("an extension bar of {0:g} mm (\"extension_mm\": {0:g})", bar / mm);
     }
     return {};
@@ -61,7 +61,7 @@ std::string JointRooms::fitting_tool_of_file(std::size_t tool) {
             const bool measures = content::is_torque_wrench(design.kind);
             if (i == tool ||
                 (measures == content::is_torque_wrench(assembly.tools[tool].wrench.kind)) != same_use ||
-                !content::suits(design, joint.design) || !room_of(tools_.shapes()[i]).enough)
+                !content::suits(design, joint.design) || !room_of(tools_.shapes()[i]).is_sufficient)
                 continue;
             names +=
                 fmt::format("{}{}", names.empty() ? "" : " or ", content::in_quotes(assembly.tools[i].name));
@@ -78,7 +78,7 @@ std::string JointRooms::usual_fitting_tool(const content::WrenchDesign& design) 
     for (const content::WrenchDesign& usual : usual_tools(surroundings_.joint().design)) {
         if (usual.kind == design.kind && usual.head == design.head) continue;
         const ToolGeometry* shape = tools_.generate(usual);
-        if (shape != nullptr && room_of(*shape).enough)
+        if (shape != nullptr && room_of(*shape).is_sufficient)
             return fmt::format("{} with a handle of {:.0f} mm, which fits", title_of(usual),
                                usual.handle_length / mm);
     }

@@ -92,8 +92,8 @@ ToolRoom JointSurroundings::room_for(const ToolGeometry& tool) const {
     room.seated = swings_at(room.height);
     if (gap > 1.0 * mm) room.at_start = swings_at(room.height + gap);
     if (room.seated.most() > 0.0) room.obstruction = find_path(tool, room, plain, over);
-    room.enough = is_enough(room.seated, tool) && (!room.at_start || is_enough(*room.at_start, tool)) &&
-                  room.obstruction == no_part;
+    room.is_sufficient = is_enough(room.seated, tool) &&
+                         (!room.at_start || is_enough(*room.at_start, tool)) && room.obstruction == no_part;
     return room;
 }
 

@@ -40,7 +40,7 @@ struct ToolRoom {
     SwingPair seated;
     std::optional<SwingPair> at_start;    // if the thread starts more than 1 mm above the seat
     std::uint32_t obstruction = no_part;  // a part in the path onto the tightened joint
-    bool enough = false;                  // the swings are wide enough, and a path is free
+    bool is_sufficient = false;           // the swings are wide enough, and a path is free
 };
 
 // A joint and the obstacles around it.

@@ -102,7 +102,7 @@ double tapped_limit(const JointTypeKey& type, const joint::ThreadSize& size, con
     }
     engagement *= mm;
     return 0.5 * joint::stripping_forces(size.thread, bolt, *part, engagement).least() *
-           joint::torque_levers(size.thread, friction, friction, bearing).tighten();
+           joint::torque_levers(size.thread, friction, friction, bearing).tightening_lever();
 }
 
 double target_torque(const JointTypeKey& type) {

@@ -19,7 +19,7 @@ void reset_contact(servo::ToolContact& contact, const servo::Setup& setup) {
     contact.god_object = {};
     contact.last_step = {};
     contact.cache = {};
-    contact.joint_in_tool = -1;
+    contact.joint_at_head = -1;
     contact.in_hand = false;
     contact.touched = {};
     servo::set_coupling(setup, contact);
@@ -85,7 +85,7 @@ ArmRig::ArmRig(TightenedAssembly& tightened_assembly, const RigOptions& options)
     inputs.controls.guide = static_cast<std::int16_t>(options.guided_joint);
     arm.parameters = parameters_of(facts, options.hand);
     for (int i = 0; i < 3; ++i) tick();  // the station takes the arm and the wrench
-    arm.energy_out = 0.0;
+    arm.energy_to_hand = 0.0;
     record = {};
     time = 0.0;
 }
@@ -101,8 +101,8 @@ void ArmRig::tick() {
         std::exchange(command, station::step(layout, setup, station, servo, inputs, ++ticks).commands.mover);
     device::step(arm, command, setup.dt);
     time += setup.dt;
-    record.energy = arm.energy_out;
-    record.greatest_energy = std::max(record.greatest_energy, arm.energy_out);
+    record.energy = arm.energy_to_hand;
+    record.greatest_energy = std::max(record.greatest_energy, arm.energy_to_hand);
     record.greatest_force = std::max(record.greatest_force, glm::length(command.force));
     record.greatest_torque = std::max(record.greatest_torque, glm::length(command.torque));
     record.step = std::max(record.step, glm::length(command.force - before.force));

@@ -89,10 +89,10 @@ class SimulatedHand {
     [[nodiscard]] Pose world_pose_of(const ObstaclePart& part, const Pose& tool) const {
         const servo::ToolContact& contact = *state_.tool_contact;
         const Pose pose_of_body = contact.world.bodies[part.body].pose;
-        if (contact.joint_in_tool < 0 ||
-            part.id != collision::ObstacleId::nut(static_cast<std::size_t>(contact.joint_in_tool)))
+        if (contact.joint_at_head < 0 ||
+            part.id != collision::ObstacleId::nut(static_cast<std::size_t>(contact.joint_at_head)))
             return pose_of_body;
-        const servo::NutGeometry& nut = setup_.nuts[static_cast<std::size_t>(contact.joint_in_tool)];
+        const servo::NutGeometry& nut = setup_.nuts[static_cast<std::size_t>(contact.joint_at_head)];
         const double play = servo::half_play(setup_.wrench, nut.across_flats, 0.0);
         const double off =
             collision::head_fit(setup_.wrench.head, servo::shape_of(nut), inverse(pose_of_body) * tool)
