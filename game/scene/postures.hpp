@@ -1,6 +1,7 @@
 // The postures of the hand on the screen for a trainee without a glove, and the effort of this hand. The hand
 // strains and trembles with the torque on the nut, so that a trainee sees a torque that no device renders.
-// Both depend only on the output of the ticks, so a replay shows the same hand.
+// They depend on the output of the ticks and on the place of the shoulder, so a replay shows nearly the same
+// hand: it does not know whether the trainee sits, and its hand does not tremble.
 #pragma once
 
 #include <array>
