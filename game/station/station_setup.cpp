@@ -328,6 +328,13 @@ Status choose_devices(const StationRequest& request, PlannedStation& planned) {
     return {};
 }
 
+// m. The scale of an arm is fitted to it (force::fitted_scale()), so that every tool of the lesson can swing.
+double longest_handle(const servo::Setup& setup) {
+    double longest = setup.wrench.handle_length;
+    for (const servo::LessonTool& tool : setup.tools) longest = std::max(longest, tool.wrench.handle_length);
+    return longest;
+}
+
 }  // namespace
 
 device::WheelConfig apply_station(const content::StationFile& station, PlannedStation& planned) {
@@ -376,7 +383,7 @@ Result<PlannedStation> plan_station(const content::Assembly& assembly, const Sta
         if (initial->contact && request.tightened) session::seat_nuts(setup, *initial->contact);
     }
     planned.obstacles = initial->contact.has_value();
-    planned.options.handle_length = setup.wrench.handle_length;
+    planned.options.handle_length = longest_handle(setup);
     planned.options.home = initial_wrench_pose(setup, initial->contact ? &*initial->contact : nullptr,
                                                request.joint, state.joints[request.joint]);
     planned.options.make_setup = [initial](const force::OutputLimits& limits, double dt) {
@@ -403,7 +410,7 @@ Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
     const auto start = std::make_shared<PreparedLesson>(PreparedLesson{lesson, std::move(prepared), {}});
     planned.obstacles = start->setup.state.tool_contact.has_value();
     planned.options.home = home;
-    planned.options.handle_length = start->setup.setup.wrench.handle_length;
+    planned.options.handle_length = longest_handle(start->setup.setup);
     planned.options.servo.rate = 1.0 / lesson.dt;
     planned.options.make_setup = [start, scale = request.force_scale](const force::OutputLimits& limits,
                                                                       double) {

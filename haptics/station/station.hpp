@@ -54,7 +54,7 @@ struct StationOptions {
     Buttons mover_buttons, wheel_buttons;
     WorkspaceOptions workspace;
     force::LimitBounds mover_limit_bounds;  // upper bounds on the limits that the mover reports
-    double handle_length = 0.0;             // m, of the wrench
+    double handle_length = 0.0;             // m, of the longest tool; fits the scale of an arm
     Pose home;                              // initial pose of the tool in the assembly's frame
     std::filesystem::path glove;            // serial port; empty: no glove
     std::optional<HandSetup> hand;          // wearer of the glove; none: the controls determine the grip

@@ -76,6 +76,14 @@ TEST_CASE(
     CHECK(played.outcome.result.score >= 95.0);
 }
 
+TEST_CASE("Arm lessons: a trainee finishes a pump with tools of five lengths on an arm without torque") {
+    const auto arm = open_haptics_arm();
+    const Played played = play(*arm, "pump-32-160");
+    check(played);
+    CHECK(played.arm.limits.torque == 0.0);
+    CHECK(played.outcome.result.score >= 95.0);
+}
+
 // A mouse moves the hand, and its user corrects what he sees.
 TEST_CASE("Arm lessons: a trainee finishes a nut and a cover on the simulated arm") {
     const Played nut = play(*simulated_arm(), "first-nut");

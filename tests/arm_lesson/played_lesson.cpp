@@ -39,7 +39,8 @@ PlayedLesson::PlayedLesson(HeldArm& arm, const content::Assembly& assembly, sess
     station_ = std::move(*own);
     trainee_.emplace(*trainees::find_profile("expert"), options.seed, station_.setup);
     station::StationOptions planned;
-    planned.handle_length = station_.setup.wrench.handle_length;
+    for (const servo::LessonTool& tool : station_.setup.tools)
+        planned.handle_length = std::max(planned.handle_length, tool.wrench.handle_length);
     planned.home = trainee_->hand();
     auto layout = station::make_layout(planned, *supervisor_->status().description, {});
     REQUIRE(layout);
@@ -126,6 +127,8 @@ void PlayedLesson::tick() {
     while (arm_.timer.now() < now_) serve();
     controls_.grip = intention_.grip;
     controls_.guide = intention_.guide;
+    controls_.tool = intention_.tool_index;
+    controls_.second_wrench = intention_.second_wrench;
     controls_.set_torque = static_cast<float>(lesson::wrench_set_torque(session_->lesson()));
     station::StationInputs inputs;
     mailboxes_.snapshots.update();
