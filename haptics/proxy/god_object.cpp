@@ -44,9 +44,12 @@ struct ConstraintSet {
     void add(const Constraint& row) {
         if (count < rows.size()) rows[count++] = row;
     }
-    // Afterwards no constraint demands a retreat: standing still satisfies all of them.
-    void drop_retreats() {
-        for (Constraint& row : std::span(rows).first(count)) row.slack = std::max(row.slack, 0.0);
+    // Relaxes the constraints that `motion` violates, so that it satisfies them with `margin` (m) to spare.
+    void relax_to(const Twist& motion, double margin) {
+        for (Constraint& row : std::span(rows).first(count)) {
+            const double away = glm::dot(row.normal, motion.linear + glm::cross(motion.angular, row.arm));
+            if (away + row.slack < 0.0) row.slack = margin - away;
+        }
     }
 };
 
@@ -147,9 +150,9 @@ class Stepper {
         Twist motion = wanted;
         if (rows.count > 0) {
             ConstrainedMotion found = constrain_once(wanted, rows);
-            const bool contradict = found.violation > contradiction && current_query_.nearest >= 0.0;
-            if (p_.allows_narrow_gaps && contradict) {
-                rows.drop_retreats();
+            if (p_.allows_narrow_gaps && found.violation > contradiction) {
+                // The motion with the least violation goes to the middle of the gap.
+                rows.relax_to(found.motion, contradiction);
                 found = constrain_once(wanted, rows);
             }
             motion = found.motion;

@@ -59,9 +59,9 @@ struct GodObjectParameters {
     double max_band = 5e-3;        // m, widest band of a query
     double recovery_speed = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
     // A tool nearer to an obstacle than the skin must retreat. Between two obstacles a retreat from both can
-    // be impossible. True: this demand is then dropped, unless the tool penetrates an obstacle. False
-    // (sessions before format 11): the demand remains, the contact forces grow, and their friction holds the
-    // tool.
+    // be impossible. True: the tool then goes to the middle of the gap, and no greater retreat is demanded.
+    // False (sessions before format 11): the demand remains, the contact forces grow, and their friction
+    // holds the tool.
     bool allows_narrow_gaps = true;
     // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The first
     // query of a tick, at the pose where the last tick ended, is free if it searches no further than one

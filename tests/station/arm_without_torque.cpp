@@ -100,7 +100,7 @@ TEST_CASE("An arm without torque: the hand holds the end of the tool in use") {
     longer.wrench.handle_length = 0.35;
     rig.setup.tools.push_back(longer);
     rig.ticks(100);
-    for (const std::uint8_t tool : {1, 0}) {
+    for (const std::uint8_t tool : {std::uint8_t{1}, std::uint8_t{0}}) {
         // The hand lays the tool down and takes the other one.
         rig.inputs.controls.grip = servo::Grip::none;
         rig.ticks(2);
