@@ -52,7 +52,8 @@ struct Specification {
 // A joint under the published law (haptics/joint/published.hpp).
 struct PublishedJoint {
     joint::PublishedParameters law;
-    // The file gives θ_max. Otherwise lesson::apply_law derives it from the nut's start on the thread.
+    // The file gives θ_max, the nut angle of the greatest torque. Otherwise lesson::apply_law derives it from
+    // the nut's start on the thread.
     bool has_theta_max = false;
     // Replaces the joint's specification, except its risk class. None: derived from the law
     // (lesson::apply_law).
@@ -129,7 +130,7 @@ struct WrenchDesign {
     double head_thickness = 0.0;  // m
     double jaw_depth = 0.0;       // m, from the middle of the jaw to its throat
     double jaw_tip = 0.0;         // m, from the middle of the jaw to its tips
-    double head_angle = 0.0;      // rad, between jaw and handle
+    double head_angle = 0.0;      // rad, between jaw and handle; never missing
     double handle_length = 0.0;   // m, from the bolt's axis to the grip
     std::string model;            // path of its .glb; empty: none
     // Click-type torque wrenches only; 0 for other tools.
@@ -147,7 +148,7 @@ double adaptor_ratio(const WrenchDesign& wrench);
 double nominal_size(const WrenchDesign& wrench);
 
 // Returns true if the tool can grip the part of the joint that is turned, and is made for its size. A jaw may
-// be wider than the nut by its play.
+// be wider than the nut by the usual play between the two.
 bool suits(const WrenchDesign& wrench, const joint::JointDesign& joint);
 
 // The name of the tool "tool" of a file. Those of "more_tools" have names of their own.
@@ -214,11 +215,13 @@ struct Assembly {
     std::vector<AssemblyVariant> variants;  // all variants of the file
     std::vector<AssemblyJoint> joints;      // those that the chosen variant works on, in the file's order
     std::vector<Pass> passes;
-    std::vector<Pass>
-        loosening;            // passes of a loosening lesson; empty: one, in the reverse of the last order
-    std::vector<Tool> tools;  // the default one first; a variant with `joints` has only those that turn these
-    std::string tool;         // name of the chosen tool
-    WrenchDesign wrench;      // of the chosen tool
+    // Passes of a loosening lesson. Empty: one pass loosens all joints, in the reverse order of the last of
+    // `passes`.
+    std::vector<Pass> loosening;
+    // The default one first. A variant that chooses joints has only the tools that turn these joints.
+    std::vector<Tool> tools;
+    std::string tool;     // name of the chosen tool
+    WrenchDesign wrench;  // of the chosen tool
     FlangeDesign flange;
     ModelFiles models;
     ModelFiles added_models;  // parts that only the chosen variant shows

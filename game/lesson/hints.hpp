@@ -65,8 +65,8 @@ std::string motion_text(const words::Words& words, const Hint& hint, const Contr
 // The following functions describe, in the trainee's language, which input performs each motion of a hint.
 // The caller names the bound keys and buttons.
 
-// Returns `controls` with `key` as the control of HintMotion::counter_hold. The functions below set that
-// control to the button of the panel, which exists only in a room.
+// Returns `controls` with `key` as the control of HintMotion::counter_hold. Use it at a window: the functions
+// below name a button of the panel for this motion, and a panel exists only in a room.
 ControlNames with_second_wrench(const words::Words& words, ControlNames controls, const std::string& key);
 
 // The helped hand: press on a nut and hold, drag, release. `tool_key` takes the wrench and puts it down.

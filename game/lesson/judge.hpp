@@ -9,8 +9,9 @@
 
 namespace bolt::lesson {
 
-// The display of an electronic torque wrench. `value` is the torque on the nut, N·m on the scale of the
-// wrench; in a step of kind `turn` it is the angle from the mark, degrees. `target` compares it with the
+// The display of an electronic torque wrench. `value` is the torque that the wrench measures, N·m (less than
+// that at the nut if an adaptor lengthens the lever); in a step of kind `turn` it is the angle from the mark,
+// degrees. `target` compares it with the
 // window of the due step. Both have their defaults while the wrench is not on a nut.
 struct ToolReading {
     double value = 0.0;

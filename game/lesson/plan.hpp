@@ -31,8 +31,8 @@ struct LessonStep {
     double angle = 0.0;
 };
 
-// The passes of a loosening lesson: the file's, else one that loosens every joint, in the reverse order of
-// the last pass.
+// The passes of a loosening lesson: those of the assembly file. If it has none, one pass that loosens every
+// joint, in the reverse order of the last tightening pass.
 std::vector<content::Pass> loosening_passes(const content::Assembly& assembly);
 
 // The steps of a lesson, from the passes in their order.

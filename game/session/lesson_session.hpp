@@ -48,7 +48,7 @@ struct LessonOptions {
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     joint::Law law = joint::Law::mechanistic;
-    FormatRules rules;  // those of an older format only in a replay
+    FormatRules rules;  // today's, except in a replay of a session of an older format
     std::uint64_t seed = 1;
     double dt = 0.001;
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).
@@ -65,7 +65,7 @@ struct LessonOptions {
     std::optional<InterruptedLesson> continues;  // none: a lesson from its beginning
 };
 
-// The initial state of a lesson and its servo.
+// A lesson and its servo. LessonSession begins with one from prepare_session() and then advances its state.
 struct SessionSetup {
     content::Assembly assembly;  // with the options' law applied (lesson::apply_law)
     servo::Setup setup;
@@ -83,13 +83,12 @@ Header make_header(const SessionSetup& start, const LessonOptions& options);
 // prepare_session().
 void set_device_limits(const LessonOptions& options, SessionSetup& start);
 
-// A lesson and the ticks that it follows. The session computes them itself, or a station's servo does.
+// A lesson that follows the ticks of a servo, which is that of the session or that of a station.
 struct LessonTracker {
     lesson::Lesson lesson;
-    // Steps begun, minus steps taken back by undo. The servo saves one checkpoint when a step begins, so this
-    // equals servo::State::checkpoint_count. With a station it is greater by one for a few ticks, until the
-    // station has saved the newest checkpoint. An undo in these ticks therefore restores the checkpoint
-    // before it.
+    // Steps that have begun, less those that undo took back. The servo saves a checkpoint when a step begins,
+    // so it has this many (servo::State::checkpoint_count). A station saves the newest one a few ticks later.
+    // An undo in these ticks goes back to the one before it.
     std::uint32_t expected_checkpoints = 0;
 };
 
@@ -147,9 +146,9 @@ class LessonSession {
     // outputs. Fails also if they differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::TickInput& input,
                   const servo::Output& output);
-    // The number of checkpoints that the servo must save in all: checkpoints_saved(), plus one while a step
-    // has begun whose checkpoint is not saved yet. A caller of repeat() sends the station one
-    // station::SaveCheckpoint whenever the number rises; tick() does it itself.
+    // The number of checkpoints that should have been saved by now. It exceeds checkpoints_saved() by one
+    // while the checkpoint of the step that has begun is missing. tick() saves it by itself. A caller of
+    // repeat() must send the station a station::SaveCheckpoint whenever this number rises.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.expected_checkpoints - session_setup_.state.checkpoint_count;
     }
@@ -157,8 +156,8 @@ class LessonSession {
     [[nodiscard]] std::uint32_t checkpoints_saved() const { return checkpoints_saved_; }
     // The tool of the due joint, for servo::TickInput::tool.
     [[nodiscard]] std::uint8_t due_tool() const;
-    // Returns the value of servo::TickInput::checkpoint_action with which an undo goes back to the start of
-    // the due step (`steps` = 0) or of an earlier one; 0: not allowed.
+    // Returns the value of servo::TickInput::checkpoint_action that takes the nuts back to the start of the
+    // due step, or to that of the step `steps` before it. Returns 0 if that is not allowed now.
     [[nodiscard]] std::uint8_t restore_action(std::size_t steps) const;
 
     // In the next tick, returns the nuts and the lesson to the start of the due step (0) or of the step
@@ -180,7 +179,7 @@ class LessonSession {
     }
     [[nodiscard]] bool finished() const { return lesson().due() == nullptr; }
     [[nodiscard]] bool obstacles() const { return session_setup_.state.tool_contact.has_value(); }
-    // Numbered as in servo::Output::touched.
+    // The names of the obstacles that servo::Output::touched can name.
     [[nodiscard]] std::span<const ObstacleName> obstacle_names() const {
         return session_setup_.obstacle_names;
     }

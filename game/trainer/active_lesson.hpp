@@ -89,7 +89,7 @@ struct ActiveLesson {
     std::vector<scene::Postures> postures;  // one for each of servo::Setup::tools
     std::size_t handle_posture_index = 0;   // the posture of the hand on the handle, in Postures::on_handle
     Vec3 shoulder{0.0};                     // m, the trainee's, in the assembly's frame
-    scene::Effort effort;                   // of the hand
+    scene::Effort effort;                   // how hard the drawn hand strains (scene/postures.hpp)
     view::Palette palette;
 
     InputState input;
@@ -107,8 +107,8 @@ struct ActiveLesson {
     std::vector<lesson::LessonEvent> events;  // not logged yet
 };
 
-// The component of the hand. haptic_system writes it in each tick; after the ticks of a frame write_hand()
-// overwrites it with the hand of the mouse or of the station.
+// The component of the hand. In each tick haptic_system writes what the servo knows of it; after the ticks of
+// a frame write_hand() replaces it by the hand of the mouse or of the station, which knows more.
 inline const world::WorkingHand& hand_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::WorkingHand>();
 }
@@ -128,7 +128,7 @@ inline const world::ToolState& tool_state_of(const ActiveLesson& active) {
 struct RoomInput {
     Pose room_in_assembly;             // the room's frame in the assembly's
     Pose head;                         // in the room
-    Quat heading{1.0, 0.0, 0.0, 0.0};  // about the vertical, from the user's frame to the assembly's
+    Quat heading{1.0, 0.0, 0.0, 0.0};  // about the vertical: turns the user's forward to the assembly's frame
     const xr::Hands* hands = nullptr;  // in the room
     std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
 };

@@ -21,25 +21,25 @@ namespace bolt::trainer {
 struct AppOptions {
     LessonChoice choice;
     bool sound = false;
-    bool menu = true;                // false: a lesson starts at once
-    session::LessonOptions lesson;   // those that neither choice nor settings determine
-    std::filesystem::path out;       // folder of the session
-    bool folder_per_lesson = false;  // each lesson gets a folder of its own in `out`
-    // The folder with a settings file for each trainee, and the one file to use instead of it, unless empty.
-    std::filesystem::path settings_folder, settings_file;
+    bool menu = true;                       // false: a lesson starts at once
+    session::LessonOptions lesson;          // those that neither choice nor settings determine
+    std::filesystem::path out;              // folder of the session
+    bool folder_per_lesson = false;         // each lesson gets a folder of its own in `out`
+    std::filesystem::path settings_folder;  // has a settings file for each trainee
+    std::filesystem::path settings_file;    // if not empty, the settings of all trainees
     // The folders of the names and codes, and of the glove calibrations (content::PersonFolders). Without a
     // folder for names each typed name gets a new code.
     std::filesystem::path people_folder, gloves_folder;
-    view::Mirror mirror = view::Mirror::left_eye;  // of a headset in its window, at the start
+    view::Mirror mirror = view::Mirror::left_eye;  // what the window of a headset shows first
     bool first_start = false;                      // the menu offers the tour first
     ComputerCheck::GatherFacts gather_facts = computer::gather_facts;  // tests replace it
     StationFactory start_station = trainer::start_station;
 
-    // Called with the folder of a lesson when it starts. Removes the files of an earlier lesson, such as its
-    // report, that do not describe the new session.
+    // Called with the folder of a lesson when it starts. It should remove the files of an earlier lesson,
+    // such as its report, because they do not describe the new session.
     std::function<void(const std::filesystem::path&)> on_start;
-    // Called when a lesson has ended, completed or not. Writes what belongs beside the session, into the same
-    // folder.
+    // Called when a lesson has ended, completed or not. It should write the files that belong to the session,
+    // such as its report, into the same folder.
     std::function<Status(const content::Assembly&, const session::LessonOptions&,
                          const session::LessonOutcome&, const std::filesystem::path&)>
         on_end;
@@ -68,9 +68,11 @@ class App : public view::WindowContent {
 
     // Fails if the session cannot be recorded.
     Status update(const view::WindowFrame& window) override;
+    // Writes the frame for the other processes that draw projection walls; large, rare parts into `bulk`.
     Status share(cluster::MessageWriter& message, cluster::MessageWriter& bulk) override;
     // Fails if the GPU fails, or the session cannot be recorded.
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
+    // Moves the eyes of the drawn frame to a newer pose of the head, shortly before the GPU draws it.
     bool move_eyes(const view::WindowFrame& window) override;
     // Called instead of update() and draw() while the window is minimised: pauses a station.
     Status frame_while_hidden() override;
@@ -83,15 +85,18 @@ class App : public view::WindowContent {
         return end_lesson();
     }
 
-    // True if a study has requested another display: that of the due step, or the window. The caller opens
-    // it, or the window if that fails, calls enter_display() with the result, and runs the app again.
+    // True if the due step of a study needs another display than the present one (wanted_display()). The
+    // caller opens it; if that fails, it opens the window. Then it calls enter_display() with the result and
+    // runs the app again.
     [[nodiscard]] bool wants_other_display() const override { return wanted_display_.has_value(); }
     [[nodiscard]] const LessonDisplay& wanted_display() const { return *wanted_display_; }
     void enter_display(const Status& opened);
 
     [[nodiscard]] bool closed() const override { return closed_; }
+    // True if a slow GPU may draw the scene with fewer pixels than the window has.
     [[nodiscard]] bool scales_scene() const override { return active_.has_value() && !in_room(); }
-    // True if the trainee's settings want it, and always while the touch check waits for a touch.
+    // True if the trainee's settings want to see the real room, and always while the check of an arm's
+    // registration waits for the touch of a check point.
     [[nodiscard]] bool wants_passthrough() const override {
         return preferences_.settings.passthrough || awaits_touch();
     }
@@ -161,6 +166,7 @@ class App : public view::WindowContent {
     ScreenAction draw_instruction_page(const ScreenContext& context);
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
     [[nodiscard]] bool in_room() const { return room_ && room_->plays_in_room; }
+    // Pauses a lesson that nobody can see: `seen` is false.
     void pause_unseen(bool seen, bool immersive);
     void follow_headset(const view::ImmersiveFrame* immersive);
     void perform_in_room(Action action);

@@ -30,11 +30,12 @@ struct Joint {
     std::size_t index = 0;  // in the assembly
     joint::Stage stage = joint::Stage::navigation;
     joint::JointCondition condition = joint::JointCondition::intact;
-    double angle = 0.0;        // of the nut; 0 where the hand starts it on its thread, tightening positive
-    double speed = 0.0;        // rad/s of the nut
-    double torque = 0.0;       // of wrench or fingers on the nut, tightening positive
-    double clamp = 0.0;        // clamp force
-    double breakaway = 0.0;    // 0 … 1, active share of the additional friction at rest
+    double angle = 0.0;   // of the nut; 0 where the hand starts it on its thread, tightening positive
+    double speed = 0.0;   // rad/s of the nut
+    double torque = 0.0;  // of wrench or fingers on the nut, tightening positive
+    double clamp = 0.0;   // clamp force
+    double breakaway =
+        0.0;  // 0 … 1, share of the breakaway friction that is active: 1 at rest, 0 while it slides
     double rounded = 0.0;      // m of each flat that slipping jaws have rounded off
     double common_turn = 0.0;  // by which nut and bolt have turned together (joint::JointState)
 };
@@ -53,11 +54,11 @@ struct ToolState {
     servo::Grip grip = servo::Grip::none;  // what holds the engaged joint
     std::int16_t slipped = -1;             // joint on which the jaw slipped over the corners in this tick
     collision::ObstacleId obstacle;        // obstacle that the wrench touches
-    std::uint16_t contacts = 0;            // active and nearly active contacts
+    std::uint16_t contacts = 0;            // contacts that bear, and those so near that they may soon
     bool clicked = false;                  // the torque wrench clicked in this tick
     double ratchet_slack = 0.0;            // by which the handle is behind the ratchet's head
     std::int16_t second_wrench = -1;       // joint whose held part the second wrench is on
-    double bent = 0.0;                     // by which tools were bent for good in this lesson
+    double bent = 0.0;                     // rad by which tools were bent for good in this lesson
     // Rotation of a ratchet's head relative to its handle, about the tool's +Z. turn_ratchet_head() computes
     // it, for drawing only.
     double head_turn = 0.0;
@@ -111,8 +112,8 @@ struct WorkingHand {
 // The measured joints of a hand with a glove. The hand's entity has this component only while a glove is
 // worn.
 struct GloveHand {
-    // In the assembly's frame if the hand is empty and a headset measures it. Otherwise in the frame of the
-    // wrench, also while the wrench is at rest.
+    // In the frame of the wrench, also while the wrench is at rest. Exception: an empty hand whose pose a
+    // headset measures is in the assembly's frame.
     hand::Skeleton joints;
     bool lost = false;  // the glove sends no valid samples
 };

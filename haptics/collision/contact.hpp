@@ -78,11 +78,12 @@ struct ContactQueryResult {
 // Two contacts with the same obstacle are merged if their points on the tool are within the merge distance
 // and their normals are nearly parallel; the nearer one is kept. The merge distance starts at
 // `first_merge_distance` and doubles up to `last_merge_distance` until the kept contacts fit the output. The
-// permitted angle grows with the difference of the distances of the two contacts.
+// normals of equally distant contacts may differ by `merge_angle`. A contact that is further away than the
+// kept one by d may differ by more, because the motion must first close d: by d / merge_stride (rad) more.
 //
-// Error bound for a motion that the kept contacts permit and that moves no point by more than `merge_stride`:
-// a contact that was merged can penetrate deeper than the kept one by at most merge_angle × merge_stride plus
-// the merge distance times the angle of the motion.
+// The error is bounded. In a motion that the kept contacts permit, and that moves no point by more than
+// `merge_stride`, a merged contact penetrates at most this much deeper than the kept one: merge_angle ×
+// merge_stride, plus the merge distance times the rotation (rad) of the motion.
 inline constexpr double merge_angle = 4.0 * pi / 180.0;  // rad
 inline constexpr double merge_stride = 0.5e-3;           // m
 inline constexpr double first_merge_distance = 2e-3;     // m
@@ -102,7 +103,7 @@ struct DeferredContact {
     ObstacleId obstacle;
     // Set and read by the narrow phase.
     std::uint32_t sample = 0;  // index of the sample
-    double accumulated = 0.0;  // m, the sample's accumulated motion when it was deferred
+    double accumulated = 0.0;  // m, accumulated motion of the sample by then, for its DistanceBound
     std::uint32_t body = 0;    // index in `CollisionWorld::bodies`
     bool of_tool = false;      // the sample is the tool's
     bool resolved = false;     // the exact query has been done, with or without a contact as its result
@@ -141,7 +142,7 @@ struct ContactCollector {
     }
 };
 
-// Computes a deferred contact. Returns false if there is no contact within the band.
+// Computes a deferred contact. Returns false if it is further away than the band of the query.
 using ResolveDeferred = FunctionRef<bool(const DeferredContact&, Contact&)>;
 
 // Scratch memory of the reduction.

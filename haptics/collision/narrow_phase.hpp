@@ -19,18 +19,22 @@ namespace bolt::collision {
 // A conservative bound plus the motion (PairCache) that was accumulated when the bound was computed. Subtract
 // the present accumulated motion to get the bound that holds now.
 struct DistanceBound {
-    double lower;  // m: signed distance of a point. Of a piece of an edge: EdgeQueryResult::clear_distance
-    double turn;   // rad, rotation up to which `lower` holds (EdgeQueryResult::clear_turn); infinite: any
+    // m. For a point: its signed distance. For a piece of an edge: it may move this far before another edge
+    // can come near (EdgeQueryResult::clear_distance).
+    double lower;
+    double turn;  // rad, rotation up to which `lower` holds; infinite for points
 };
 
 // The last query of a sample or cluster: where it was in the surface's frame, the lower bound there, and the
 // accumulated turn. The motion since then is at most the displacement of its middle plus its size times the
 // turn, which is a tighter bound than the tool's whole motion.
 struct CachedQuery {
-    glm::vec3 at;    // m, of the middle
-    float lower;     // m
-    double turned;   // rad
-    bool edge_near;  // pieces of edges: another edge was within short_lookahead (edges.hpp)
+    glm::vec3 at;   // m, of the middle
+    float lower;    // m
+    double turned;  // rad
+    // True for a piece of an edge if another edge was within 2 mm (short_lookahead); the next search then
+    // looks less far ahead.
+    bool edge_near;
 };
 
 // The cache of one solid's samples against the other's surface.
@@ -68,10 +72,11 @@ NarrowPhaseState make_narrow_phase(const CollisionWorld& world, const ToolShape&
 void clear_cache(NarrowPhaseState& state, const CollisionWorld& world, const ToolShape& tool);
 
 // Writes the contacts up to `band` (m) between the tool at `pose` and the enabled bodies of the world.
-// Any depth of penetration is found, except that of edges in edges (edges.hpp). Distances are those of the
-// meshes, computed in double; the equation at the top of struct Contact holds to 1e-9 m. `complete_within` is
-// the band if all contacts were written or merged (contact.hpp), otherwise the distance up to which they are
-// complete. `query_cost` depends on the cache. Does not allocate.
+// Any depth of penetration is found. Only a crossing of two edges that is deeper than 2 mm is left out,
+// because then points of the surfaces are found inside (edges.hpp). Distances are those of the meshes,
+// computed in double, with an error below 1e-9 m. `complete_within` is the band if all contacts were written
+// or merged (contact.hpp), otherwise the distance up to which they are complete. `query_cost` depends on the
+// cache. Does not allocate.
 ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& tool, const Pose& pose,
                                  double band, NarrowPhaseState& state, std::span<Contact> out);
 

@@ -84,9 +84,9 @@ struct GuidePath {
 GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree free);
 
 // The lowest height above the target, m, to which the tool may be led from its present position. A segment
-// that is free for a point may be too narrow for the tool, and near the target the tool is certain to fit
-// only along the axis. So the tool is led at constant height until it is inside a cone about the axis, and
-// then down.
+// that is free for a point may be too narrow for the tool. Near the target only a motion along the axis is
+// certain to have room for it. So the tool is led at constant height until it is inside a cone about the
+// axis, and then down.
 double lowest_permitted_height(const GuideTarget& target, const Vec3& tool);
 
 // Moves the end of the path, and the approach point if there is one, to the target's present position.

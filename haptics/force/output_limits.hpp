@@ -33,8 +33,8 @@ struct OutputLimits {
     double angular_speed = 50.0;  // rad/s
     double jump = 0.03;           // m in one tick; more is a faulty sample
     double angular_jump = 0.5;    // rad in one tick
-    // s without a sample after which the output starts to fall. It reaches zero at most `release` s after the
-    // last sample.
+    // s. If no sample has come for this long, the output falls. It is zero `release` s after the last sample
+    // at the latest.
     double max_silence = 0.008;
     double recovery_time = 0.1;  // s of valid samples after a fault before the output ramps up
 };
@@ -60,8 +60,8 @@ inline OutputLimits scaled(const OutputLimits& limits, double scale) {
     return less;
 }
 
-// Upper bounds that the installer sets for a device; none: the device's own limit. Units as in
-// OutputLimits.
+// Upper bounds that the person who installs a station sets for a device (station file); none: the device's
+// own limit. Units as in OutputLimits.
 struct LimitBounds {
     std::optional<double> force, torque;
     std::optional<double> stiffness, torsion;

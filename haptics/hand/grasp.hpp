@@ -1,7 +1,7 @@
 // Decides whether the gloved hand holds the tool: grasped when thumb and fingers close on it, released when
 // the thumb or all fingers have been away from it for a while. A held tool stays held while the glove is
-// lost. Pure. An update with a fresh frame, or with an empty hand that has moved, costs one
-// close_fingers(), so run it at the rate of the glove or of the pictures, not in the servo tick.
+// lost. Pure. An update with a fresh sample of the glove, or with an empty hand that has moved, costs
+// one close_fingers(), so run it at the rate of the glove or of the pictures, not in the servo tick.
 #pragma once
 
 #include "haptics/hand/finger_closure.hpp"

@@ -20,7 +20,8 @@ struct FingerAngles {
 };
 
 struct ThumbAngles {
-    double roll = 0.0;       // of the metacarpal about the length of the hand, across the palm
+    double roll =
+        0.0;  // the metacarpal turns about the length of the hand, so that the thumb crosses the palm
     double abduction = 0.0;  // of the metacarpal, away from the index finger
     double mcp = 0.0, ip = 0.0;
 };
@@ -227,7 +228,8 @@ struct Capsule {
 // The capsule of bone `bone` of a digit; 0 is the metacarpal.
 Capsule bone_capsule(const Hand& hand, const Skeleton& joints, std::size_t digit, std::size_t bone);
 
-// The centre of the fingertip pad, modelled as a sphere of radius pad_radius that touches the skin.
+// The centre of the fingertip pad, modelled as a sphere of radius pad_radius inside the finger that touches
+// its surface.
 inline constexpr double pad_radius = 8e-3;  // m, for a hand of scale 1
 Vec3 fingertip_pad_centre(const Hand& hand, const Skeleton& joints, std::size_t digit);
 

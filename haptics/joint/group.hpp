@@ -9,8 +9,9 @@
 //
 //   w(r) = −F ℓ²/(2π D) kei(r/ℓ),   ℓ = (D/k)^¼        (Hertz 1884; Timoshenko & Woinowsky-Krieger, §57)
 //
-// kei is the Kelvin function of order 0; kei(0) = −π/4. The operator is positive, so the matrix of w between
-// any points is symmetric and positive semidefinite: the interaction stores energy and never generates any.
+// kei is the Kelvin function of order 0; kei(0) = −π/4. The load of any set of forces stores
+// positive energy in plate and foundation. So the matrix of w between any points is symmetric and positive
+// semidefinite, and the interaction never generates energy.
 #pragma once
 
 #include <cstdint>
@@ -58,12 +59,14 @@ struct GroupParameters {
     InteractionMatrix interaction;               // empty under Law::published and without a flange
 };
 
+// The state of a joint. Clamp force, breakaway, stage and condition are those of the law's own state
+// (`mechanistic` or `published`), copied after each step.
 struct JointState {
     NutMotion nut;             // angle on the thread; speed in the assembly's frame
     double common_turn = 0.0;  // rad by which nut and bolt have turned together, tightening positive
     double torque = 0.0;       // N·m applied by wrench or fingers, tightening positive
     double clamp = 0.0;        // N
-    // 0…1, active share of the additional friction at rest; decreases as the nut turns.
+    // 0…1, share of the breakaway friction that is active: 1 at rest, 0 while the nut slides.
     double breakaway = 0.0;
     Stage stage = Stage::navigation;
     JointCondition condition = JointCondition::intact;
@@ -108,7 +111,7 @@ void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::s
 struct CurveSample {
     double angle = 0.0;  // rad from the start of the run
     Stage stage = Stage::navigation;
-    // N·m. Mechanistic law: negative while loosening. Published law: with the signs of its equations.
+    // N·m. Mechanistic law: negative while loosening. Published law: as published_torque() gives it.
     double torque = 0.0;
     double clamp = 0.0;  // N
 };

@@ -7,6 +7,8 @@
 //       MechanisticParameters
 //   F   clamp force, a function of x (seat_spring.hpp) with the compliance δ of VDI 2230 (design.hpp)
 //   T   torque: T = F P/2π ± r (F (μ_G r_t/cos β + μ_K r_b) + thread drag)  (design.hpp, Motosh)
+//       μ_G, r_t, β: friction coefficient, mean radius and half flank angle of the thread; μ_K, r_b: friction
+//       coefficient and mean radius of the bearing face
 //   r   breakaway factor on friction: r = 1 + (static ratio − 1) b. The breakaway state b, 0 … 1, rises to 1
 //       at rest and falls to 0 while the nut slides
 //   Y   yield: F q ≤ Y(plastic). q is the von Mises stress of tension and thread torque, divided by the
@@ -30,20 +32,21 @@ namespace bolt::joint {
 //   Y(u) = L_e + (L_m − L_e) (1 − e^{−(u/u_c)^¾}) / (1 − e^{−(u_u/u_c)^¾})    up to u_u
 //
 // This is Voce hardening with an exponent below one. Its slope is infinite at u = 0, so the torque curve
-// bends into yield without a kink. The scale u_c is fitted so that the load at 0.2 % plastic strain is R_p0.2
-// A_s. The form is ours. It is fitted to the elastic limit, R_p0.2 and R_m of ISO 898-1; the uniform
-// elongation is half the elongation after fracture.
+// bends into yield without a kink. The scale u_c is fitted so that the load at 0.2 % plastic strain is
+// R_p0.2 · A_s, where A_s is the stress area of the thread. The form is ours. It is fitted to the elastic
+// limit, R_p0.2 and R_m of ISO 898-1; the uniform elongation is half the elongation after fracture.
 struct PlasticCurve {
-    double elastic_load = 0.0;   // L_e, N, at u = 0: equivalent stress times A_s
+    double elastic_load = 0.0;   // L_e, N, at u = 0: elastic limit times A_s
     double ultimate_load = 0.0;  // L_m, N, at u = u_u
     double scale = 0.0;          // u_c, m
     double uniform = 0.0;        // u_u, m
-    double spread = 0.0;         // 1 / (1 − e^{−(u_u/u_c)^¾})
-    double fracture = 0.0;       // u_f > u_u, m
-    double neck_load = 0.0;      // N, at u_f, just before fracture
+    double spread = 0.0;     // factor that scales the hardening to 1 at u_u: 1 / (1 − e^{−(u_u/u_c)^¾})
+    double fracture = 0.0;   // u_f > u_u, m
+    double neck_load = 0.0;  // N, at u_f, just before fracture
 
-    // `length`: plastic length (free thread and half the engaged thread), m. `compliance` of the joint bounds
-    // the slope of necking, so that the load does not snap through and remains a function of the nut angle.
+    // `length`: plastic length (free thread and half the engaged thread), m. `compliance`: of the joint, m/N.
+    // The load of a necking bolt falls at most at half the rate at which the joint would unload it, so that
+    // the load remains a function of the nut angle.
     static PlasticCurve make(const ScrewThread& thread, const PropertyClass& bolt, double length,
                              double compliance);
 
@@ -75,11 +78,12 @@ struct MechanisticParameters {
     double wear_early_uses = 1;      // re-uses; scale on which that change saturates exponentially
     double wear_per_use = 0.0;       // relative change of friction with every use, without end
     double prevailing_torque = 0.0;  // N·m, of a locking nut in its first use
-    double insert_angle = 0.0;   // rad, nut angle at which the bolt's end reaches a locking insert; 0: none
-    double insert_ramp = 1.0;    // rad over which the bolt's end then enters the insert
-    double insert_wear = 1.0;    // factor on the insert's torque with every use
-    double running_drag = 0.0;   // N·m, mean drag of the free thread
-    double weight_lead = 0.0;    // N·m, weight of the nut along the lead; negative if it helps tightening
+    double insert_angle = 0.0;  // rad, nut angle at which the bolt's end reaches a locking insert; 0: none
+    double insert_ramp = 1.0;   // rad over which the bolt's end then enters the insert
+    double insert_wear = 1.0;   // factor on the insert's torque with every use
+    double running_drag = 0.0;  // N·m, mean drag of the free thread
+    double weight_lead =
+        0.0;  // N·m, torque of the nut's weight on the thread's slope; negative: it helps tightening
     double weight_friction = 0;  // N·m, friction of the nut's weight on the thread
     // rad, phases of the three sine waves by which the running drag fluctuates with the angle.
     double ripple_phase[3] = {0.0, 0.0, 0.0};
@@ -106,7 +110,7 @@ struct MechanisticState {
     double plastic = 0.0;    // m, permanent elongation of the bolt, never falls
     double stripped = 0.0;   // m, travel of the sheared threads, never falls
     double embedding = 0.0;  // m, flattened roughness, never falls
-    double uses = 0.0;       // tightenings of the faces to the reference load so far
+    double uses = 0.0;  // number of tightenings so far; one to half the reference load counts as one half
     double breakaway = 1.0;  // 0…1, breakaway state
     double friction_share = 0.0;  // −1…1, friction torque ÷ its maximum; +1: slides tightening, −1: loosening
     double clamp = 0.0;           // N
@@ -118,14 +122,15 @@ struct MechanisticState {
 
 // Torque that tightens or loosens the nut from the present state, and its slope over the angle.
 struct Resistance {
-    double tighten = 0.0;        // N·m
-    double loosen = 0.0;         // N·m, negative if the nut holds by itself
+    double tighten = 0.0;  // N·m
+    double loosen =
+        0.0;  // N·m; negative: this torque must be applied to loosen it; positive: it would turn by itself
     double tighten_slope = 0.0;  // N·m/rad, of the elastic joint
     double loosen_slope = 0.0;   // N·m/rad, likewise
     double lead_torque = 0.0;    // N·m, the part that is not friction
 };
 
-// The resistance while the nut turns on the thread and the bolt stands.
+// The resistance while the nut turns on the thread and the bolt does not turn.
 Resistance resistance(const MechanisticParameters& p, const MechanisticState& s);
 
 // The resistance while nut and bolt turn together: the faces under nut and head slide, the thread does not,
@@ -135,7 +140,7 @@ Resistance resistance_together(const MechanisticParameters& p, const Mechanistic
 
 // The motion of a nut in a step.
 struct NutTurn {
-    double angle = 0.0;           // rad, on the thread, after the step
+    double angle = 0.0;           // rad, of the nut on its thread after the step (not the change)
     double friction_share = 0.0;  // −1…1, friction torque ÷ its maximum; +1: slides tightening
     double common = 0.0;          // rad by which nut and bolt have turned together in the step
 };

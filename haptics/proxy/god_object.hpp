@@ -104,8 +104,9 @@ GodObjectState start_god_object(const Pose& pose);
 //   short   no point travels further than `stride`, and at the end every contact that the motion approached
 //           is at least a fifth of the skin away, or no nearer than the nearest contact was at the start
 //
-// In the second case a contact that did not come nearer is tolerated if it was at most 0.25 mm deep at the
-// start, because the finder can have missed it there. Ignores a pose that is not finite. Does not allocate.
+// At the end of a short motion the finder can report a contact that it missed at the start. Such a contact is
+// tolerated if the motion did not approach it and if it is at most 0.25 mm deep. Ignores a pose that is not
+// finite. Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
                               const Pose& commanded_tool, ContactFinder finder, double dt);
 

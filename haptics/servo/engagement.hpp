@@ -30,9 +30,9 @@ struct Engagement {
     // rad, angle of the tool about the bolt at the last tick, in −π … π; a rotation that tightens increases
     // it.
     double azimuth = 0.0;
-    // rad, rest position of the spring between tool and nut: at this rotation of the nut the tool applies no
-    // torque. The sum of the nut's rotation at engagement, the misalignment of the jaw, and the tool's
-    // rotation about the bolt since then (not wrapped; with a ratchet, that of its head).
+    // rad, the rotation of the nut at which the spring between tool and nut would be relaxed. It is the sum
+    // of three angles: the nut's rotation at engagement, the misalignment of the jaw, and the tool's rotation
+    // about the bolt since then. The last is not wrapped; with a ratchet it is that of the ratchet's head.
     double hand_angle = 0.0;
     double ratchet_slack = 0.0;  // rad, 0 … one tooth, by which the handle is behind the ratchet's head
     // m, tool minus nut centre at engagement; decays with a time constant of 0.05 s.

@@ -1,5 +1,5 @@
-// The constants of the servo tick. Built for each lesson, and built again when a device is opened, because
-// its limits are part of it. Between two ticks change_tool() changes the tool in it.
+// The constants of the servo tick. A setup is built for each lesson, and built again when a device is opened,
+// because the device's limits are part of the setup. Between two ticks change_tool() changes the tool in it.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@
 namespace bolt::servo {
 
 // Geometry of a nut, or of a head that is turned, in the assembly's frame. All axes are unit vectors; `axis`
-// points from the members to the nut; e1 × e2 = axis.
+// points from the members (the parts that are clamped) to the nut; e1 × e2 = axis.
 //
 // Angles about the bolt are positive in the direction that tightens, for both directions of thread. So the
 // joint laws do not depend on the direction; only the functions below map these angles to rotations about
@@ -146,7 +146,8 @@ struct ToolDescription {
     double handle_length = 0.0;    // m
     double click_swing = 0.0;    // rad that a click-type torque wrench swings at its click; 0: a plain wrench
     double adaptor_ratio = 1.0;  // torque at the nut / torque on the scale
-    double click_accuracy = 0.0;  // largest relative deviation of the click torque; the seed determines it
+    double click_accuracy =
+        0.0;  // bound of the relative deviation of the click torque, which is drawn from the seed
 };
 
 struct SetupDescription {
@@ -158,7 +159,7 @@ struct SetupDescription {
     std::vector<ToolDescription> more_tools;
     std::vector<std::size_t> tool_of_joint;  // 0: `tool`, i + 1: more_tools[i]; empty: all 0
     double max_torque = 0.0;     // N·m, the largest torque of the lesson; maps to the device's range
-    force::OutputLimits limits;  // of the devices, in the assembly's units
+    force::OutputLimits limits;  // of the devices, mapped to the assembly (force::in_assembly())
     std::uint64_t seed = 0;      // of the scatter of joints and tools
     double dt = 0.001;           // s, duration of a tick
 };

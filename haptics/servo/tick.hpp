@@ -37,7 +37,8 @@ struct Checkpoint {
 struct State {
     std::uint64_t tick = 0;  // number of ticks since the beginning
     std::vector<joint::JointState> joints;
-    // By joint: m that slipping heads removed along each flat (joint::CornerGrip::rounded).
+    // By joint: length (m) that slipping heads have removed from each flat, measured from the corner
+    // (joint::CornerGrip::rounded).
     std::vector<double> rounded;
     double bent = 0.0;  // rad by which tools were bent for good; undo does not reduce it
     Engagement engagement;
@@ -46,7 +47,9 @@ struct State {
     force::OutputCommand guiding_command;  // guiding force and torque of the last tick
     force::GuideState guide_state;
     force::OutputStage output_stage;
-    double lever_arm = 0.0;  // m, from the tool's origin to the point of application of the device's force
+    // m, from the tool's origin to the point at which the device's force acts: the end of the handle for a
+    // device without torque output, otherwise 0.
+    double lever_arm = 0.0;
     std::optional<ToolContact> tool_contact;              // none: no contact simulation
     std::array<Checkpoint, max_checkpoints> checkpoints;  // ring buffer
     std::uint32_t checkpoint_count = 0;  // saved since the beginning, less those that undo discarded
@@ -64,7 +67,8 @@ void change_tool(Setup& setup, State& state, const TickInput& input);
 Output tick(const Setup& setup, State& state, const TickInput& input);
 Output tick(const Setup& setup, State& state, const TickInput& input, force::IsSegmentFree free);
 
-// The position of a tool, the direction of its head and its normal, which the guiding force needs.
+// The position of a tool, the direction of its head, and its normal, which is the z axis of the tool's frame
+// and lies along the bolt when the tool is on a nut. The guiding force needs them.
 force::GuidedTool guided_tool(const Setup& setup, const ToolPose& tool);
 
 // The nut of `joint`, at its present angle, as the target of the guiding force. Returns a target with id −1

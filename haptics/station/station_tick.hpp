@@ -48,9 +48,9 @@ Status check(const DeviceLayout& layout);
 // command until the device thread reads it. Subtracted from the time in which forces must be released.
 inline constexpr double transport_delay = 2e-3;
 
-// The length of the wrench, `handle_length` m, if the mover senses the pose of the hand and no device renders
-// torque: the mover's force then acts at the end of the wrench. Otherwise 0: the jaw follows the mover, which
-// turns the wrench about the bolt.
+// Distance (m) from the tool's origin to the point that follows the mover. It is `handle_length` if the mover
+// senses the pose of the hand and no device renders torque: the mover's force then acts at the end of the
+// handle. Otherwise it is 0: the head of the tool follows the mover, and the mover's rotation turns the tool.
 double lever_arm_of(const DeviceLayout& layout, double handle_length);
 
 // The combined limits of the devices in the assembly's units, for servo::SetupDescription::limits.
@@ -78,19 +78,19 @@ struct StationControls {
     // the assembly's frame rotated about the vertical to face the viewer.
     Quat view{1.0, 0.0, 0.0, 0.0};
     bool pause = false;  // no servo tick and no force; the tool stands still while the hand may move
-    // Where the wrench lies while no hand holds it, in the assembly's frame; none: it moves with the open
-    // hand.
+    // Where the wrench lies until a hand takes it, in the assembly's frame. None: it has no such place, and
+    // an open hand carries it along.
     std::optional<Pose> wrench_rest_pose{};
-    // The wrist in the frame of the fingertips while a gloved hand is empty: the mover then moves the
-    // fingertips. None: the mover moves the hand as if the hand held the wrench.
+    // The wrist of an empty gloved hand, in the frame whose origin is between the fingertips (servo/io.hpp):
+    // the mover then moves the fingertips. None: the mover moves the hand as if the hand held the wrench.
     std::optional<Pose> empty_hand_wrist{};
     // Joint whose nut attracts the tool; −1: none. Applies only to a device that senses velocity and renders
     // no force: the station then moves the tool to the nut.
     std::int16_t approach_joint = -1;
 };
 
-// Moves the tool to a pose in the assembly's frame. The mapping is realigned: device and tool keep their
-// poses, and later motion of the device moves the tool relative to them.
+// Moves the tool to a pose in the assembly's frame. The device need not move: from then on the tool moves
+// from this pose as the device moves from its present one.
 struct PlaceTool {
     Pose tool{};
 };
@@ -198,8 +198,8 @@ void move_to_nut(const DeviceLayout& layout, const servo::Setup& setup, StationS
 DeviceCommands map_output(const DeviceLayout& layout, const servo::Setup& setup, StationState& state,
                           const servo::Output& output);
 
-// The pose at which a gloved hand holds the tool, or would hold it (ToolPoses::commanded_tool). The mover
-// commands it; the glove measures only the fingers. An empty gloved hand within handle_capture_distance of
+// The pose at which a gloved hand holds the tool, or would hold it if it closed. The mover commands it; the
+// glove measures only the fingers. An empty gloved hand within handle_capture_distance of
 // the wrench snaps to its handle: without touch nobody can place fingers around it to the millimetre.
 Pose tool_of_gloved_hand(const DeviceLayout& layout, const servo::Setup& setup, const StationState& state,
                          const StationControls& controls);
@@ -222,8 +222,8 @@ struct StationTick {
     servo::TickInput input;
     servo::Output output;
     Pose commanded_tool;  // in the assembly's frame
-    // Pose of the mover's frame in the assembly's: maps the position of the hand to the point of the tool
-    // that the hand holds. Valid at a scale of 1. The clutch changes it.
+    // Pose of the mover's frame in the assembly's: maps the position of the mover to the point of the tool
+    // that follows it (lever_arm_of()). Valid at a scale of 1. The clutch changes it.
     Pose mover_in_assembly;
     // The mover's last pose in its own frame and its buttons, also in a pause; none without a mover that
     // senses its pose, and while the mover sends no samples.
