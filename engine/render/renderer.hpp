@@ -4,7 +4,7 @@
 //   shadow     depth seen from light 0; static objects are cached
 //   surfaces   depth, normal and material of visible surfaces, 4 samples per pixel
 //   occlusion  ambient occlusion at half size, if the scene requests it
-//   light      shading and tone mapping, once for all samples of a pixel on one surface
+//   light      shading and tone mapping, once for each surface in a pixel, not for each sample
 //   forward    parts shaded while drawn: blended ones, and those the geometry buffer cannot store
 //   outline    lines around marked objects
 //   labels     text in the scene

@@ -54,7 +54,7 @@ struct Label {
     float outline_width = 0.06F;  // em, up to 0.1
     glm::vec4 plate{0.0F};        // background behind the text; alpha 0: none
     // Share of the text that shows through parts in front of it: 0 hidden, 1 fully visible. Ghosts hide text
-    // like opaque parts.
+    // as opaque parts do.
     float occluded_visibility = 0.0F;
     float occlusion_margin = 0.0F;  // m: a part that is nearer to the text than this does not hide it
     bool operator==(const Label&) const = default;

@@ -48,10 +48,10 @@ struct FrameTiming {
     bool should_render = false;  // false: nothing that is drawn would be seen
 };
 
-// Returns the period of the display, ns. Some runtimes, such as Monado, report the period of the program's
-// frames instead, which is a multiple of the display's once the program misses frames. `known`: the period
-// that was returned before; 0: none. `reported`: by the runtime for the next frame. A period that is no
-// multiple of the known one is another frame rate of the display.
+// Returns the period of the display, ns. `known`: the period that was returned before; 0: none. `reported`:
+// by the runtime for the next frame. Returns `known` if `reported` is a multiple of it: some runtimes, such
+// as Monado, report the period of the program's frames, which grows when the program misses frames. Otherwise
+// returns `reported`: the display has changed its frame rate.
 XrDuration display_period(XrDuration known, XrDuration reported);
 
 // The frames since a session was created.
@@ -145,7 +145,7 @@ class Session {
     ~Session();
 
     // Takes the runtime's events and follows its state. Fails with Error::lost if the session or the runtime
-    // has ended; the session must then be destroyed.
+    // is lost: destroy the session, then try to create another one.
     Status poll(std::vector<SessionEvent>& events);
 
     [[nodiscard]] XrSessionState state() const { return state_; }
@@ -154,7 +154,8 @@ class Session {
     // With some runtimes a headset on a table keeps its focus. Only runtimes with XR_EXT_user_presence report
     // that it is not worn.
     [[nodiscard]] bool focused() const { return state_ == XR_SESSION_STATE_FOCUSED && worn_; }
-    [[nodiscard]] bool ended() const { return ended_; }  // by the runtime; do not create another one
+    // True if the runtime has asked the program to end its session; do not create another one.
+    [[nodiscard]] bool ended() const { return ended_; }
 
     // Begins the next frame if the runtime has released it; waits at most `timeout` s for that.
     Result<std::optional<FrameTiming>> begin_frame(double timeout);

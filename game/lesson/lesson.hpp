@@ -61,13 +61,14 @@ struct Lesson {
     std::vector<LessonStep> steps;
     std::size_t current = 0;  // index of the due step
     std::vector<JointTrack> joints;
-    std::vector<ToolFault> tool_faults;               // by joint; replays of old sessions have none
-    ToolFault reported_tool_fault = ToolFault::none;  // reported once a lesson, because a tool is chosen once
-    int held_joint = -1;                              // in the hand at the last tick; −1: none
-    servo::Grip grip = servo::Grip::none;             // in the present or the last hold
-    int last_held_joint = -1;                         // the joint that was released last
-    std::uint64_t released_at = 0;                    // tick in which it was released
-    int announced_pass = -1;                          // latest pass with a pass_begin event
+    std::vector<ToolFault> tool_faults;  // by joint; replays of old sessions have none
+    ToolFault reported_tool_fault =
+        ToolFault::none;  // reported once a lesson: the trainee chooses the tool only once, before it begins
+    int held_joint = -1;  // in the hand at the last tick; −1: none
+    servo::Grip grip = servo::Grip::none;              // in the present or the last hold
+    int last_held_joint = -1;                          // the joint that was released last
+    std::uint64_t released_at = 0;                     // tick in which it was released
+    int announced_pass = -1;                           // latest pass with a pass_begin event
     std::vector<std::vector<JointTrack>> step_starts;  // by step: all tracks at its start, for undo_steps()
     std::vector<LessonEvent> events;                   // pending: the caller clears them
 
@@ -80,9 +81,9 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task);
 // A step is due until it is done. The hand may leave the nut in between (an open-end wrench comes off for
 // each stroke). A step is done when the hand releases a nut that meets the step's condition:
 //   run down    the nut is on its seat
-//   tighten     the torque reached the low edge of the step's window. A step to the whole target with
-//               strategy `yield` also needs one of: the joint yields, the torque exceeds its window, the
-//               torque wrench clicks. Some steps need the click (requires_click)
+//   tighten     the torque reached the low edge of the step's window. A step to the whole target of a
+//               joint with Strategy::yield also needs one of: the joint yields, the torque exceeds its
+//               window, the torque wrench clicks. Some steps need the click (requires_click)
 //   turn        the nut was turned from its mark by at least the low edge of the step's angle window
 //   re-check    the wrench turned the nut further, or reached the window without turning it
 //   loosen      the nut was turned back by the step's angle, or is free of clamp force

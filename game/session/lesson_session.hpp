@@ -83,12 +83,13 @@ Header make_header(const SessionSetup& start, const LessonOptions& options);
 // prepare_session().
 void set_device_limits(const LessonOptions& options, SessionSetup& start);
 
-// A lesson that follows the ticks of a servo, which is that of the session or that of a station.
+// A lesson that follows the ticks of a servo. Without a station the session's servo is the only one. With a
+// station, the station's servo computes each tick first, and the session repeats it (LessonSession::repeat).
 struct LessonTracker {
     lesson::Lesson lesson;
-    // Steps that have begun, less those that undo took back. The servo saves a checkpoint when a step begins,
-    // so it has this many (servo::State::checkpoint_count). A station saves the newest one a few ticks later.
-    // An undo in these ticks goes back to the one before it.
+    // Steps that have begun, less those that undo took back. The servo should have this many checkpoints
+    // (servo::State::checkpoint_count), one for the beginning of each step. A station's servo has one less
+    // for a few ticks after a step has begun; an undo in this time restores the previous checkpoint.
     std::uint32_t expected_checkpoints = 0;
 };
 
@@ -146,9 +147,9 @@ class LessonSession {
     // outputs. Fails also if they differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::TickInput& input,
                   const servo::Output& output);
-    // The number of checkpoints that should have been saved by now. It exceeds checkpoints_saved() by one
-    // while the checkpoint of the step that has begun is missing. tick() saves it by itself. A caller of
-    // repeat() must send the station a station::SaveCheckpoint whenever this number rises.
+    // checkpoints_saved(), plus one while the checkpoint of the present step is missing; undo does not reduce
+    // it. tick() saves the missing one by itself. A caller of repeat() must send the station a
+    // station::SaveCheckpoint whenever this number rises.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.expected_checkpoints - session_setup_.state.checkpoint_count;
     }

@@ -63,17 +63,18 @@ class Participation {
     [[nodiscard]] const content::StudyLesson& lesson() const;
     // Creates the folder for the session of the due step's lesson, and returns it. Nothing is recorded yet.
     Result<std::filesystem::path> make_lesson_folder();
-    // Record that the lesson in that folder has begun, or has continued the one of begun_lesson(). `why`: an
-    // interrupted lesson could not be continued for this reason, and begins again.
+    // Records that the lesson in that folder has begun. `why`: the reason for which an interrupted lesson
+    // could not be continued and begins again; empty: there was none.
     Status record_begun(const std::filesystem::path& lesson, const std::string& why = {});
+    // Records that the lesson in that folder continues the one of begun_lesson().
     Status record_continued(const std::filesystem::path& lesson);
     // Makes the folder and records that its lesson has begun.
     Result<std::filesystem::path> begin_lesson();
     // The folder of the due step's last lesson that was begun or continued, and not recorded as ended.
     [[nodiscard]] std::optional<std::filesystem::path> begun_lesson() const;
-    // Records the measures of the lesson, which has ended, and completes the step, or in the training
-    // counts the lesson's time. A lesson that was ended before its last step counts too; a low `joints_ok`
-    // shows it.
+    // Records the measures of the lesson, which has ended, and completes the step. The step `training`
+    // lasts until its time is used up, so there the lesson's time is added instead. A lesson that was ended
+    // before its last step counts too; a low `joints_ok` shows it.
     Status end_lesson(const std::map<std::string, double>& measures);
 
     // s by which the clock is behind the last entry; 0: it is not. A clock that was set back since the last

@@ -14,7 +14,8 @@
 namespace bolt::tool_models {
 
 // The model for pictures: a node for each part, with normals and materials.
-// `completed`: here and below, parameters from completed() or parameters_of().
+// `completed`: here and below, parameters with all defaults filled in, as completed() and parameters_of()
+// return them.
 assets::Model drawn_model(const ToolParameters& completed);
 
 // The model for contact: closed meshes without normals and materials, a node for each, with fewer triangles.
@@ -47,8 +48,9 @@ ToolStrength strength_of(const ToolParameters& tool);
 ToolStrength strength_of(const content::WrenchDesign& design);
 
 // The rule for the torque at which a key or bit with the width s across flats begins to bend for good.
-//   measured     0.857 of the torque at which it breaks (Unbrako after ANSI B18.3.2M: 1.02 and 1.19 N·m at
-//                1.5 mm). It breaks at 0.2 R_m s³ (Bondhus; R_m = 1.47 GPa at 45 HRC)
+//   measured     0.857 of the torque at which it breaks: 1.02 / 1.19 N·m, the yield and breaking torques of
+//                a key of 1.5 mm (Unbrako after ANSI B18.3.2M). It breaks at 0.2 R_m s³ (Bondhus; R_m = 1.47
+//                GPa at 45 HRC)
 //   first_yield  the torque at which the middle of its flats yields: W_t τ with W_t = 0.188 s³ (Dubbel) and
 //                τ = 750 MPa. Sessions of format 8 were recorded with this rule
 enum class KeyStrength : std::uint8_t { measured, first_yield };

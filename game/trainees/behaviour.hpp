@@ -81,7 +81,7 @@ struct TraineeState {
     double arm_lag = 0.0;               // s by which a force-feedback arm lags behind the hand
     Pose hand;                          // actual pose of the hand
     bool held_nut = false;              // held a nut in the last tick
-    bool intended_pose_jumped = false;  // the intended pose jumps in this tick; the hand must not
+    bool intended_pose_jumped = false;  // the intended pose jumps in this tick; the hand keeps its pose
     Pose rest;                          // of the tool, in front of the assembly, clear of obstacles
 
     // The simulation's state of this tick.
@@ -147,8 +147,8 @@ bool start_next_waypoint(TraineeState& t, Phase phase);
 
 void start_lift(TraineeState& t, const Pose& pose, double seconds);
 
-// Called when the tool engages the nut: the hand's actual pose becomes its intended pose, except along the
-// bolt.
+// Call it when the tool engages the nut. Sets the intended pose to the hand's actual pose, except along the
+// bolt, where the tool still has to slide on.
 void adopt_wrench_pose(TraineeState& t);
 
 // The direction, not normalised, in which a caught tool retreats at the given number of catches in a row.

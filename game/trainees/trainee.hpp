@@ -61,15 +61,17 @@ struct TrainOptions {
     TraineeProfile trainee;
     motion::ViewHelper view_help;  // none: the trainee only moves its head
     double time_limit = 14400.0;   // s of virtual time after which the lesson is aborted
-    // s of virtual time after which it is aborted too if no step has begun and the nut has turned no further.
+    // s of virtual time. The lesson is also aborted if for so long no new step begins and the due nut turns
+    // no further.
     double patience = 900.0;
 };
 
 struct TrainingProgress {
-    double time = 0.0;                           // s, virtual time
-    std::size_t step = 0;                        // index of the due step
-    std::size_t steps = 0;                       // number of steps
-    const lesson::LessonEvent* event = nullptr;  // null in the report of each virtual second
+    double time = 0.0;      // s, virtual time
+    std::size_t step = 0;   // index of the due step
+    std::size_t steps = 0;  // number of steps
+    const lesson::LessonEvent* event =
+        nullptr;  // that is reported; null in the periodic report, once a virtual second
 };
 
 // Runs a lesson to its end with a simulated trainee and records the session to `file` meanwhile. If `watch`

@@ -126,10 +126,13 @@ inline const world::ToolState& tool_state_of(const ActiveLesson& active) {
 
 // The trainee's head and hands in a room, for a headset or projection walls.
 struct RoomInput {
-    Pose room_in_assembly;             // the room's frame in the assembly's
-    Pose head;                         // in the room
-    Quat heading{1.0, 0.0, 0.0, 0.0};  // about the vertical: turns the user's forward to the assembly's frame
-    const xr::Hands* hands = nullptr;  // in the room
+    Pose room_in_assembly;  // the room's frame in the assembly's
+    Pose head;              // in the room
+    // About the vertical. Turns a motion of the hand in the room into one in the assembly's frame, so that a
+    // push to the user's right moves the tool to the user's right, also after the user has turned the
+    // workpiece.
+    Quat heading{1.0, 0.0, 0.0, 0.0};
+    const xr::Hands* hands = nullptr;                             // in the room
     std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
 };
 

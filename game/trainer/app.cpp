@@ -89,7 +89,7 @@ Status App::start(view::GpuContext& gpu_context) {
     if (study_) gpu_->ui->add_characters(study_->texts());
     BOLT_TRY_ASSIGN(auto fonts, text::load_fonts());
     gpu_->fonts.emplace(std::move(fonts));
-    return active_ ? upload_lesson() : Status{};
+    return active_ ? upload_models() : Status{};
 }
 
 void App::release() {

@@ -68,7 +68,8 @@ class App : public view::WindowContent {
 
     // Fails if the session cannot be recorded.
     Status update(const view::WindowFrame& window) override;
-    // Writes the frame for the other processes that draw projection walls; large, rare parts into `bulk`.
+    // Writes the frame for the other processes that draw projection walls; parts that are large and seldom
+    // change go into `bulk`.
     Status share(cluster::MessageWriter& message, cluster::MessageWriter& bulk) override;
     // Fails if the GPU fails, or the session cannot be recorded.
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
@@ -151,7 +152,7 @@ class App : public view::WindowContent {
     Status enter_lesson(Result<StartedLesson> started, float aspect);
     Status report_start(Status begun);
     void cancel_start();
-    void follow_arm(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);
+    void follow_arm(std::span<const platform::InputEvent> events, double seconds, bool enter_key_answers);
     Status close_lesson();
     [[nodiscard]] LessonChoice lesson_choice() const;
     Result<LessonRequest> study_request();
@@ -160,7 +161,7 @@ class App : public view::WindowContent {
     [[nodiscard]] bool shown_in_headset() const;
     Status record_study_lesson(const StartedLesson& started);
     void count_study_lesson();
-    Status upload_lesson();
+    Status upload_models();
     void begin_instruction();
     [[nodiscard]] bool shows_instruction() const;
     ScreenAction draw_instruction_page(const ScreenContext& context);
@@ -176,7 +177,8 @@ class App : public view::WindowContent {
     std::optional<Pose> registered_workpiece(const view::ImmersiveFrame& immersive);
     void place_in_room(const view::ImmersiveFrame& immersive);
     void start_registered_arm(const view::ImmersiveFrame& immersive);
-    void follow_touch_check(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);
+    void follow_touch_check(std::span<const platform::InputEvent> events, double seconds,
+                            bool enter_key_answers);
     void end_touch_check();
     [[nodiscard]] bool awaits_touch() const {
         return active_ && room_ && room_->touch && waits_for_touch(*room_->touch);

@@ -25,7 +25,7 @@ std::string describe_times(std::map<std::string_view, std::vector<float>>& times
 }  // namespace
 
 // Uploads the models of the lesson and makes the entities that refer to them.
-Status App::upload_lesson() {
+Status App::upload_models() {
     ActiveLesson& active = *active_;
     BOLT_TRY(gpu_->context->device->idle());
     BOLT_TRY_ASSIGN(auto models, scene::upload(*gpu_->context->device, context_->models));
@@ -161,7 +161,7 @@ Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
     ActiveLesson& active = *active_;
     for (const std::string& missing : context_->models.missing) log("not drawn: " + missing);
     if (!started->continued) world::add_haptics(active.workplace.world, active.session->state());
-    BOLT_TRY(upload_lesson());
+    BOLT_TRY(upload_models());
     place_trainee(active, *context_, aspect);
     active.view.help = !study_ || study_->participation().lesson().view_help;
     if (const Status sounds = start_sound(active, options_.sound); !sounds) log(sounds.error().message());
@@ -209,7 +209,7 @@ void App::cancel_start() {
 }
 
 // Shows what the arm needs, before and during a lesson, and performs the user's answer.
-void App::follow_arm(std::span<const platform::InputEvent> events, double seconds, bool enter_answers) {
+void App::follow_arm(std::span<const platform::InputEvent> events, double seconds, bool enter_key_answers) {
     StationClient* client = screen_ == ShownScreen::lesson && active_->station ? &*active_->station : nullptr;
     if (client != nullptr) pause_for_arm(*client, active_->clock);
     const device::ArmNeeds needs = start_thread_       ? start_thread_->needs()
@@ -219,7 +219,7 @@ void App::follow_arm(std::span<const platform::InputEvent> events, double second
     arm_screen_.in_lesson = client != nullptr;
     trainer::update(arm_screen_, needs, settings_ ? 0.0 : seconds);  // the settings cover the question
     if (const std::string now = describe(needs); now != before && !now.empty()) log(now);
-    if (!settings_) perform(action_of(arm_screen_, events, enter_answers));
+    if (!settings_) perform(action_of(arm_screen_, events, enter_key_answers));
 }
 
 // Releases the lesson whose result was shown, with the devices that its station holds.

@@ -164,7 +164,7 @@ void App::start_registered_arm(const view::ImmersiveFrame& immersive) {
 
 // Advances the touch check: keeps the lesson paused and performs the user's answer.
 void App::follow_touch_check(std::span<const platform::InputEvent> events, double seconds,
-                             bool enter_answers) {
+                             bool enter_key_answers) {
     if (!room_ || !room_->touch) return;
     if (!active_ || screen_ != ShownScreen::lesson || !active_->station) return room_->touch.reset();
     TouchCheck& touch = *room_->touch;
@@ -173,7 +173,7 @@ void App::follow_touch_check(std::span<const platform::InputEvent> events, doubl
         touch.held_buttons = ~0U;
         return;
     }
-    const TouchAnswer answer = answer_of(touch, events, enter_answers);
+    const TouchAnswer answer = answer_of(touch, events, enter_key_answers);
     const bool asked = waits_for_touch(touch);
     const bool started = trainer::update(touch, active_->station->latest.mover, answer.confirmed, seconds);
     if (asked && !waits_for_touch(touch))

@@ -44,10 +44,10 @@ void update(ArmScreen& screen, const device::ArmNeeds& needs, double seconds) {
 }
 
 ScreenAction action_of(const ArmScreen& screen, std::span<const platform::InputEvent> events,
-                       bool enter_answers) {
+                       bool enter_key_answers) {
     const bool takes_answer = asks(screen.needs) && screen.shown_for >= question_time;
     for (const platform::InputEvent& event : events) {
-        const bool answers = enter_answers || !std::holds_alternative<platform::KeyEvent>(event);
+        const bool answers = enter_key_answers || !std::holds_alternative<platform::KeyEvent>(event);
         if (is_confirmation(event) && takes_answer && answers) return ScreenAction::permit_move;
         if (is_back(event) && !screen.in_lesson) return ScreenAction::cancel_start;
     }

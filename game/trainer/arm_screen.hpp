@@ -27,10 +27,10 @@ struct ArmScreen {
 // Call once a frame. New needs restart the time.
 void update(ArmScreen& screen, const device::ArmNeeds& needs, double seconds);
 
-// The action of a key or of the controller. `enter_answers`: false while the arrow keys have marked a button,
-// which Enter then presses.
+// The action of a key or of the controller. `enter_key_answers`: false while the arrow keys have marked a
+// button, which Enter then presses.
 ScreenAction action_of(const ArmScreen& screen, std::span<const platform::InputEvent> events,
-                       bool enter_answers);
+                       bool enter_key_answers);
 
 ScreenAction draw_arm(const ScreenContext& context, const ArmScreen& screen);
 

@@ -75,10 +75,10 @@ bool update(TouchCheck& check, const std::optional<station::MoverSample>& mover,
 }
 
 TouchAnswer answer_of(const TouchCheck& check, std::span<const platform::InputEvent> events,
-                      bool enter_answers) {
+                      bool enter_key_answers) {
     TouchAnswer answer;
     for (const platform::InputEvent& event : events) {
-        const bool answers = enter_answers || !std::holds_alternative<platform::KeyEvent>(event);
+        const bool answers = enter_key_answers || !std::holds_alternative<platform::KeyEvent>(event);
         answer.confirmed =
             answer.confirmed || (is_confirmation(event) && answers && check.shown_for >= question_time);
         answer.ended = answer.ended || is_back(event);

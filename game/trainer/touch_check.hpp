@@ -53,9 +53,9 @@ bool update(TouchCheck& check, const std::optional<station::MoverSample>& mover,
 struct TouchAnswer {
     bool confirmed = false, ended = false;
 };
-// `enter_answers`: false while the arrow keys have marked a button, which Enter then presses.
+// `enter_key_answers`: false while the arrow keys have marked a button, which Enter then presses.
 TouchAnswer answer_of(const TouchCheck& check, std::span<const platform::InputEvent> events,
-                      bool enter_answers);
+                      bool enter_key_answers);
 
 ScreenAction draw_touch_check(const ScreenContext& context, const TouchCheck& check);
 

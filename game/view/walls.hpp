@@ -1,5 +1,6 @@
-// Projection walls: a window without a border for each output, and the pictures in it, as the tracked head
-// sees the room through the wall. Poses are in the room's frame (view::ImmersiveFrame), m.
+// Projection walls: for each output (the part of a monitor that one projector shows) a window without a
+// border, and the pictures in it, as the tracked head sees the room through the wall. Poses are in the room's
+// frame (view::ImmersiveFrame), m.
 #pragma once
 
 #include <functional>
@@ -66,15 +67,15 @@ class Walls {
     Walls& operator=(const Walls&) = delete;
 
     // Waits until the other processes have opened their walls (WallLeader::begin). Does nothing if this is
-    // the only process.
+    // the only process. `fingerprint`: of program and display file; it must be equal in all processes.
     Status wait_for_processes(std::uint64_t fingerprint, StopWaiting stop);
 
     // Creates the swapchains; release() destroys them before the device is destroyed.
     Status start(gpu::Device& device, const gpu::Instance& instance);
     void release();
 
-    // Keys and requests to close from the windows of all processes, since the last call. The pointer is that
-    // of the control window.
+    // Keys and requests to close from the windows of all processes, since the last call. Events of the
+    // pointer come only from the control window, which the first process has.
     std::vector<platform::InputEvent> poll_events();
 
     // The next frame: prepares the swapchains, and reads the pose of the head at the time `now`, s on the

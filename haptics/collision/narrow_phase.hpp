@@ -16,13 +16,13 @@
 
 namespace bolt::collision {
 
-// A conservative bound plus the motion (PairCache) that was accumulated when the bound was computed. Subtract
-// the present accumulated motion to get the bound that holds now.
+// Each value is a sum: a conservative bound, plus PairCache's accumulated motion at the moment when the bound
+// was computed. The bound that holds now is this value minus the accumulated motion now.
 struct DistanceBound {
-    // m. For a point: its signed distance. For a piece of an edge: it may move this far before another edge
-    // can come near (EdgeQueryResult::clear_distance).
+    // m. The bound of a point is its signed distance. The bound of a piece of an edge is how far it may move
+    // before another edge can come near (EdgeQueryResult::clear_distance).
     double lower;
-    double turn;  // rad, rotation up to which `lower` holds; infinite for points
+    double turn;  // rad, accumulated turn up to which `lower` holds; infinite for points
 };
 
 // The last query of a sample or cluster: where it was in the surface's frame, the lower bound there, and the
@@ -92,9 +92,11 @@ inline constexpr double smooth_near = 0.16e-3, smooth_far = 0.36e-3;
 // rad, greatest angle between the smooth normal and the facets' normal.
 inline constexpr double max_smoothing_angle = 20.0 * pi / 180.0;
 
-// Sets `Contact::smooth` of contacts that `find_contacts` wrote for this world, tool and pose. Where a face
-// or blunt edge meets a crease, the face's normal is used. Where two smooth surfaces meet, both normals are
-// averaged, and the flatter surface has the greater weight. Where two creases meet, `smooth` stays zero.
+// Sets `Contact::smooth` of contacts that `find_contacts` wrote for this world, tool and pose. A crease is an
+// edge that is too sharp to be a facet of a round surface; a blunter edge counts as part of its face. Where a
+// face meets a crease, the face's normal without its component along the crease is used. Where two smooth
+// surfaces meet, both normals are averaged, and the flatter surface has the greater weight. Where two creases
+// meet, `smooth` stays zero.
 void smooth_normals(const CollisionWorld& world, const ToolShape& tool, const Pose& pose,
                     std::span<Contact> contacts);
 

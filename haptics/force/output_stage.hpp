@@ -85,7 +85,7 @@ struct PassivityState {
     double balance = 0.0;
     double stored_energy = 0.0;  // J, of the last request
     double removed = 0.0;        // J removed by the controller since the start
-    double damping = 0.0;        // 0 … 1, active share of the permitted damping (damping_share)
+    double damping = 0.0;        // 0 … 1, of damping_share × OutputLimits::damping
 
     std::array<OutputCommand, 4> sent{};  // commands sent, newest first
     OutputCommand applied;                // sum of the commands of the ticks since the last sample
@@ -97,9 +97,9 @@ struct PassivityState {
 inline constexpr double damping_share = 0.9;
 
 // Largest positive balance, J, and time constant of its decay, s: energy dissipated long ago must not offset
-// energy that a vibration generates now. With 0.5 mJ a tool rocking on a ball vibrated for one second. A
-// spring of 1 N/mm pressed at 0.3 m/s at 1 kHz generates 45 µJ per tick, so 0.2 mJ prevents a reaction to
-// single ticks.
+// energy that a vibration generates now. With 0.5 mJ, in a trial, a tool that rocked on a ball-shaped
+// obstacle vibrated for one second. A spring of 1 N/mm pressed at 0.3 m/s at 1 kHz generates 45 µJ per tick,
+// so 0.2 mJ prevents a reaction to single ticks.
 inline constexpr double max_credit = 0.2e-3;
 inline constexpr double credit_decay_time = 0.03;
 
@@ -120,8 +120,8 @@ OutputCommand control_passivity(const OutputLimits& limits, PassivityState& stat
 // the end of each tick.
 void record_sent(PassivityState& state, const OutputCommand& sent);
 
-// The limiter, the last step. Its output is finite, within the device's limits and, except while it is
-// released, within the slew rates.
+// The limiter, the last step. Its output is finite, within the device's limits and within the slew
+// rates. While the output falls to zero the slew rates do not apply.
 
 struct LimiterState {
     Vec3 force{0.0};    // N, last output
@@ -147,7 +147,8 @@ struct OutputStage {
 };
 
 // One tick of dt. Returns the device's command. It is zero at most limits.release after the dead-man switch
-// is released, after the last sample of a silent device, and after any other fault.
+// is released, after the last sample of a silent device (OutputLimits::max_silence is part of that time), and
+// after any other fault.
 OutputCommand render(const OutputLimits& limits, OutputStage& stage, const DeviceInput& input,
                      const ForceRequest& request, double dt);
 

@@ -123,7 +123,7 @@ struct JointDesign {
     double member_diameter = 0.0;  // m, D_A of VDI 2230 (outer diameter of the clamped part); 0: unlimited
     FrictionDesign friction;
     double roughness_Rz = 16e-6;   // m, of the faces; determines the embedding, by which load flattens them
-    double misfit = 5e-6;          // m, scale over which the seat closes (non-parallel faces, thread draw-in)
+    double misfit = 5e-6;          // m, distance over which misfitting faces close: added to u0 of SeatSpring
     double embedding_time = 5.0;   // s, time constant of embedding
     double prevailing_torque = 0;  // N·m, of a locking nut
     bool locking_insert = false;   // non-metallic (ISO 7040): acts once the bolt's end is in it, and wears
@@ -154,7 +154,7 @@ struct JointDesign {
 
 // Dimensions of the part that is turned, m. `depth`: of a head's socket; 0: the tool grips it from outside.
 struct TurnedPartSize {
-    double across_flats = 0.0;  // s that the tool must have
+    double across_flats = 0.0;  // width across flats that the tool must have
     double height = 0.0;
     double bearing = 0.0;  // d_w
     double depth = 0.0;
@@ -211,7 +211,7 @@ inline double bearing_mean_diameter(double d_w, double d_h) { return 0.5 * (d_w 
 double sliding_slope(const ScrewThread& thread, double mu_thread, double friction_share = 1.0);
 
 // Ratio of equivalent (von Mises) to tensile stress while the thread torque acts: √(1 + 3 [κ (d2/d0) tan(φ +
-// ρ')]²).
+// ρ')]²). κ: PropertyClass::kappa; d2 and d0: mean diameter of the thread and diameter of its stress section.
 double equivalent_stress_ratio(const ScrewThread& thread, double mu_thread, double kappa,
                                double friction_share = 1.0);
 
@@ -247,8 +247,8 @@ enum class DeformationCones : std::uint8_t { two = 1, one = 2 };
 // Elastic compliance of the clamped members, m/N, VDI 2230-1 section 5.1.2. δ_P of a stack of layers under
 // the concentric deformation cones of head and nut. The outer diameter D_A may cut the cones; 0: unlimited,
 // and the cones have the angle that belongs to D_A = 3 d_w. Layers of different modulus are integrated
-// exactly along the cone. With a tapped hole there is one cone, from the bearing face to the tapped part; the
-// layers are then in this order.
+// exactly along the cone. With a tapped hole there is one cone, from the bearing face to the tapped part;
+// `layers` must then begin at the bearing face.
 double member_compliance(std::span<const Member> layers, double bearing_diameter, double hole, double D_A,
                          DeformationCones cones = DeformationCones::two);
 

@@ -9,8 +9,8 @@
 //
 //   w(r) = −F ℓ²/(2π D) kei(r/ℓ),   ℓ = (D/k)^¼        (Hertz 1884; Timoshenko & Woinowsky-Krieger, §57)
 //
-// kei is the Kelvin function of order 0; kei(0) = −π/4. The load of any set of forces stores
-// positive energy in plate and foundation. So the matrix of w between any points is symmetric and positive
+// kei is the Kelvin function of order 0; kei(0) = −π/4. Any set of forces stores energy in plate
+// and foundation, never a negative one. So the matrix of w between any points is symmetric and positive
 // semidefinite, and the interaction never generates energy.
 #pragma once
 
@@ -62,7 +62,7 @@ struct GroupParameters {
 // The state of a joint. Clamp force, breakaway, stage and condition are those of the law's own state
 // (`mechanistic` or `published`), copied after each step.
 struct JointState {
-    NutMotion nut;             // angle on the thread; speed in the assembly's frame
+    NutMotion nut;             // angle: relative to the bolt; speed: relative to the assembly
     double common_turn = 0.0;  // rad by which nut and bolt have turned together, tightening positive
     double torque = 0.0;       // N·m applied by wrench or fingers, tightening positive
     double clamp = 0.0;        // N
@@ -111,7 +111,8 @@ void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::s
 struct CurveSample {
     double angle = 0.0;  // rad from the start of the run
     Stage stage = Stage::navigation;
-    // N·m. Mechanistic law: negative while loosening. Published law: as published_torque() gives it.
+    // N·m. Mechanistic law: negative while loosening. Published law: with the signs of the paper's
+    // equations (published.hpp).
     double torque = 0.0;
     double clamp = 0.0;  // N
 };

@@ -37,7 +37,7 @@ PlasticCurve PlasticCurve::make(const ScrewThread& thread, const PropertyClass& 
     const double u_p = 0.002 * length;
     const double share = (bolt.R_p02 * thread.A_s - c.elastic_load) / (c.ultimate_load - c.elastic_load);
     c.scale = fit_scale(u_p, c.uniform, share);
-    c.spread = 1.0 / hardening(c.uniform, c.scale);
+    c.hardening_scale = 1.0 / hardening(c.uniform, c.scale);
     c.neck_load = 0.8 * c.ultimate_load;
     const double drop = c.ultimate_load - c.neck_load;
     c.fracture = c.uniform + std::max(0.5 * bolt.fracture_strain * length, 2.0 * drop * compliance);
@@ -49,7 +49,7 @@ PlasticCurve::LoadSlope PlasticCurve::at(double u) const {
     if (u < uniform) {
         const double x = power_3_4(u / scale);
         const double hardened = -std::expm1(-x);
-        const double span = (ultimate_load - elastic_load) * spread;
+        const double span = (ultimate_load - elastic_load) * hardening_scale;
         return {elastic_load + span * hardened, span * (1.0 - hardened) * 0.75 * x / u};
     }
     if (u >= fracture) return {0.0, 0.0};

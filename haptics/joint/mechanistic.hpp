@@ -40,13 +40,13 @@ struct PlasticCurve {
     double ultimate_load = 0.0;  // L_m, N, at u = u_u
     double scale = 0.0;          // u_c, m
     double uniform = 0.0;        // u_u, m
-    double spread = 0.0;     // factor that scales the hardening to 1 at u_u: 1 / (1 − e^{−(u_u/u_c)^¾})
-    double fracture = 0.0;   // u_f > u_u, m
-    double neck_load = 0.0;  // N, at u_f, just before fracture
+    double hardening_scale = 0.0;  // factor that scales the hardening to 1 at u_u: 1 / (1 − e^{−(u_u/u_c)^¾})
+    double fracture = 0.0;         // u_f > u_u, m
+    double neck_load = 0.0;        // N, at u_f, just before fracture
 
     // `length`: plastic length (free thread and half the engaged thread), m. `compliance`: of the joint, m/N.
-    // The load of a necking bolt falls at most at half the rate at which the joint would unload it, so that
-    // the load remains a function of the nut angle.
+    // Over the elongation, the load of a necking bolt falls at most half as steeply as the elastic joint
+    // unloads (1/compliance). A steeper fall would give several loads for one nut angle.
     static PlasticCurve make(const ScrewThread& thread, const PropertyClass& bolt, double length,
                              double compliance);
 
@@ -59,7 +59,7 @@ struct PlasticCurve {
 
 struct MechanisticParameters {
     ScrewThread thread;
-    TorqueLevers levers;     // of this bolt, with scatter and without wear
+    TorqueLevers levers;     // m, torque per clamp force of this bolt, with scatter and without wear
     double mu_thread = 0.0;  // μ_G of this bolt, with scatter and without wear
     double kappa = 1.5;      // factor of the torsion in the equivalent stress (PropertyClass::kappa)
     double start_gap = 0.0;  // m, nut face to seat at angle 0
@@ -87,8 +87,8 @@ struct MechanisticParameters {
     double weight_friction = 0;  // N·m, friction of the nut's weight on the thread
     // rad, phases of the three sine waves by which the running drag fluctuates with the angle.
     double ripple_phase[3] = {0.0, 0.0, 0.0};
-    // Only friction or a second wrench keeps the held part from turning (CounterHold::second_wrench). False:
-    // it cannot turn, and the next two members are 0.
+    // True: only friction or a second wrench keeps the held part from turning (CounterHold::second_wrench).
+    // False: it cannot turn, and the next two members are 0.
     bool held_part_can_turn = false;
     double held_lever = 0.0;  // m, μ r_b under the held part
     double held_drag = 0.0;   // N·m, friction of the bolt's weight under the held part
@@ -110,7 +110,7 @@ struct MechanisticState {
     double plastic = 0.0;    // m, permanent elongation of the bolt, never falls
     double stripped = 0.0;   // m, travel of the sheared threads, never falls
     double embedding = 0.0;  // m, flattened roughness, never falls
-    double uses = 0.0;  // number of tightenings so far; one to half the reference load counts as one half
+    double uses = 0.0;       // tightenings so far; a tightening to half the reference load counts as 0.5
     double breakaway = 1.0;  // 0…1, breakaway state
     double friction_share = 0.0;  // −1…1, friction torque ÷ its maximum; +1: slides tightening, −1: loosening
     double clamp = 0.0;           // N
@@ -149,7 +149,7 @@ struct NutTurn {
 // embedding and yield continue at rest. No allocation; cannot fail.
 void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn& turn, double dt);
 
-// The closure x above, m, in this state.
+// The closure x (m, as above) if the nut were at `angle` (rad) and everything else as in `s`.
 double closure_at_angle(const MechanisticParameters& p, const MechanisticState& s, double angle);
 
 }  // namespace bolt::joint

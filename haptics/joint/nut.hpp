@@ -53,15 +53,16 @@ struct NutMotion {
 // The drive of the nut: a spring with play between the angles of hand and nut.
 struct NutDrive {
     bool engaged = false;  // false: no drive
-    // rad, the angle of the nut when it was gripped, plus the hand's rotation since then. For step_nut() it
-    // is the angle on the bolt; for step_group(), in which the bolt may turn as well, JointState::rotation.
+    // rad, the angle of the nut when it was gripped, plus the hand's rotation since then. The angle of the
+    // nut is that on the bolt for step_nut(), and that in the assembly's frame for step_group(), in which the
+    // bolt may turn as well.
     double angle = 0.0;
     double half_play = 0.0;  // rad, backlash to either side
     double stiffness = 0.0;  // N·m/rad
     // N·m at which the drive slips: fingertips, the corners of a nut, the pawl of a ratchet; 0: never.
     double torque_limit = 0.0;
-    // N·m, external torque that the held part (CounterHold::second_wrench) can bear; infinite: it cannot
-    // turn. Only step_group() uses it.
+    // N·m, torque with which a second wrench or fingers hold the held part, besides the friction under it
+    // (CounterHold::second_wrench); infinite: it cannot turn. Only step_group() uses it.
     double held_part_torque = std::numeric_limits<double>::infinity();
     Click click;         // between hand and spring
     double swung = 0.0;  // rad that the click mechanism has swung, 0 … click.swing
@@ -98,8 +99,9 @@ inline double drive_inertia(double stiffness, double dt) { return stiffness * dt
 // The torque that the corners of a nut bear before an open jaw slips over them.
 //
 // A jaw that turns beyond its play bears on a strip of each flat, from the corner inward, at opposite
-// corners. Limit analysis: the strips flow at one pressure p. Strips of width b and height e that end at x1
-// and x2 from the axis carry T = p e b (x1 + x2 - b), which is greatest at b = (x1 + x2)/2:
+// corners. Limit analysis: the strips flow at one pressure p. Strips of width b and height e, whose outer
+// ends (at the corners) are x1 and x2 from the axis, carry T = p e b (x1 + x2 - b), which is greatest at b =
+// (x1 + x2)/2:
 //
 //   T = p e ((x1 + x2)/2)²
 //
@@ -111,8 +113,8 @@ inline double drive_inertia(double stiffness, double dt) { return stiffness * dt
 //   σ = H / 3              H: hardness (D. Tabor, The Hardness of Metals, 1951), the minimum that ISO 898-2
 //                          requires for the nut's class
 //
-// Modelling assumptions: rigid and ideally plastic, the jaw harder than the nut, no friction; if the jaw is
-// tilted, the length of contact is the part where the gap is smaller than the clearance on one side.
+// Modelling assumptions: rigid and ideally plastic, the jaw harder than the nut, no friction; a jaw
+// that is tilted by θ bears only over the height clearance / tan θ.
 
 // Pa, minimum Vickers hardness of the nut that matches a bolt of this class and of the nominal diameter `d`
 // (m). ISO 898-2, table of classes 5 to 12: a nut's class is the first number of the bolt's, and 5 for bolts

@@ -30,10 +30,11 @@ inline constexpr std::size_t max_contacts = 32;  // capacity of the finder's out
 //   the hand's part   the change that the hand's motion causes while the constrained tool stands still
 //   the tool's part   the rest: the constrained tool itself moves, because it slips or falls off an edge
 //
-// The tool's part is limited to the greater of its two shares; people notice a step of 7 % of the force that
-// they feel. Both parts together are limited to `total_share_of_maximum`. While the tool is pushed out of an
-// obstacle that moved into it, only the total limit applies. The same limits hold for the torque, with the
-// rendered and the greatest torque.
+// The tool's part is limited to the greater of two values, `tool_share_of_rendered` of the rendered force and
+// `tool_share_of_maximum` of the greatest force; people notice a step of 7 % of the force that they feel.
+// Both parts together are limited to `total_share_of_maximum`. While the tool is pushed out of an obstacle
+// that moved into it, only the total limit applies. The same limits hold for the torque, with the rendered
+// and the greatest torque.
 struct ForceRateLimits {
     double tool_share_of_rendered = 0.05;  // of the rendered force
     double tool_share_of_maximum = 0.005;  // of the greatest force; applies if little is rendered
@@ -63,11 +64,11 @@ struct GodObjectParameters {
     // False (sessions before format 11): the demand remains, the contact forces grow, and their friction
     // holds the tool.
     bool allows_narrow_gaps = true;
-    // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The first
-    // query of a tick, at the pose where the last tick ended, is free if it searches no further than one
-    // stride.
-    // `max_query_cost` applies after the first motion of the tick. Once the budget is spent, the tool moves
-    // only as far as earlier queries proved free, and continues in the next tick.
+    // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The cost
+    // of the first query of a tick, at the pose where the last tick ended, does not count if it searches no
+    // further than one stride. `max_query_cost` applies only when the tool has moved once in this tick, so
+    // that each tick makes progress. Once the budget is spent, the tool moves only as far as earlier queries
+    // found no obstacle, and continues in the next tick.
     int max_queries = 5;
     std::uint32_t max_query_cost = 800;
 };
@@ -91,7 +92,9 @@ struct GodObjectStep {
     int queries = 0;
     std::uint32_t query_cost = 0;
     int solves = 0;
-    bool cut_short = false;     // the queries or attempts ended before the tool reached its constrained pose
+    // The budget of queries ended, or four motions from one pose were rejected, before the tool reached the
+    // pose with the least energy.
+    bool cut_short = false;
     bool rate_limited = false;  // the motion was shortened to limit the change of force
 };
 
@@ -101,8 +104,8 @@ GodObjectState start_god_object(const Pose& pose);
 // Advances by one tick of `dt` (s). A motion is accepted in one of two cases:
 //
 //   free    no point of the tool travels further than the distance to the nearest obstacle, less the skin
-//   short   no point travels further than `stride`, and at the end every contact that the motion approached
-//           is at least a fifth of the skin away, or no nearer than the nearest contact was at the start
+//   short   no point travels further than `stride`, and each contact that the motion approached is, at its
+//           end, at least a fifth of the skin away, or no nearer than the nearest contact was at its start
 //
 // At the end of a short motion the finder can report a contact that it missed at the start. Such a contact is
 // tolerated if the motion did not approach it and if it is at most 0.25 mm deep. Ignores a pose that is not

@@ -272,11 +272,11 @@ joint::NutDrive contact_drive(const Setup& setup, const NutGeometry& nut, double
     return drive;
 }
 
-double bend_tool(const Wrench& wrench, double rotation, joint::NutDrive& drive, Engagement& e) {
+double bend_tool(const Wrench& wrench, double nut_rotation, joint::NutDrive& drive, Engagement& e) {
     if (wrench.yield_torque <= 0.0 || e.joint < 0 || e.grip != Grip::wrench) return 0.0;
     if (drive.torque_limit > 0.0 && drive.torque_limit <= wrench.yield_torque) return 0.0;
     const double most = drive.half_play + wrench.yield_torque / wrench.stiffness;
-    const double wound = e.hand_angle - e.swung - rotation;
+    const double wound = e.hand_angle - e.swung - nut_rotation;
     const double bent = wound - std::clamp(wound, -most, most);
     e.hand_angle -= bent;
     drive.angle -= bent;

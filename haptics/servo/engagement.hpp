@@ -30,9 +30,10 @@ struct Engagement {
     // rad, angle of the tool about the bolt at the last tick, in −π … π; a rotation that tightens increases
     // it.
     double azimuth = 0.0;
-    // rad, the rotation of the nut at which the spring between tool and nut would be relaxed. It is the sum
-    // of three angles: the nut's rotation at engagement, the misalignment of the jaw, and the tool's rotation
-    // about the bolt since then. The last is not wrapped; with a ratchet it is that of the ratchet's head.
+    // rad, where the hand wants the nut to be: at this rotation of the nut the spring between tool and nut is
+    // relaxed. The sum of the nut's rotation at engagement, the misalignment of head and hexagon at
+    // engagement, and the tool's rotation about the bolt since then (not wrapped; with a ratchet, that of its
+    // head).
     double hand_angle = 0.0;
     double ratchet_slack = 0.0;  // rad, 0 … one tooth, by which the handle is behind the ratchet's head
     // m, tool minus nut centre at engagement; decays with a time constant of 0.05 s.
@@ -63,15 +64,16 @@ double tool_azimuth(const Setup& setup, const NutGeometry& nut, const ToolPose& 
 void update_pose_engagement(const Setup& setup, std::span<const joint::JointState> joints,
                             const ToolPose& tool, Grip grip, Engagement& engagement);
 
-// A tool with a ratchet (Ratchet in setup.hpp) takes three steps in a tick: turn_tool() with the hand, the
-// joint's step with a joint::NutDrive that limit_to_pawl() limits, and settle_ratchet(). Without a ratchet
+// With a ratchet (Ratchet in setup.hpp), a tick does four things in this order: turn_tool(); limit_to_pawl(),
+// which limits the drive of the joint; the step of the joint; settle_ratchet(). Without a ratchet
 // limit_to_pawl() and settle_ratchet() do nothing.
 
 // Turns the engaged tool by `turned`, rad since the last tick, tightening positive. The handle of a ratchet
 // first takes up Engagement::ratchet_slack.
 void turn_tool(const Wrench& wrench, double turned, Engagement& engagement);
 
-// N·m, drag of the pawl when the handle is `slack` rad behind its tooth.
+// N·m, drag of the pawl when the handle is `slack` rad behind the ratchet's head
+// (Engagement::ratchet_slack).
 double pawl_drag(const Ratchet& ratchet, double slack);
 
 // While the handle turns back, the torque on the nut is at most the drag of the pawl: sets the torque limit
@@ -89,17 +91,18 @@ void settle_ratchet(const Wrench& wrench, double rotation, double play, Engageme
 // (haptics/joint/nut.hpp).
 //
 // The joint law alone, with its implicit step, acts about the bolt's axis; contacts act in the other five
-// directions. Two measures separate them. In contact queries the hexagon turns with the head once the play is
-// used up. The moment of the contacts about the bolt is not rendered. If contacts drove the nut instead, its
-// torque would depend on the position error of the god-object: 0.01 mm at a corner changes a torque of 100
-// N·m by 3 N·m. The force is continuous at engagement: inside the play both the law's torque and the moment
-// that is not rendered are zero.
+// directions. Two measures separate them. Once the play is used up, contact queries place the hexagon as if
+// it were fixed to the tool's head, so that the two never press on each other. And the moment of the contacts
+// about the bolt is not rendered. If contacts drove the nut instead, its torque would depend on the position
+// error of the god-object: 0.01 mm at a corner changes a torque of 100 N·m by 3 N·m. Engagement causes no
+// jump of the force: a nut engages within the play, where the law's torque is zero, and so is the contacts'
+// moment that is left out from then on.
 
 // Pose of the wrench in the nut's frame.
 Pose pose_in_nut_frame(const NutGeometry& nut, const joint::JointState& joint, const ToolPose& tool);
 
-// One tick. The head engages a nut that it can turn if the head surrounds the hexagon and the two are aligned
-// within the play. To engage, the flats of head and hexagon must overlap along the bolt by at least
+// One tick. The head engages a nut of its size if it surrounds the hexagon and is aligned with it within the
+// play. To engage, the flats of head and hexagon must overlap along the bolt by at least
 // Jaw::bevel, or by 0.5 mm for other heads. Releases the nut if the head no longer surrounds the hexagon or
 // turns by more than a hand can turn in a tick, or if the command is not a pose. `rounded`, by joint: m
 // (joint::CornerGrip::rounded).
@@ -112,13 +115,14 @@ joint::NutDrive contact_drive(const Setup& setup, const NutGeometry& nut, double
                               const Engagement& engagement);
 
 // Call before the joint's step. A tool transmits at most Wrench::yield_torque; any further rotation of the
-// hand bends it permanently. Returns that rotation, rad, at least 0. If the corners of the nut yield at a
+// hand bends it permanently. `nut_rotation` in rad. Returns by how much (rad, ≥ 0) the hand has bent the
+// tool in this tick. If the corners of the nut yield at a
 // smaller torque, the tool does not bend (round_corners).
-double bend_tool(const Wrench& wrench, double rotation, joint::NutDrive& drive, Engagement& engagement);
+double bend_tool(const Wrench& wrench, double nut_rotation, joint::NutDrive& drive, Engagement& engagement);
 
-// Call after the joint's step. A head that turns beyond the corners' torque removes material in proportion to
-// the work, and transmits less torque the further it turns. Returns true in the tick in which the head slips
-// over the corners.
+// Call after the joint's step. Once the corner torque is exceeded, the head slips. It then removes material
+// in proportion to its work, and transmits less torque the further it turns. Returns true in the tick in
+// which the head slips over the corners.
 bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::JointState& joint,
                    double& rounded, Engagement& engagement);
 

@@ -69,8 +69,8 @@ struct Output {
     force::Fault fault = force::Fault::none;  // reason for which the output is zero
 
     Pose constrained_tool;  // pose that contacts permit, in the assembly's frame
-    // Number of contacts that the query at the tool's last pose found. The query also reports obstacles that
-    // the tool only comes near to (GodObjectStep::contacts).
+    // Number of contacts in the tick's last query at a pose of the tool, also with obstacles that the tool is
+    // only near to (GodObjectStep::contacts).
     std::uint16_t contacts = 0;
     // The nearest obstacle in contact at the pose of the tick's last contact query; none without a contact.
     // That pose can differ from `constrained_tool`.

@@ -42,8 +42,9 @@ struct NutGeometry {
     double start_gap = 0.0;        // m from bearing face to seat at nut angle 0
     double lead = 0.0;             // m of advance per rad
     // The held part of a through-bolt: its head if the nut is turned, and its nut if the head is turned.
-    double held_across_flats = 0.0;  // m; 0: it cannot turn (joint::CounterHold)
-    double held_distance = 0.0;      // m from the seat along −axis to the middle of the held part
+    // m. 0 if it cannot turn (joint::CounterHold); then its size does not matter.
+    double held_across_flats = 0.0;
+    double held_distance = 0.0;  // m from the seat along −axis to the middle of the held part
 };
 
 // The ratchet between the handle and the head of a tool. In one direction the head turns with the handle. In
@@ -53,7 +54,7 @@ struct Ratchet {
     double tooth_angle = 0.0;       // rad; 0: no ratchet
     double drag = 0.0;              // N·m, at the top of a tooth
     double least_drag_share = 0.4;  // of `drag`, at the foot of a tooth: the pawl's spring is preloaded
-    bool loosens = false;           // the lever's position; true: the head turns with a handle that loosens
+    bool loosens = false;           // position of the lever. True: it drives in the direction that loosens
 };
 
 // The unit vector about which a right-handed rotation loosens the nut.
@@ -89,8 +90,9 @@ struct Wrench {
     double adaptor_ratio = 1.0;  // torque at the nut / torque on the scale; above 1 with an adaptor
 };
 
-// rad of free rotation of the head on a hexagon or in a socket of this size (m) to either side, if its
-// corners have lost `rounded` m along each flat (joint::CornerGrip::rounded); 30° if it turns freely.
+// Free rotation (rad, to either side) of a tool's head on a hexagon, or in a hexagonal socket, of the size
+// `across_flats` (m), whose corners have lost `rounded` m along each flat (joint::CornerGrip::rounded).
+// 30° if nothing is left to grip.
 double half_play(const Wrench& wrench, double across_flats, double rounded);
 
 // Returns true if the tool can be turned over on the hexagon: only an open end.
@@ -124,8 +126,9 @@ struct Setup {
     // the corners that bear: two with a jaw, six with any other head. False (sessions before format 10): two
     // with any head.
     bool rounds_all_loaded_corners = true;
-    // A device without torque output renders torques as a force at the end of the handle. The force is that
-    // of the tool in use. False (sessions before format 11): always that of the first tool.
+    // A device without torque output renders torques as a force at the end of the handle. True: the force is
+    // computed for the handle of the tool in use. False (sessions before format 11): for that of the first
+    // tool.
     bool renders_tool_in_use = true;
     // The tool can move in a gap that is narrower than its safety distance (GodObjectParameters in
     // haptics/proxy). False (sessions before format 11): friction holds it there.
@@ -158,8 +161,9 @@ struct SetupDescription {
     ToolDescription tool;                        // in use at the beginning
     std::vector<ToolDescription> more_tools;
     std::vector<std::size_t> tool_of_joint;  // 0: `tool`, i + 1: more_tools[i]; empty: all 0
-    double max_torque = 0.0;     // N·m, the largest torque of the lesson; maps to the device's range
-    force::OutputLimits limits;  // of the devices, mapped to the assembly (force::in_assembly())
+    double max_torque =
+        0.0;  // N·m, the largest torque of the lesson; torques are scaled so that the device can render it
+    force::OutputLimits limits;  // of the devices, after the scale of the workspace (force::in_assembly())
     std::uint64_t seed = 0;      // of the scatter of joints and tools
     double dt = 0.001;           // s, duration of a tick
 };

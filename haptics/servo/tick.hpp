@@ -31,14 +31,14 @@ struct ReleaseFade {
 // A stored state of all joints and nuts, for undo.
 struct Checkpoint {
     std::vector<joint::JointState> joints;
-    std::vector<double> rounded;  // by joint: m, State::rounded
+    std::vector<double> rounded;  // by joint: m that has been removed from each flat (State::rounded)
 };
 
 struct State {
     std::uint64_t tick = 0;  // number of ticks since the beginning
     std::vector<joint::JointState> joints;
-    // By joint: length (m) that slipping heads have removed from each flat, measured from the corner
-    // (joint::CornerGrip::rounded).
+    // By joint: length (m) that slipping tools have removed from each of the nut's flats, measured from the
+    // corner (joint::CornerGrip::rounded).
     std::vector<double> rounded;
     double bent = 0.0;  // rad by which tools were bent for good; undo does not reduce it
     Engagement engagement;

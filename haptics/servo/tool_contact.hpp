@@ -85,8 +85,9 @@ void use_tool(ToolContact& contact, std::size_t from, std::size_t to);
 void set_coupling(const Setup& setup, ToolContact& contact);
 
 // One tick: places the nuts by their joints' angles and moves the wrench towards `commanded_tool` as far as
-// contacts allow. `engaged_joint` is the joint whose nut the head holds, −1 for none: its hexagon turns with
-// the head, so that contacts leave that rotation to the joint law (engagement.hpp). If `held` is false, the
+// contacts allow. `engaged_joint` is the joint whose nut the head holds, −1 for none: its hexagon is
+// placed at the head's angle, so that contacts never resist the turning of the nut; the joint law does
+// (engagement.hpp). If `held` is false, the
 // constrained tool is set to the commanded pose without contact, and the returned request is zero.
 force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& commanded_tool,

@@ -17,9 +17,9 @@ struct DrawnThread {
 // Measures the flanks of a thread about +Y, with axis through the origin. `diameter`: nominal, m. Returns
 // nullopt if the triangles within that diameter are no helix, such as those of a plain shank or of grooves.
 //
-// A surface that a screw motion maps to itself contains the direction of that motion. With t: the unit vector
-// about the axis y, its normal n satisfies n · (r t + P/2π y) = 0, so that P = −2π r (n·t)/(n·y) on each
-// triangle.
+// At each point of a helical surface, at the distance r from the axis y, the direction of the screw motion is
+// tangent to the surface: r t + P/2π y, where t is the unit vector about the axis. The normal n of the
+// surface is at right angles to it, so that P = −2π r (n·t)/(n·y) on each triangle.
 std::optional<DrawnThread> measure_drawn_thread(std::span<const Triangle> triangles, double diameter);
 
 }  // namespace bolt::geometry

@@ -19,8 +19,8 @@ struct ToolGeometry {
     std::string name = "the wrench";  // used in messages
     std::vector<Triangle> triangles;  // in the tool frame, metres
     collision::ToolHead head;         // the part that grips
-    // rad about +Z, from the handle to the direction of the head that lies along a corner of the hexagon:
-    // the throat of an open end.
+    // rad about +Z, from the handle to that direction of the head in which a corner of the gripped hexagon
+    // points. For an open end it points to the throat.
     double head_angle = 0.0;
     double head_size = 0.0;       // m, of an open end: middle of the jaw to the outside of the head
     double half_thickness = 0.0;  // m, of an open end's head

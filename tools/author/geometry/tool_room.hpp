@@ -22,9 +22,10 @@ struct SwingPair {
     [[nodiscard]] const FreeSwing& wider() const { return is_wider_turned_over() ? turned_over : plain; }
 };
 
-// The swing that a tool needs, rad. `least`: in one arc. `period`: between two fitting angles of its head.
+// The swing that a tool needs, rad.
 struct SwingRule {
-    double least = 0.0, period = 0.0;
+    double least = 0.0;   // width that one free arc must have
+    double period = 0.0;  // angle after which the head fits the hexagon again
 };
 SwingRule swing_rule(const ToolGeometry& tool);
 
@@ -32,7 +33,8 @@ SwingRule swing_rule(const ToolGeometry& tool);
 // without limit. `one_way_up`: without turning an open end over.
 bool can_turn_fully(const SwingPair& swings, const ToolGeometry& tool, bool one_way_up);
 
-// Returns true if the swing is enough to turn the part without limit.
+// Returns true if can_turn_fully(), with an open end either way up, and if one arc has the least width that
+// swing_rule() demands.
 bool is_enough(const SwingPair& swings, const ToolGeometry& tool);
 
 struct ToolRoom {
