@@ -147,9 +147,10 @@ class LessonSession {
     // outputs. Fails also if they differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::TickInput& input,
                   const servo::Output& output);
-    // checkpoints_saved(), plus one while the checkpoint of the present step is missing; undo does not reduce
-    // it. tick() saves the missing one by itself. A caller of repeat() must send the station a
-    // station::SaveCheckpoint whenever this number rises.
+    // The number of checkpoints that the servo should have saved by now, in all; undo does not reduce it. It
+    // exceeds checkpoints_saved() by one while the present step has no checkpoint yet. tick() saves it by
+    // itself; a caller of repeat() must send the station a station::SaveCheckpoint whenever this number
+    // rises.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.expected_checkpoints - session_setup_.state.checkpoint_count;
     }

@@ -128,9 +128,9 @@ inline const world::ToolState& tool_state_of(const ActiveLesson& active) {
 struct RoomInput {
     Pose room_in_assembly;  // the room's frame in the assembly's
     Pose head;              // in the room
-    // About the vertical. Turns a motion of the hand in the room into one in the assembly's frame, so that a
-    // push to the user's right moves the tool to the user's right, also after the user has turned the
-    // workpiece.
+    // Rotation about the vertical that maps a motion of the hand in the room to one in the assembly's frame,
+    // so that a push to the user's right moves the tool to the user's right, also after the user has turned
+    // the workpiece.
     Quat heading{1.0, 0.0, 0.0, 0.0};
     const xr::Hands* hands = nullptr;                             // in the room
     std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
@@ -176,7 +176,7 @@ inline constexpr ecs::System<scene::SceneWorld, LessonFrame> frame_systems[] = {
     {"ticks", tick_system}, {"placement", placement_system}, {"guidance", guidance_system},
     {"view", view_system},  {"labels", label_system},        {"collect", collect_system}};
 
-// The picture from the camera's present viewpoint.
+// The projection of the scene to pixels from the camera's present viewpoint. `size`: of the picture, px.
 Projection projection_of(const ActiveLesson& active, const glm::dvec2& size);
 
 }  // namespace bolt::trainer

@@ -56,7 +56,7 @@ enum class ShownScreen : std::uint8_t {
 
 class App : public view::WindowContent {
   public:
-    // `study`: leads its participant, without a menu.
+    // With `study`, the app leads that study's participant through the steps and shows no menu.
     explicit App(AppOptions options, std::optional<StudyRun> study = {});
     ~App() override;
 
@@ -148,12 +148,13 @@ class App : public view::WindowContent {
         VkExtent2D size{};
         float scale = 1.0F;
     };
+    // Functions follow_… update one part of the app in each frame.
     Status begin_lesson(float aspect);
     Status enter_lesson(Result<StartedLesson> started, float aspect);
     Status report_start(Status begun);
     void cancel_start();
     void follow_arm(std::span<const platform::InputEvent> events, double seconds, bool enter_key_answers);
-    Status close_lesson();
+    Status close_lesson();  // releases an ended lesson, when its result is left
     [[nodiscard]] LessonChoice lesson_choice() const;
     Result<LessonRequest> study_request();
     void request_display();
@@ -236,7 +237,7 @@ class App : public view::WindowContent {
     std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson
 
     std::optional<PointingRay> wand_ray_;  // of this frame, on walls
-    std::optional<RoomState> room_;        // none until a display has surrounded the user
+    std::optional<RoomState> room_;        // none until a headset or walls are first used
     // A headset tracks the hand of the lesson, but is lost, was taken off, or does not show pictures yet.
     struct MissingHeadset {
         bool noticed = false;      // it was missing in the last frame

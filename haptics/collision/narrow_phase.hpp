@@ -25,9 +25,9 @@ struct DistanceBound {
     double turn;  // rad, accumulated turn up to which `lower` holds; infinite for points
 };
 
-// The last query of a sample or cluster: where it was in the surface's frame, the lower bound there, and the
-// accumulated turn. The motion since then is at most the displacement of its middle plus its size times the
-// turn, which is a tighter bound than the tool's whole motion.
+// The last query of a sample or cluster, for a second and tighter test when its DistanceBound has run out:
+// since that query no point of it has moved further than its middle has, plus its radius times the turn since
+// then.
 struct CachedQuery {
     glm::vec3 at;   // m, of the middle
     float lower;    // m
@@ -93,10 +93,10 @@ inline constexpr double smooth_near = 0.16e-3, smooth_far = 0.36e-3;
 inline constexpr double max_smoothing_angle = 20.0 * pi / 180.0;
 
 // Sets `Contact::smooth` of contacts that `find_contacts` wrote for this world, tool and pose. A crease is an
-// edge that is too sharp to be a facet of a round surface; a blunter edge counts as part of its face. Where a
-// face meets a crease, the face's normal without its component along the crease is used. Where two smooth
-// surfaces meet, both normals are averaged, and the flatter surface has the greater weight. Where two creases
-// meet, `smooth` stays zero.
+// edge too sharp to lie between two facets of one round surface; a blunter edge counts as part of its face.
+// In a contact of a face with a crease, the normal of the face without its component along the crease is
+// used. In a contact of two smooth surfaces both normals are averaged, and the flatter surface has the
+// greater weight. In a contact of two creases `smooth` stays zero.
 void smooth_normals(const CollisionWorld& world, const ToolShape& tool, const Pose& pose,
                     std::span<Contact> contacts);
 

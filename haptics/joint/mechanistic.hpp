@@ -45,8 +45,8 @@ struct PlasticCurve {
     double neck_load = 0.0;        // N, at u_f, just before fracture
 
     // `length`: plastic length (free thread and half the engaged thread), m. `compliance`: of the joint, m/N.
-    // Over the elongation, the load of a necking bolt falls at most half as steeply as the elastic joint
-    // unloads (1/compliance). A steeper fall would give several loads for one nut angle.
+    // While a bolt necks, −dY/du is at most half of 1/compliance, the slope at which the elastic joint
+    // unloads. A steeper fall would give several loads for one nut angle.
     static PlasticCurve make(const ScrewThread& thread, const PropertyClass& bolt, double length,
                              double compliance);
 

@@ -1,7 +1,8 @@
 // The god-object algorithm, which moves the constrained tool: the pose of the tool under contact constraints.
-// It follows the commanded tool as far as obstacles permit and does not penetrate them. The hand feels the
-// coupling between the two poses (haptics/proxy/coupling.hpp); contacts have no springs of their own, so a
-// contact that appears or disappears causes no step in the force.
+// It follows the commanded tool as far as obstacles permit. It does not penetrate them, apart from the error
+// of their sampled surfaces (GodObjectParameters::skin). The hand feels the coupling between the two poses
+// (haptics/proxy/coupling.hpp); contacts have no springs of their own, so a contact that appears or
+// disappears causes no step in the force.
 //
 // Ruspini, Kolarov and Khatib, SIGGRAPH 1997 (the proxy); Ortega, Redon and Coquillart, IEEE TVCG 13(3), 2007
 // (six degrees of freedom, least constraint). Of all poses that contacts permit, the constrained tool takes
@@ -31,10 +32,10 @@ inline constexpr std::size_t max_contacts = 32;  // capacity of the finder's out
 //   the tool's part   the rest: the constrained tool itself moves, because it slips or falls off an edge
 //
 // The tool's part is limited to the greater of two values, `tool_share_of_rendered` of the rendered force and
-// `tool_share_of_maximum` of the greatest force; people notice a step of 7 % of the force that they feel.
-// Both parts together are limited to `total_share_of_maximum`. While the tool is pushed out of an obstacle
-// that moved into it, only the total limit applies. The same limits hold for the torque, with the rendered
-// and the greatest torque.
+// `tool_share_of_maximum` of the greatest force that the coupling renders (Coupling::max_force); people
+// notice a step of 7 % of the force that they feel. Both parts together are limited to
+// `total_share_of_maximum`. While the tool is pushed out of an obstacle that moved into it, only the total
+// limit applies. The same limits hold for the torque, with the rendered and the greatest torque.
 struct ForceRateLimits {
     double tool_share_of_rendered = 0.05;  // of the rendered force
     double tool_share_of_maximum = 0.005;  // of the greatest force; applies if little is rendered
@@ -52,7 +53,7 @@ struct GodObjectParameters {
     double friction_coefficient = 0.15;
     // m, kept between tool and obstacles. The finder samples the surfaces. Between two samples the tool can
     // be up to 0.19 mm nearer than the finder reports (measured by bolt-contact-validation, on the ZQ350).
-    // With this skin it penetrates by at most 0.08 mm.
+    // The real surfaces can therefore overlap by at most 0.08 mm (0.19 − 0.11).
     double skin = 110e-6;
     // m, how far a point of the tool may move until the next query. It may move further only if the last
     // query found no obstacle on that longer way.
@@ -104,8 +105,9 @@ GodObjectState start_god_object(const Pose& pose);
 // Advances by one tick of `dt` (s). A motion is accepted in one of two cases:
 //
 //   free    no point of the tool travels further than the distance to the nearest obstacle, less the skin
-//   short   no point travels further than `stride`, and each contact that the motion approached is, at its
-//           end, at least a fifth of the skin away, or no nearer than the nearest contact was at its start
+//   short   no point travels further than `stride`. And at the end of the motion each contact that it
+//   approached
+//           is at least a fifth of the skin away, or no nearer than the nearest contact was before the motion
 //
 // At the end of a short motion the finder can report a contact that it missed at the start. Such a contact is
 // tolerated if the motion did not approach it and if it is at most 0.25 mm deep. Ignores a pose that is not

@@ -31,9 +31,12 @@ struct Engagement {
     // it.
     double azimuth = 0.0;
     // rad, where the hand wants the nut to be: at this rotation of the nut the spring between tool and nut is
-    // relaxed. The sum of the nut's rotation at engagement, the misalignment of head and hexagon at
-    // engagement, and the tool's rotation about the bolt since then (not wrapped; with a ratchet, that of its
-    // head).
+    // relaxed.
+    //
+    //   hand_angle = nut's rotation at engagement + misalignment of head and hexagon at engagement
+    //                + rotation of the tool about the bolt since then
+    //
+    // It is not wrapped to ±π. With a ratchet the rotation of the ratchet's head counts, not the handle's.
     double hand_angle = 0.0;
     double ratchet_slack = 0.0;  // rad, 0 … one tooth, by which the handle is behind the ratchet's head
     // m, tool minus nut centre at engagement; decays with a time constant of 0.05 s.
@@ -91,21 +94,22 @@ void settle_ratchet(const Wrench& wrench, double rotation, double play, Engageme
 // (haptics/joint/nut.hpp).
 //
 // The joint law alone, with its implicit step, acts about the bolt's axis; contacts act in the other five
-// directions. Two measures separate them. Once the play is used up, contact queries place the hexagon as if
-// it were fixed to the tool's head, so that the two never press on each other. And the moment of the contacts
-// about the bolt is not rendered. If contacts drove the nut instead, its torque would depend on the position
-// error of the god-object: 0.01 mm at a corner changes a torque of 100 N·m by 3 N·m. Engagement causes no
-// jump of the force: a nut engages within the play, where the law's torque is zero, and so is the contacts'
-// moment that is left out from then on.
+// directions. Two measures separate them. Once the play is used up, contact queries turn the hexagon about
+// the bolt along with the tool's head, so that the two never press on each other in this direction; in the
+// other five they still do. And the moment of the contacts about the bolt is not rendered. If contacts drove
+// the nut instead, its torque would depend on the position error of the god-object: 0.01 mm at a corner
+// changes a torque of 100 N·m by 3 N·m. The change from contacts to the law causes no jump of the force: a
+// nut engages within the play, where the law's torque and the moment of the contacts about the bolt are both
+// zero.
 
 // Pose of the wrench in the nut's frame.
 Pose pose_in_nut_frame(const NutGeometry& nut, const joint::JointState& joint, const ToolPose& tool);
 
-// One tick. The head engages a nut of its size if it surrounds the hexagon and is aligned with it within the
-// play. To engage, the flats of head and hexagon must overlap along the bolt by at least
-// Jaw::bevel, or by 0.5 mm for other heads. Releases the nut if the head no longer surrounds the hexagon or
-// turns by more than a hand can turn in a tick, or if the command is not a pose. `rounded`, by joint: m
-// (joint::CornerGrip::rounded).
+// One tick. The head engages a nut of its size if it surrounds the hexagon (a key: if it is inside the
+// socket) and is aligned with it within the play. To engage, the flats of head and hexagon must overlap along
+// the bolt by at least Jaw::bevel, or by 0.5 mm for other heads. Releases the nut if the head no longer
+// surrounds the hexagon or turns by more than a hand can turn in a tick, or if the command is not a pose.
+// `rounded`, by joint: m (joint::CornerGrip::rounded).
 void update_contact_engagement(const Setup& setup, std::span<const joint::JointState> joints,
                                std::span<const double> rounded, const ToolPose& tool, Engagement& engagement);
 

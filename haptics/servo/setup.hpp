@@ -41,8 +41,9 @@ struct NutGeometry {
     double corner_pressure = 0.0;  // Pa at which the corners yield (haptics/joint/nut.hpp)
     double start_gap = 0.0;        // m from bearing face to seat at nut angle 0
     double lead = 0.0;             // m of advance per rad
-    // The held part of a through-bolt: its head if the nut is turned, and its nut if the head is turned.
-    // m. 0 if it cannot turn (joint::CounterHold); then its size does not matter.
+    // Width across flats (m) of the held part of a through-bolt, which is the head if the nut is turned, and
+    // the nut if the head is turned. 0 if the held part cannot turn (joint::CounterHold): its size is then
+    // not used.
     double held_across_flats = 0.0;
     double held_distance = 0.0;  // m from the seat along −axis to the middle of the held part
 };
@@ -63,7 +64,8 @@ Vec3 loosening_axis(const NutGeometry& nut);
 // The unit vector across the bolt at `angle` (rad, tightening positive) from e1.
 Vec3 direction_at(const NutGeometry& nut, double angle);
 
-// The angle, rad, −π … π, tightening positive, from e1 to the part of `direction` across the bolt.
+// The angle, rad, −π … π, tightening positive, from e1 to the projection of `direction` onto the plane
+// perpendicular to `axis`.
 double angle_of(const NutGeometry& nut, const Vec3& direction);
 
 // Pose of the nut's frame in the assembly: origin on the bearing face, +Z along the bolt away from the
@@ -130,8 +132,8 @@ struct Setup {
     // computed for the handle of the tool in use. False (sessions before format 11): for that of the first
     // tool.
     bool renders_tool_in_use = true;
-    // The tool can move in a gap that is narrower than its safety distance (GodObjectParameters in
-    // haptics/proxy). False (sessions before format 11): friction holds it there.
+    // The tool can move in a gap that is too narrow for the skin on both sides
+    // (proxy::GodObjectParameters::skin). False (sessions before format 11): friction holds it there.
     bool allows_narrow_gaps = true;
 
     // N·m that fingertips can apply to the nut.
@@ -163,7 +165,7 @@ struct SetupDescription {
     std::vector<std::size_t> tool_of_joint;  // 0: `tool`, i + 1: more_tools[i]; empty: all 0
     double max_torque =
         0.0;  // N·m, the largest torque of the lesson; torques are scaled so that the device can render it
-    force::OutputLimits limits;  // of the devices, after the scale of the workspace (force::in_assembly())
+    force::OutputLimits limits;  // of the devices, converted by force::in_assembly()
     std::uint64_t seed = 0;      // of the scatter of joints and tools
     double dt = 0.001;           // s, duration of a tick
 };

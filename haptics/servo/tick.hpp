@@ -31,7 +31,7 @@ struct ReleaseFade {
 // A stored state of all joints and nuts, for undo.
 struct Checkpoint {
     std::vector<joint::JointState> joints;
-    std::vector<double> rounded;  // by joint: m that has been removed from each flat (State::rounded)
+    std::vector<double> rounded;  // by joint: length removed from each flat, m (State::rounded)
 };
 
 struct State {
