@@ -24,7 +24,8 @@ namespace bolt::content {
 // The target of tightening.
 enum class Strategy : std::uint8_t {
     torque,        // the target torque; an angle window, if there is one, is judged too
-    torque_angle,  // the target torque within a required angle window; with turn passes the target angle
+    torque_angle,  // the target torque within a required angle window; in a lesson with turn passes, the
+                   // target angle
     yield          // the onset of yield
 };
 // VDI/VDE 2862. A: danger to life; B: breakdown; C: other.
@@ -66,7 +67,7 @@ struct AssemblyJoint {
     joint::JointDesign design;
     Specification spec;
     PublishedJoint published;
-    std::string node;  // unique node name in the .glb; may be empty if there is none
+    std::string node;  // unique node name in the .glb; may be empty only if the assembly has no .glb
     std::string tool;  // name of the only tool that may turn it; empty: the chosen one
 };
 

@@ -22,8 +22,8 @@ using PoolOf = std::conditional_t<std::is_const_v<Component>, const Pool<std::re
 //   view.each([](Entity entity, Pose& pose, const Velocity& velocity) { ... });   or without the entity
 //
 // Iteration goes from the last to the first entity. The callback may destroy the visited entity, remove its
-// components and create entities (which are not visited). It must not destroy other entities: collect them
-// and destroy them afterwards.
+// components and create entities (which are not visited). It must not destroy other
+// entities: collect them and destroy them afterwards.
 template <class... Components>
 class View {
     static_assert(sizeof...(Components) > 0);
@@ -58,7 +58,7 @@ class View {
     void iterate(Function& function, std::index_sequence<I...>) const {
         auto& first = *std::get<First>(pools_);
         for (std::size_t at = first.size(); at-- > 0;) {
-            if (at >= first.size()) continue;  // the callback erased more than the visited entity
+            if (at >= first.size()) continue;  // the callback destroyed others, which it must not
             const Entity entity = first.entities()[at];
             const std::tuple<Components*...> found{component<First, I>(entity, at)...};
             if (!(... && (std::get<I>(found) != nullptr))) continue;

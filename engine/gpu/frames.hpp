@@ -83,9 +83,9 @@ class FrameContext {
     RetiredResources retired_;
     QueryPool queries_;
     std::vector<std::string> timing_names_;  // names, in the order of the queries
-    std::vector<std::size_t>
-        open_timings_;                 // timings that have begun and not ended; max_timings: not measured
-    std::vector<PassTiming> timings_;  // of the previous use of this frame
+    std::vector<std::size_t> open_timings_;  // queries of timings that have begun and not ended; max_timings:
+                                             // one that is not measured
+    std::vector<PassTiming> timings_;        // of the previous use of this frame
 };
 
 class Frames {
@@ -96,7 +96,8 @@ class Frames {
     Result<FrameContext*> begin();
 
     struct Signals {
-        std::span<const VkSemaphore> wait;    // transfers wait for them
+        std::span<const VkSemaphore>
+            wait;  // the transfer commands of the frame wait for them, its drawing does not
         std::span<const VkSemaphore> signal;  // signalled when all commands are complete
     };
     // Ends recording and submits the frame.

@@ -62,8 +62,8 @@ ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contac
 struct HandleAngle {
     double angle = 0.0;    // rad about the bolt, tightening positive
     bool flipped = false;  // the wrench is turned over, as in tool_orientation()
-    // rad by which the handle can swing from there, but at least 15°, so that a pull is tried where no angle
-    // has more room
+    // rad by which the handle can swing from there. Never below 15°, even where there is less room, so that a
+    // pull is tried all the same.
     double free_swing = 0.0;
 };
 

@@ -24,7 +24,8 @@ std::string order_map(const analysis::SessionData& session, const analysis::Pass
 // The clamp force of each joint against its target.
 std::string clamp_map(const analysis::SessionData& session);
 
-// One row per joint: the clamp force at the release and at the end, the target, and the mean of all joints.
+// One row per joint: the clamp force when the hand last left the nut and at the end of the lesson, the
+// target, and the mean of all joints.
 std::string clamp_rows(const analysis::SessionData& session);
 
 // Returns true if a row shows a difference between the forces at the release and at the end.

@@ -59,7 +59,8 @@ struct MaterialComparison {
     std::vector<analysis::Comparison> types;
 };
 // The errors of the published law beside those that the paper of 2018 prints (paper_table.cpp); page and text
-// say that nothing was measured. The paper has the variants "stainless" and "carbon_steel".
+// tell the reader that these values are computed, not measured. The paper has the variants "stainless" and
+// "carbon_steel".
 std::string paper_table_page(std::span<const MaterialComparison> materials);
 std::string paper_table_text(std::span<const MaterialComparison> materials);
 
@@ -76,7 +77,7 @@ struct SeriesPage {
 };
 std::string series_page(const SeriesPage& page);
 
-// Limits of the comparison: peaks that differ by a large factor, stages without samples.
+// Warnings for the reader of the comparison: peaks that differ by a large factor, stages without samples.
 std::vector<std::string> remarks(const analysis::Comparison& comparison);
 
 // Describes the alignment of the curves and the definition of the errors.

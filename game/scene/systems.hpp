@@ -11,7 +11,7 @@ namespace bolt::scene {
 struct ToolAndHand {
     Pose tool;                            // limited by obstacles
     bool wrench = false;                  // the wrench is in the hand
-    double head_turn = 0.0;               // rad, world::ToolState::head_turn
+    double head_turn = 0.0;               // rad, of a ratchet's head relative to its handle
     tool_models::DisplayReading reading;  // of an electronic torque wrench
     Pose rest;                            // of a wrench that is not in the hand
     bool pinches = false;                 // without a wrench: the fingers are closed on a nut
@@ -22,8 +22,8 @@ struct ToolAndHand {
     bool at_nut = false;                   // a nut is within reach of the fingers
     std::size_t handle_posture_index = 0;  // in Postures::on_handle
     double seconds = 0.0;                  // since the last frame; changes of posture are smoothed over time
-    double effort = 0.0;                   // 0 … 1, Effort::share
-    double tremor = 0.0;                   // −1 … 1, Effort::tremor
+    double effort = 0.0;                   // 0 … 1, of the hand's greatest effort (Effort::share)
+    double tremor = 0.0;                   // −1 … 1, present deflection of its trembling (Effort::tremor)
     double closed_share = 0.0;             // 0 (open) … 1: the fingers of an empty hand
     // The measured joints of a gloved hand (world::GloveHand::joints); null: no glove.
     const hand::Skeleton* gloved = nullptr;
@@ -75,7 +75,7 @@ enum class Occluders : std::uint8_t { all, hand };
 void fade_occluders(SceneWorld& world, render::Scene& scene, const servo::Setup& setup, std::size_t joint,
                     Occluders occluders = Occluders::all);
 
-// Fades an arm that would fill the picture because it is near to the eye (m, assembly frame).
+// Fades a drawn forearm that would fill the picture because it is near to the eye (m, assembly frame).
 void fade_near_arms(SceneWorld& world, const Vec3& eye);
 
 // A scene without objects, with the environment light and view::key_light().

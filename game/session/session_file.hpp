@@ -3,9 +3,9 @@
 //
 // Tables: meta(key, value), header and state; obstacle(id, name), the possible obstacles of the wrench;
 // tick_chunk(first_tick, count, data), up to one second of ticks (recorded_tick.hpp); event(...);
-// joint_result(...), by joint index; score_reason(...); servo_time(...), the timing of the servo's thread, if
-// one ran; seal(name, rows, sum), the checksum of each table. Each second is one commit, so a killed process
-// loses at most the last second. meta 'state' is 'recording' until finish() sets 'complete'.
+// joint_result(...), one row for each joint; score_reason(...); servo_time(...), the timing of the servo's
+// thread, if one ran; seal(name, rows, sum), the checksum of each table. Each second is one commit, so a
+// killed process loses at most the last second. meta 'state' is 'recording' until finish() sets 'complete'.
 //
 // During the recording, and after a kill, the newest part is in a -wal file beside it; finish() leaves one
 // file. A -shm and a .lock file exist during the recording; they are harmless if a kill leaves them.

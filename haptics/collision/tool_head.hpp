@@ -81,8 +81,9 @@ HeadFit head_fit(const ToolHead& head, const TurnedShape& shape, const Pose& too
 Result<std::vector<Convex>> head_solids(const ToolHead& head);
 Result<std::vector<Convex>> shape_solids(const TurnedShape& shape);
 
-// Returns true if a point of the tool's mesh lies inside one of the solids of the head. Both are in the
-// tool's frame. Points of fillets, and of a head that is broader than its solids, can lie outside.
+// Returns true if a point of the tool's mesh lies inside one of the solids of the head, which then represent
+// it: its contacts as a mesh can be left out. Both are in the tool's frame. The solids omit fillets and the
+// outer parts of a broad head.
 bool covered(std::span<const Convex> head, const Vec3& point);
 
 // One query of the contacts between a head and a shape that the head can turn.
@@ -95,10 +96,11 @@ struct GripQuery {
 };
 
 // Writes the contacts and returns their number. `tool` and `shape`: poses in the assembly. Distances are
-// exact if a face or two edges are nearest (convex.hpp).
+// exact if a face or two edges are nearest, otherwise too small (convex.hpp).
 //
 // A jaw is always tested with solid_contacts(). So is a ring, a socket or a key until all six edges of the
-// hexagon reach into the hole. From then on the hole, which is convex, is tested in closed form: the hexagon
+// hexagon reach into the hole. From then on it is tested against one hexagonal hole (of a hole with 12
+// points, the one of its two hexagons that fits), in closed form: the hexagon
 // touches no wall if none of its edges is beyond a wall. Each wall gets two contacts with the edge of the
 // hexagon that is nearest to it: at the lower and at the upper end of the part of that edge within the hole.
 // Six more points test the shoulder of a socket or the floor under a key.

@@ -25,10 +25,10 @@ struct WorkspaceMap {
     double scale = 1.0;                 // m of the tool per m of the device
     double power_ratio = 1.0;           // power at the device / power at the tool
     double fade = 0.05;                 // s in which forces fade out and in with the clutch
-    // s, time constant with which WorkspaceState::centre decays to 0 and, while the lever arm is 0,
-    // tool_to_device decays to the identity. A wrench (lever arm > 0) keeps its orientation in the hand.
-    // Finite: the mapping is absolute, for a tracked hand that the picture shows. Infinite: the mapping is
-    // relative; centre and tool_to_device keep the values of realign().
+    // Infinite: the mapping is relative, as for an arm. The offsets in WorkspaceState (`centre` and
+    // `tool_to_device`) keep the values that realign() gave them. Finite: the mapping is absolute, for a
+    // tracked hand that the picture shows. Then both offsets decay with this time constant, s;
+    // `tool_to_device` only while the lever arm is 0, because a wrench keeps its orientation in the hand.
     double return_time = std::numeric_limits<double>::infinity();
 };
 
@@ -72,9 +72,10 @@ struct Pivot {
 };
 
 // The pose of a wrench that sits on a bolt, while the hand holds its handle at `lever_end`, `lever_arm` m
-// from the jaw: the pose `held`, turned about the bolt so that the handle points to `lever_end`, and moved so
-// that the handle ends there. The device's orientation has no effect, because a device without torque cannot
-// hold the wrist. If `lever_end` is on the axis, `held` is moved but not turned.
+// from the jaw: the pose `held`, turned about the bolt so that the handle points to `lever_end`, and then
+// translated until the handle ends there, even if that takes the jaw off the axis of the bolt. The device's
+// orientation has no effect, because a device without torque cannot hold the wrist. If `lever_end` is on the
+// axis, `held` is moved but not turned.
 Pose pivoted(const Pivot& pivot, const Pose& held, double lever_arm, const Vec3& lever_end);
 
 // The smallest scale, at least 1, at which the end of a wrench of `handle_length` m that points to the user

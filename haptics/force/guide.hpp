@@ -89,7 +89,8 @@ GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree f
 // axis, and then down.
 double lowest_permitted_height(const GuideTarget& target, const Vec3& tool);
 
-// Moves the end of the path, and the approach point if there is one, to the target's present position.
+// Moves the end of the path to the target's present position, and the approach point, if there is one, along
+// with it.
 void move_end(GuidePath& path, const GuideTarget& target);
 
 double length(const GuidePath& path);                // m
@@ -125,9 +126,10 @@ struct GuideState {
 };
 
 // One tick of dt. With a negative `target.id` the force fades out; pass a negative id while a nut is engaged.
-// Returns the request to the output stage. Along the path all work is reported as injected energy, so the
-// passivity observer does not count it as generated. At the target the force derives from a potential, which
-// the observer treats like the energy of a spring.
+// Returns the request to the output stage. Along the path the force feeds energy in on purpose. All
+// of its work is reported as injected energy, so that the passivity observer does not take it for
+// instability. At the target the force derives from a potential, which the observer treats like the energy of
+// a spring.
 ForceRequest guide(const GuidingParameters& guiding, GuideState& state, const GuidedTool& tool,
                    const GuideTarget& target, IsSegmentFree free, double dt);
 

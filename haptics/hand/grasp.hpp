@@ -18,8 +18,8 @@ struct GraspOptions {
 };
 
 struct GraspInput {
-    bool fresh = false;     // a frame was received since the last update
-    hand::Angles measured;  // of the latest frame
+    bool fresh = false;     // a sample of the glove was received since the last update
+    hand::Angles measured;  // of the latest sample
     Pose wrist;             // in the tool frame, while the tool is not held
 };
 

@@ -18,7 +18,7 @@ struct PublishedParameters {
     double alpha = pi / 6, beta = pi / 6;
     // Friction coefficients: of the free thread (stage 1), of the bearing face, of the loaded thread.
     double mu = 0.3, mu1 = 0.4, mu2 = 0.3;
-    double pitch_mm = 2.0;                  // ρ = P
+    double pitch_mm = 2.0;                  // P of the thread, which the paper calls ρ in eq. 3
     double d2_mm = 14.7;                    // pitch diameter of the thread
     double D1_mm = 24.0, D2_mm = 14.7;      // outer and inner diameter of the bearing face
     double r_t_mm = 14.7, r_b_mm = 24.0;    // lever arms of thread and bearing friction, as printed
@@ -34,23 +34,26 @@ struct PublishedParameters {
     double yield_width_deg = 90.0;  // width of the yield stage
 
     // Ours, because the paper does not give the real contact area A as a function of the angle. In stage 2
-    // the product of A and the RMS slope h' grows with the square of the angle, over transition_width_deg, to
-    // contact_end_mm2, where the contact force is 0.3 kN.
+    // the product of A and the RMS slope h' of the rough surfaces in contact grows with the square of the
+    // angle, over transition_width_deg, to contact_end_mm2, where the contact force is 0.3 kN.
     double transition_width_deg = 30.0;
     double contact_end_mm2 = 0.01;  // A·h' at the end of the transition
 };
 
 enum class Direction : std::uint8_t { tighten, loosen };
 
-// Stage 1, N·m: T = −G (sin α ∓ μ cos α) d2/2; upper sign tightening. −0.5761 N·mm with Table 1.
+// Stage 1, N·m: T = −G (sin α ∓ μ cos α) d2/2; upper sign tightening; G: weight of
+// the nut, N. −0.5761 N·mm with Table 1.
 double published_navigation_torque(const PublishedParameters& p, Direction direction);
 
 // Stage 2, N·m, at the product A·h' of real contact area and RMS slope (mm²), with F_c = A E* h'/κ (in kN, E
-// in GPa): T1 = −(G ∓ F_c)(sin α + μ2 cos α) d2 and T2 = −π p μ1 ∫ r² dr, p = (F_c ∓ G)/(π/4 (D1² − D2²)).
+// in GPa): T1 = −(G ∓ F_c)(sin α + μ2 cos α) d2 and T2 = −π q μ1 ∫ r² dr from D2/2 to D1/2,
+// with the pressure q = (F_c ∓ G)/(π/4 (D1² − D2²)). E*: effective modulus of the two faces.
 double published_thread_torque(const PublishedParameters& p, double area_slope_mm2, Direction direction);
 double published_bearing_torque(const PublishedParameters& p, double area_slope_mm2, Direction direction);
 
-// Stage 3, lever arm of eq. 3, m; 12.464 mm tightening. For loosening, −ρ/2π replaces +ρ/2π (ours).
+// Stage 3, torque per newton of clamp force (the lever arm of eq. 3), m; 12.464 mm tightening. For loosening,
+// −ρ/2π replaces +ρ/2π (ours).
 double published_lever(const PublishedParameters& p, Direction direction);
 // Stage 3, angle per newton of clamp force; 8.684·10⁻⁴ °/N.
 double published_degrees_per_newton(const PublishedParameters& p);
@@ -80,7 +83,8 @@ struct PublishedState {
 struct PublishedResponse {
     Stage stage = Stage::navigation;
     double torque = 0.0;  // N·m, with the paper's signs
-    double clamp = 0.0;   // N; F_c in the transition, F_b in linearity and yield
+    double clamp =
+        0.0;  // N; in the transition F_c, the force of the touching faces; afterwards F_b, that of the bolt
 };
 
 // The law's response at this angle in this direction. Pure.

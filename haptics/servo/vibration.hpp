@@ -1,5 +1,5 @@
-// Vibration of a hand controller, computed from what a tick publishes. A controller renders no force, and its
-// motor only suggests forces, so vibration repeats what picture and sound show. Pure: no clock, no
+// Vibration of a hand controller, computed from what a tick publishes. Vibration cannot
+// replace a force, so it says nothing that picture and sound do not show as well. Pure: no clock, no
 // allocation, no I/O; equal inputs give equal bits. docs/vibration.md has the table of cues.
 //
 //   advance_vibration(state, options, input, dt);        // each tick
@@ -64,8 +64,9 @@ struct VibrationOptions {
     double release_rate = 1.0;
     double min_share = 0.1;  // torque / target below which there is no breakaway
 
-    double min_interval = 0.01;   // s between two commands
-    double max_wait = 0.1;        // s for which an event waits for stronger ones; a detent waits 0.02 s
+    double min_interval = 0.01;  // s between two commands
+    double max_wait =
+        0.1;  // s for which an event may wait behind events of higher rank; a detent waits 0.02 s
     double min_amplitude = 0.01;  // weaker commands are not sent
 };
 
@@ -83,7 +84,7 @@ struct VibrationInput {
     double torque = 0.0;        // N·m, of the wrench, either sign
     double target = 0.0;        // N·m, target torque of the step; 0: none, so there is no load to render
     double angle = 0.0;         // rad, of the nut
-    bool slipped = false;       // Output::slipped is a joint
+    bool slipped = false;       // the head slipped over the corners in this tick (Output::slipped)
     bool clicked = false;       // Output::clicked
     double strike_speed = 0.0;  // m/s at which the wrench struck something in this tick; 0: it did not
 };

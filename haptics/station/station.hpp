@@ -44,8 +44,8 @@ struct WorkspaceOptions {
     // Power at the device / power at the tool (force::WorkspaceMap); none: 1/scale, so that forces keep their
     // magnitude.
     std::optional<double> power_ratio;
-    // The device's frame is the assembly's frame. An offset between tool and hand decays to 0
-    // (WorkspaceMap::return_time).
+    // True: the mapping is absolute (the device's frame is the assembly's), and an offset between tool and
+    // hand decays to 0 (WorkspaceMap::return_time). False: it is relative.
     bool absolute = false;
 };
 
