@@ -1,9 +1,11 @@
 // SessionReader::open with files that are not sessions, and without changing any file.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <sqlite3.h>
 #include <unistd.h>
 
 #include "game/session/session_file.hpp"
+#include "game/session/tables.hpp"
 #include "tests/session/child.hpp"
 #include "tests/session/support.hpp"
 
@@ -60,8 +62,10 @@ TEST_CASE("Reader: another program's database is refused") {
 TEST_CASE("Reader: a session of a newer version is refused with both numbers") {
     const Folder folder;
     const auto path = script_session(folder / "a.session", 5);
-    run_sql(path, "PRAGMA user_version = 11");
-    CHECK(contains(refusal(path), "newer version: its format is 11; expected a format from 1 to 10"));
+    run_sql(path, fmt::format("PRAGMA user_version = {}", format_version + 1));
+    CHECK(
+        contains(refusal(path), fmt::format("newer version: its format is {}; expected a format from 1 to {}",
+                                            format_version + 1, format_version)));
     run_sql(path, "PRAGMA user_version = 0");
     CHECK(contains(refusal(path), "unknown format 0"));
 }
