@@ -1,6 +1,6 @@
 // The renderer, insets, and pictures that are copied to the CPU. Renderer::render runs these passes:
 //
-//   deform     vertices of deformable parts, moved by joints and morph targets
+//   deform     vertices of deformable parts, moved by the joints of a glTF skin and by morph targets
 //   shadow     depth seen from light 0; static objects are cached
 //   surfaces   depth, normal and material of visible surfaces, 4 samples per pixel
 //   occlusion  ambient occlusion at half size, if the scene requests it
@@ -20,7 +20,7 @@
 // Each pass is a class in passes/ with its pipelines. A group is the views of one call of Renderer::render;
 // they have one size. With multiview one draw call renders all views of the group, one layer each. If the
 // driver's multiview is wrong (multiview_works), each view is drawn by itself, into images of its own: the
-// group then has several batches of one view. Separate images are needed because lavapipe
+// group is then several batches, each with one view. Separate images are needed because lavapipe
 // of Mesa 22.3 always resolves into layer 0, even if the image view begins with another layer.
 #pragma once
 

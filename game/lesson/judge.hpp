@@ -11,8 +11,8 @@ namespace bolt::lesson {
 
 // The display of an electronic torque wrench. `value` is the torque that the wrench measures, N·m (less than
 // that at the nut if an adaptor lengthens the lever); in a step of kind `turn` it is the angle from the mark,
-// degrees. `target` compares it with the
-// window of the due step. Both have their defaults while the wrench is not on a nut.
+// degrees. `target` compares it with the window of the due step. Both have their defaults while the wrench is
+// not on a nut.
 struct ToolReading {
     double value = 0.0;
     world::TargetState target = world::TargetState::below;

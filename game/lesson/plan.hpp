@@ -22,9 +22,10 @@ constexpr std::string_view name(StepKind kind) { return step_kind_names.of(kind)
 struct LessonStep {
     StepKind kind = StepKind::tighten;
     std::size_t joint = 0;
-    // N·m, target torque at the nut. Steps `tighten` and `recheck` end there; other steps do not.
+    // N·m, torque at the nut, with `fraction` already applied. Steps `tighten` and `recheck` end there; other
+    // steps do not.
     double torque = 0.0;
-    double fraction = 1.0;  // of the joint's target
+    double fraction = 1.0;  // tighten: of the joint's target torque; turn: of its target angle
     int pass = 0;
     // rad. turn: the angle to reach, counted from the mark (docs/glossary.md). loosen: the angle to turn
     // back; 0: until the nut is free.

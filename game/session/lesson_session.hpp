@@ -30,8 +30,9 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
                         std::uint64_t seed, double dt);
 
 // Makes the initial state of a loosening lesson: tightens each joint without the hand, in the order of the
-// last pass, then lets all joints settle for 10 s. Tightening ends at the target torque or, with strategy
-// `yield`, at the beginning of the yield stage if that comes first. Fails if a joint does not get there.
+// assembly's last tightening pass, then lets all joints settle for 10 s. Tightening ends at the target torque
+// or, with strategy `yield`, at the beginning of the yield stage if that comes first. Fails if a joint does
+// not get there.
 Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, servo::State& state);
 
 // `if_any`: obstacles if the assembly has contact models.
@@ -88,8 +89,9 @@ void set_device_limits(const LessonOptions& options, SessionSetup& start);
 struct LessonTracker {
     lesson::Lesson lesson;
     // Steps that have begun, less those that undo took back. The servo should have this many checkpoints
-    // (servo::State::checkpoint_count), one for the beginning of each step. A station's servo has one less
-    // for a few ticks after a step has begun; an undo in this time restores the previous checkpoint.
+    // (servo::State::checkpoint_count), one for the beginning of each step. While the checkpoint of a new
+    // step is on its way to a station's servo (a few ticks), that servo has one less; an undo then returns to
+    // the start of the step before.
     std::uint32_t expected_checkpoints = 0;
 };
 
@@ -147,10 +149,9 @@ class LessonSession {
     // outputs. Fails also if they differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::TickInput& input,
                   const servo::Output& output);
-    // The number of checkpoints that the servo should have saved by now, in all; undo does not reduce it. It
-    // exceeds checkpoints_saved() by one while the present step has no checkpoint yet. tick() saves it by
-    // itself; a caller of repeat() must send the station a station::SaveCheckpoint whenever this number
-    // rises.
+    // All checkpoints that should have been saved since the beginning; the number never falls. It is the
+    // number saved so far, plus one while that of the present step is missing. tick() saves it by itself; a
+    // caller of repeat() must send the station a station::SaveCheckpoint whenever this number rises.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.expected_checkpoints - session_setup_.state.checkpoint_count;
     }

@@ -38,8 +38,9 @@ struct PointerState {
     // The nut under the pointer. With the free hand only a nut that the hand is beside counts; with a device
     // or a tracked hand there is none.
     std::optional<std::size_t> nut;
-    // A click would take the wrench at rest. With the helped hand the wrench must be under the pointer; with
-    // a device or a tracked hand it must be within reach of the hand; with the free hand both.
+    // A click would pick up the wrench, which lies at its resting place. With the helped hand the wrench must
+    // be under the pointer; with a device or a tracked hand it must be within reach of the hand; with the
+    // free hand both.
     bool can_take_wrench = false;
 };
 
@@ -107,8 +108,9 @@ struct ActiveLesson {
     std::vector<lesson::LessonEvent> events;  // not logged yet
 };
 
-// The component of the hand. In each tick haptic_system writes what the servo knows of it; after the ticks of
-// a frame write_hand() replaces it by the hand of the mouse or of the station, which knows more.
+// The component of the hand. haptic_system writes it in each tick, and at the end of the frame's ticks
+// write_hand() (active_lesson.cpp) replaces it by the hand of the mouse or of the station. So after a frame
+// it has what only these know, such as where the hand goes next.
 inline const world::WorkingHand& hand_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::WorkingHand>();
 }

@@ -16,8 +16,9 @@
 
 namespace bolt::collision {
 
-// Each value is a sum: a conservative bound, plus PairCache's accumulated motion at the moment when the bound
-// was computed. The bound that holds now is this value minus the accumulated motion now.
+// Bounds are stored so that a motion need not be subtracted from each of them: stored value = bound +
+// PairCache::moved when the bound was computed (for `turn`: PairCache::turned). The bound now = stored value
+// − PairCache::moved now. All bounds are conservative.
 struct DistanceBound {
     // m. The bound of a point is its signed distance. The bound of a piece of an edge is how far it may move
     // before another edge can come near (EdgeQueryResult::clear_distance).
@@ -25,9 +26,9 @@ struct DistanceBound {
     double turn;  // rad, accumulated turn up to which `lower` holds; infinite for points
 };
 
-// The last query of a sample or cluster, for a second and tighter test when its DistanceBound has run out:
-// since that query no point of it has moved further than its middle has, plus its radius times the turn since
-// then.
+// The last query of a sample or cluster. When its DistanceBound has run out, a tighter test follows: no point
+// of the cluster has moved more than the motion of its middle, plus its radius times the turn since the
+// query.
 struct CachedQuery {
     glm::vec3 at;   // m, of the middle
     float lower;    // m
@@ -72,8 +73,8 @@ NarrowPhaseState make_narrow_phase(const CollisionWorld& world, const ToolShape&
 void clear_cache(NarrowPhaseState& state, const CollisionWorld& world, const ToolShape& tool);
 
 // Writes the contacts up to `band` (m) between the tool at `pose` and the enabled bodies of the world.
-// Any depth of penetration is found. Only a crossing of two edges that is deeper than 2 mm is left out,
-// because then points of the surfaces are found inside (edges.hpp). Distances are those of the meshes,
+// Penetration of any depth is found. Contacts of two edges are reported up to a depth of 2 mm; beyond that,
+// samples of the surfaces lie inside and report it (edges.hpp). Distances are those of the meshes,
 // computed in double, with an error below 1e-9 m. `complete_within` is the band if all contacts were written
 // or merged (contact.hpp), otherwise the distance up to which they are complete. `query_cost` depends on the
 // cache. Does not allocate.

@@ -9,8 +9,8 @@
 //
 //   w(r) = −F ℓ²/(2π D) kei(r/ℓ),   ℓ = (D/k)^¼        (Hertz 1884; Timoshenko & Woinowsky-Krieger, §57)
 //
-// kei is the Kelvin function of order 0; kei(0) = −π/4. Any set of forces stores energy in plate
-// and foundation, never a negative one. So the matrix of w between any points is symmetric and positive
+// kei is the Kelvin function of order 0; kei(0) = −π/4. The energy that any set of forces stores
+// in plate and foundation is never negative. So the matrix of w between any points is symmetric and positive
 // semidefinite, and the interaction never generates energy.
 #pragma once
 
@@ -39,9 +39,9 @@ struct FlangePlate {
 // kei(x) = Im K0(x e^{iπ/4}), x ≥ 0; absolute error below 1e-12.
 double kelvin_kei(double x);
 
-// The elastic interaction: symmetric compliance between joints, sparse by rows (CSR) without the diagonal: w
-// beyond 10 ℓ is below 10⁻³ of w(0) and is omitted. The diagonal, a joint's own deflection, is the same for
-// all.
+// The elastic interaction: symmetric compliance between joints, sparse by rows (CSR). Pairs further apart
+// than 10 ℓ are omitted, because w is below 10⁻³ of w(0) there. The diagonal, a joint's own deflection, is
+// not stored in the rows: it is the same for all.
 struct InteractionMatrix {
     double own_compliance = 0.0;           // m/N, the diagonal
     std::vector<std::uint32_t> row_begin;  // size joints + 1

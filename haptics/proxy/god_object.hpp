@@ -40,8 +40,9 @@ struct ForceRateLimits {
     double tool_share_of_rendered = 0.05;  // of the rendered force
     double tool_share_of_maximum = 0.005;  // of the greatest force; applies if little is rendered
     double total_share_of_maximum = 0.08;  // of the greatest force
-    // The tool's part may use this share of its limit in any direction, and the rest only in the direction of
-    // the last tick's change, because a change that alternates from tick to tick is felt as trembling.
+    // The tool's part may change by this share of its limit in any direction. It may change by more, up to
+    // the whole limit, only in the direction in which it changed in the last tick, because a change that
+    // alternates from tick to tick is felt as trembling.
     double any_direction_share = 0.3;
 };
 
@@ -65,11 +66,11 @@ struct GodObjectParameters {
     // False (sessions before format 11): the demand remains, the contact forces grow, and their friction
     // holds the tool.
     bool allows_narrow_gaps = true;
-    // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The cost
-    // of the first query of a tick, at the pose where the last tick ended, does not count if it searches no
-    // further than one stride. `max_query_cost` applies only when the tool has moved once in this tick, so
-    // that each tick makes progress. Once the budget is spent, the tool moves only as far as earlier queries
-    // found no obstacle, and continues in the next tick.
+    // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). There
+    // are two exceptions. The first query of a tick, at the pose where the last tick ended, costs nothing if
+    // it searches no further than one stride. And the limit of the cost applies only after the first motion
+    // of a tick, so that each tick makes progress. Once the budget is spent, the tool moves only as far as
+    // earlier queries found no obstacle, and continues in the next tick.
     int max_queries = 5;
     std::uint32_t max_query_cost = 800;
 };
@@ -93,8 +94,8 @@ struct GodObjectStep {
     int queries = 0;
     std::uint32_t query_cost = 0;
     int solves = 0;
-    // The budget of queries ended, or four motions from one pose were rejected, before the tool reached the
-    // pose with the least energy.
+    // The budget of queries ended, or four motions from one pose were rejected (step_god_object()), before
+    // the tool reached the pose with the least energy.
     bool cut_short = false;
     bool rate_limited = false;  // the motion was shortened to limit the change of force
 };
@@ -105,13 +106,12 @@ GodObjectState start_god_object(const Pose& pose);
 // Advances by one tick of `dt` (s). A motion is accepted in one of two cases:
 //
 //   free    no point of the tool travels further than the distance to the nearest obstacle, less the skin
-//   short   no point travels further than `stride`. And at the end of the motion each contact that it
-//   approached
-//           is at least a fifth of the skin away, or no nearer than the nearest contact was before the motion
+//   short   no point travels further than `stride`, and each contact that the motion approached ends at least
+//           skin/5 away, or no nearer than the nearest contact was before
 //
-// At the end of a short motion the finder can report a contact that it missed at the start. Such a contact is
-// tolerated if the motion did not approach it and if it is at most 0.25 mm deep. Ignores a pose that is not
-// finite. Does not allocate.
+// At the end of a short motion the finder can report a contact that it missed at the start. The motion is
+// accepted in spite of such a contact if it did not approach it, and if the surfaces overlapped by at most
+// 0.25 mm at the start. Ignores a pose that is not finite. Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
                               const Pose& commanded_tool, ContactFinder finder, double dt);
 

@@ -94,13 +94,13 @@ void settle_ratchet(const Wrench& wrench, double rotation, double play, Engageme
 // (haptics/joint/nut.hpp).
 //
 // The joint law alone, with its implicit step, acts about the bolt's axis; contacts act in the other five
-// directions. Two measures separate them. Once the play is used up, contact queries turn the hexagon about
-// the bolt along with the tool's head, so that the two never press on each other in this direction; in the
-// other five they still do. And the moment of the contacts about the bolt is not rendered. If contacts drove
-// the nut instead, its torque would depend on the position error of the god-object: 0.01 mm at a corner
-// changes a torque of 100 N·m by 3 N·m. The change from contacts to the law causes no jump of the force: a
-// nut engages within the play, where the law's torque and the moment of the contacts about the bolt are both
-// zero.
+// directions. Two measures keep the contacts out of the rotation about the bolt. First, once the play is used
+// up, contact queries place the hexagon not at the nut's angle but at that of the tool's head, so that the
+// two cannot press on each other about the bolt. Second, the moment of the contacts about the bolt is not
+// rendered. If contacts drove the nut instead, its torque would depend on the position error of the
+// god-object: 0.01 mm at a corner changes a torque of 100 N·m by 3 N·m. The change from contacts to the law
+// causes no jump of the force: a nut engages within the play, where the law's torque and the moment of the
+// contacts about the bolt are both zero.
 
 // Pose of the wrench in the nut's frame.
 Pose pose_in_nut_frame(const NutGeometry& nut, const joint::JointState& joint, const ToolPose& tool);
@@ -120,13 +120,13 @@ joint::NutDrive contact_drive(const Setup& setup, const NutGeometry& nut, double
 
 // Call before the joint's step. A tool transmits at most Wrench::yield_torque; any further rotation of the
 // hand bends it permanently. `nut_rotation` in rad. Returns by how much (rad, ≥ 0) the hand has bent the
-// tool in this tick. If the corners of the nut yield at a
-// smaller torque, the tool does not bend (round_corners).
+// tool in this tick. If the corners of the nut yield at a smaller torque, the tool does not bend
+// (round_corners).
 double bend_tool(const Wrench& wrench, double nut_rotation, joint::NutDrive& drive, Engagement& engagement);
 
-// Call after the joint's step. Once the corner torque is exceeded, the head slips. It then removes material
-// in proportion to its work, and transmits less torque the further it turns. Returns true in the tick in
-// which the head slips over the corners.
+// Call after the joint's step. Beyond the corner torque the head begins to slip: it removes material in
+// proportion to its work, and transmits less torque the further it turns. Returns true in the tick in which
+// it has passed over the corners.
 bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::JointState& joint,
                    double& rounded, Engagement& engagement);
 

@@ -16,7 +16,8 @@
 namespace bolt::servo {
 
 // Geometry of a nut, or of a head that is turned, in the assembly's frame. All axes are unit vectors; `axis`
-// points from the members (the parts that are clamped) to the nut; e1 × e2 = axis.
+// points from the members (the parts that are clamped) to the nut. e1 lies across the bolt: it is angle 0
+// about the bolt, and the direction of a corner of the nut at nut angle 0. e1 × e2 = axis.
 //
 // Angles about the bolt are positive in the direction that tightens, for both directions of thread. So the
 // joint laws do not depend on the direction; only the functions below map these angles to rotations about

@@ -37,8 +37,8 @@ struct Checkpoint {
 struct State {
     std::uint64_t tick = 0;  // number of ticks since the beginning
     std::vector<joint::JointState> joints;
-    // By joint: length (m) that slipping tools have removed from each of the nut's flats, measured from the
-    // corner (joint::CornerGrip::rounded).
+    // By joint: m of each of the nut's flats that slipping tools have worn away at each of its corners
+    // (joint::CornerGrip::rounded).
     std::vector<double> rounded;
     double bent = 0.0;  // rad by which tools were bent for good; undo does not reduce it
     Engagement engagement;
