@@ -62,10 +62,11 @@ TEST_CASE("Reader: another program's database is refused") {
 TEST_CASE("Reader: a session of a newer version is refused with both numbers") {
     const Folder folder;
     const auto path = script_session(folder / "a.session", 5);
-    run_sql(path, fmt::format("PRAGMA user_version = {}", format_version + 1));
-    CHECK(
-        contains(refusal(path), fmt::format("newer version: its format is {}; expected a format from 1 to {}",
-                                            format_version + 1, format_version)));
+    const std::int64_t newer = format_version + 1;
+    run_sql(path, fmt::format("PRAGMA user_version = {}", newer).c_str());
+    const std::string expected =
+        fmt::format("newer version: its format is {}; expected a format from 1 to {}", newer, format_version);
+    CHECK(contains(refusal(path), expected.c_str()));
     run_sql(path, "PRAGMA user_version = 0");
     CHECK(contains(refusal(path), "unknown format 0"));
 }
