@@ -108,6 +108,8 @@ Error participant_error(const fs::path& folder, std::string what, std::string ex
 
 std::string checksum_text(std::uint64_t checksum) { return fmt::format("{:016x}", checksum); }
 
+namespace {
+
 // Locks the study against other enrolments. Waits up to three seconds for one that is in progress; it takes
 // milliseconds.
 Result<session::FileLock> lock_enrolments(const fs::path& participants) {
@@ -123,6 +125,8 @@ Result<session::FileLock> lock_enrolments(const fs::path& participants) {
         std::this_thread::sleep_for(pause);
     }
 }
+
+}  // namespace
 
 Result<fs::path> add_participant(const content::Study& study, const fs::path& study_folder,
                                  const NewParticipant& participant) {
