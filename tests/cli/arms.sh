@@ -34,6 +34,7 @@ doctor() { "$bin/boltwright" doctor cover-m8 --device $arm --seconds 0.5 "$@" 2>
 says() {  # says 'pattern' OUTPUT
     grep -qE -- "$1" <<<"$2"
 }
+lacks() { ! says "$@"; }
 output=$(doctor)
 check 'doctor measures rate and age of samples' says 'sent [0-9]+ samples a second' "$output"
 check 'doctor measures the age of samples' says 'until a servo tick takes it: [0-9.]+ ms' "$output"
@@ -42,15 +43,13 @@ check 'nobody is pushed without the button' says 'not measured: its button was n
 output=$(answers n "$bin/boltwright" doctor cover-m8 --device $arm --seconds 0.5)
 check 'a terminal asks before the arm pushes' says 'pushes the hand with 2.4 N at most.*May it push\? \[y/N\]' "$output"
 check 'no is no' says 'stiffness not measured: it may not push the hand' "$output"
-stiffness() {  # stiffness DELAY: N/mm that are stable on an arm with this delay, s
-    EMULATED_ARM_DELAY=$1 EMULATED_ARM_BUTTONS=1 doctor --yes | sed -n 's/.* stable on this computer up to \([0-9.]*\) N.*/\1/p'
-}
-if ! sanitized; then  # too slow for a servo
-    late=$(stiffness 0.006)
-    check 'a delayed arm is stable only with a soft spring' awk -v k="${late:-9}" 'BEGIN { exit !(k <= 3) }'
-    prompt=$(stiffness 0)
-    check 'a prompt arm is stable with a stiffer one' awk -v k="${prompt:-0}" -v late="${late:-9}" 'BEGIN { exit !(k > late) }'
-fi
+# How stiff depends on how late this computer is just now, which only lowers the figure. tests/station/stiffness_trial.cpp
+# checks the figures themselves.
+output=$(EMULATED_ARM_BUTTONS=1 doctor --yes)
+check 'with the button held the stiffness is measured' says 'stable on this computer (up to|at any stiffness)' "$output"
+output=$(EMULATED_ARM_DELAY=0.03 EMULATED_ARM_BUTTONS=1 doctor --yes)
+check 'that of a delayed arm too' says 'stable on this computer (up to|at any stiffness)' "$output"
+check 'but it cannot be the full one' lacks 'the full reported stiffness' "$output"
 
 FDSDK=$work/old expect 0 'has no dhdGetDeviceCount, drdOpenID' "$bin/boltwright" devices
 FDSDK=$work/old expect 4 'has no dhdGetDeviceCount, drdOpenID' "$bin/boltwright" devices --device $arm
