@@ -201,8 +201,9 @@ TEST_CASE(
         CHECK(washer(*iso_7089(size)));
     }
     CHECK(hex_bolt(*iso_4014("M16x1.5", 60.0)));
-    for (const char* size : {"M4", "M5", "M6", "M8", "M10", "M12"})
-        CHECK(socket_screw(*iso_4762(size, 25.0)));
+    for (const char* size : {"M5", "M6", "M8", "M10", "M12", "M16", "M20", "M24"})
+        CHECK(socket_screw(*iso_4762(size, 4.0 * joint::parse_thread(size)->size.d * 1e3)));
+    CHECK_FALSE(iso_4762("M4", 25.0));
     CHECK_FALSE(iso_4762("M30", 60.0));
     CHECK_FALSE(iso_4014("M17", 60.0));
 }

@@ -140,20 +140,20 @@ Result<WasherSpec> iso_7089(std::string_view size) {
 }
 
 Result<SocketScrewSpec> iso_4762(std::string_view size, double length_mm) {
-    struct SocketScrewSize {
-        double d, head, socket, thread_length;
-    };
-    constexpr SocketScrewSize rows[] = {{4, 7, 3, 20},  {5, 8.5, 4, 22}, {6, 10, 5, 24},
-                                        {8, 13, 6, 28}, {10, 16, 8, 32}, {12, 18, 10, 36}};
     BOLT_TRY_ASSIGN(const auto found, joint::parse_thread(size));
-    for (const SocketScrewSize& row : rows)
-        if (std::abs(row.d * mm - found.size.d) < 1e-9)
-            return SocketScrewSpec{row.d,     found.thread.pitch / mm,
-                                   length_mm, std::min(row.thread_length, length_mm),
-                                   row.head,  row.d,
-                                   row.socket};
-    return fail(ErrorCode::bad_content, fmt::format("socket screw {}: is not in the table", size),
-                "M4 to M12");
+    const joint::SocketHead* const head = joint::socket_head(found.size.name);
+    if (head == nullptr)
+        return fail(ErrorCode::bad_content,
+                    fmt::format("socket screw {}: its head is not in the table", size), "M5 to M24");
+    const double d = found.size.d / mm;
+    const double thread_length = std::min(2.0 * d + 12.0, length_mm);  // ISO 4762: b = 2d + 12 mm
+    return SocketScrewSpec{d,
+                           found.thread.pitch / mm,
+                           length_mm,
+                           thread_length,
+                           head->diameter / mm,
+                           head->height / mm,
+                           head->across_flats / mm};
 }
 
 Result<TopoDS_Shape> hex_bolt(const BoltSpec& spec, ThreadDetail detail) {

@@ -75,7 +75,7 @@ struct StudSpec {
 Result<BoltSpec> iso_4014(std::string_view size, double length_mm);
 Result<NutSpec> iso_4032(std::string_view size);
 Result<WasherSpec> iso_7089(std::string_view size);
-Result<SocketScrewSpec> iso_4762(std::string_view size, double length_mm);  // M4 to M12
+Result<SocketScrewSpec> iso_4762(std::string_view size, double length_mm);  // M5 to M24
 
 // Each returns one closed, valid solid, or an error that names the part.
 Result<TopoDS_Shape> hex_bolt(const BoltSpec& spec, ThreadDetail detail = ThreadDetail::helical);
