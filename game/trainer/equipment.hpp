@@ -22,7 +22,8 @@ enum class HandMode : std::uint8_t {
 // The input of a lesson: mouse and keyboard, or a station with devices.
 struct Equipment {
     std::vector<std::string> devices;  // ids, as boltwright devices lists them
-    // Applies to each of its devices that `devices` also lists. Its glove is not used: see `glove`.
+    // Settings of the devices. Those of a device that `devices` does not list are ignored, and so is the
+    // glove of the file: see `glove`.
     content::StationFile station;
     std::filesystem::path wheel_config_file;  // empty: the station's, or the defaults of device::WheelConfig
     std::filesystem::path glove;              // serial port; empty: no glove

@@ -14,8 +14,8 @@ namespace bolt::device {
 
 struct SupervisorOptions {
     double first_retry_delay = 0.05, max_retry_delay = 1.0;  // s between attempts to open; the delay doubles
-    // s without a new command until the force is released. With one more poll and one write the device
-    // has released its force after 20 ms at the latest.
+    // s without a new command until the force is released. The poll (2 ms) that notices it and the write
+    // come after that, so the device has released its force after 20 ms at the latest.
     double command_timeout = 0.015;
     double max_silence = 0.25;  // s without a valid sample until the silence is reported
     double reopen_after = 1.0;  // s of silence until the device is reopened

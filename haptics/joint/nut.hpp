@@ -53,9 +53,8 @@ struct NutMotion {
 // The drive of the nut: a spring with play between the angles of hand and nut.
 struct NutDrive {
     bool engaged = false;  // false: no drive
-    // rad, the angle of the nut when it was gripped, plus the hand's rotation since then. The angle of the
-    // nut is that on the bolt for step_nut(), and that in the assembly's frame for step_group(), in which the
-    // bolt may turn as well.
+    // rad, the angle of the nut when it was gripped, plus the hand's rotation since then. step_nut() measures
+    // these angles relative to the bolt; step_group(), where the bolt may turn too, in the assembly's frame.
     double angle = 0.0;
     double half_play = 0.0;  // rad, backlash to either side
     double stiffness = 0.0;  // N·m/rad

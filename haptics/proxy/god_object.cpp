@@ -184,9 +184,9 @@ class Stepper {
         return pose_.orientation * (glm::conjugate(at.orientation) * (c.on_tool - at.position));
     }
 
-    // Returns true if the motion to `at` brings the tool too near to an obstacle. Contacts that the motion
-    // did not approach are exempt: they were at least as near at the current pose, and the finder, which
-    // has a tolerance, missed them there. Rejecting the motion would only trap the god-object.
+    // Returns true if the motion to `at` brings the tool too near to an obstacle. Contacts that are
+    // no nearer at `at` than at the current pose are exempt: the query at the current pose, which has a
+    // tolerance, missed them. Rejecting the motion because of them would only trap the god-object.
     [[nodiscard]] bool too_near(const ContactQuery& query, const Pose& at) const {
         const double least = std::min(min_clearance_share * p_.skin, current_query_.nearest);
         if (query.nearest >= least) return false;

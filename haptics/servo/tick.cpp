@@ -222,7 +222,7 @@ bool step_joints(const Setup& setup, State& state, const TickInput& input) {
     return click.clicked;
 }
 
-// Part 4, without a nut in the hand: the guiding force, which fades out if `guided_joint` is −1.
+// Part 4: the guiding force to the nut of `guided_joint`. At −1 the force of the ticks before fades out.
 force::ForceRequest guiding_request(const Setup& setup, State& state, const ToolPose& tool, Grip grip,
                                     int guided_joint, force::IsSegmentFree free) {
     force::ForceRequest guiding =
@@ -234,8 +234,8 @@ force::ForceRequest guiding_request(const Setup& setup, State& state, const Tool
     return guiding;
 }
 
-// Part 4, with a nut in the hand: its force. Writes what the joint does to `output`. `held_before`: the same
-// nut was held in the last tick.
+// Part 4, only with a nut in the hand: the nut's force. Writes what the joint does to `output`.
+// `held_before`: the same nut was held in the last tick.
 force::ForceRequest nut_request(const Setup& setup, State& state, const ToolPose& tool, bool held_before,
                                 Output& output) {
     const int engaged = state.engagement.joint;

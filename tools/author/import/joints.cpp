@@ -78,7 +78,9 @@ class JointFinder {
     std::map<int, int> bolt_of_nut_;  // nodes
     struct UnusedBolt {
         PlacedFastener bolt;
-        BoltEnd end;  // of a bolt: empty if its size is metric; of a stud: its nut, if any
+        // A bolt without an end is in no joint for that reason; one with an end, because its size is not
+        // metric. For a stud: its nut, if any.
+        BoltEnd end;
     };
     std::vector<UnusedBolt> unused_bolts_;
 
