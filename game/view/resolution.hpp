@@ -27,9 +27,9 @@ struct FrameTime {
 };
 
 // Call once a frame. Lowers the resolution at the second frame in a row that takes more than 90 % of the
-// period. Raises it by a step if for a second the estimated time at that step, in proportion to the number of
-// pixels, is below 75 %. Returns true if the resolution changed; then ignore the times of frames that were
-// already drawn.
+// period. Raises it by a step if a frame with the pixels of the higher step would have taken less than 75 %
+// of the period, for a second (its time is estimated in proportion to its pixels). Returns true if the
+// resolution changed; then ignore the times of frames that were already drawn.
 bool update(ResolutionControl& control, const FrameTime& frame);
 
 // The fraction of the full width and height.

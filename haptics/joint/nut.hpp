@@ -83,9 +83,9 @@ struct NutStep {
 // `inertia` (kg·m² about the bolt) acts while the spring of the drive is wound; see drive_inertia().
 // Inside the play the nut's own inertia acts, which is much smaller.
 //
-// The step is stable if the slope of the resistance is at least −(0.9 inertia/dt² + stiffness), N·m/rad.
-// While a joint is loosened the slope may be lower. The step then uses this bound instead of the slope, and
-// the nut turns less than it should.
+// The step is stable if the slope of the resistance is at least −(0.9 inertia/dt² + stiffness), N·m/rad. The
+// resistance of a joint that is loosened may fall more steeply. The step then computes with this bound as the
+// slope, so the nut turns less than it should.
 NutStep step_nut(const Resistance& resistance, double inertia, NutMotion nut, const NutDrive& drive,
                  double dt);
 

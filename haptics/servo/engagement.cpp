@@ -177,8 +177,8 @@ constexpr double max_engage_distance = 0.1;  // m from head to nut beyond which 
 constexpr double min_overlap = 0.5e-3;       // m of rings, sockets and keys on the flats, to engage
 constexpr double min_torque_limit = 1e-9;    // N·m; NutDrive::torque_limit 0 means unlimited
 
-// Modelling assumptions: a jaw slips off a corner once it has turned by its whole backlash beyond the
-// corner's torque, but not faster than an elastic wrench swings back.
+// Modelling assumptions: a jaw slips off a corner when it has turned by its whole backlash since it reached
+// the corner torque, but not faster than an elastic wrench swings back.
 constexpr double slip_off_half_plays = 2.0;  // half plays
 constexpr double min_slip_time = 0.02;       // s
 constexpr double min_height = 0.2e-3;        // m, lower bound of the rounded height
