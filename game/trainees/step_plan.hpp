@@ -19,7 +19,7 @@ struct StepPlan {
     bool fingers = false;         // runs the nut down by hand
     bool loosening = false;
     bool wrong_joint = false;   // `joint` is not the due one
-    bool until_seated = false;  // a step that runs the nut down: sets the goal torque of a wrench
+    bool until_seated = false;  // runs the nut down; a wrench then stops a little above the nut's drag
     bool only_checks = false;   // re-check: stops as soon as the nut begins to move
     bool until_yield = false;   // stops when the bolt begins to yield
     bool until_click = false;   // stops at the click of the torque wrench

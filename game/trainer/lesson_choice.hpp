@@ -34,8 +34,8 @@ struct SelectedTrainee {
     content::IdentifiedPerson identified;
 };
 
-// The tool of the station's arm among those of an assembly, as LessonChoice::tool: empty if it is the first
-// or the station has none. Fails if the assembly does not have it.
+// Returns the name of the tool that the station file names for its arm; empty if it names none, or the
+// assembly's first. Fails if the tool is not among `tools`, those of an assembly.
 Result<std::string> tool_of_station(const content::StationFile& station,
                                     std::span<const content::Tool> tools);
 
