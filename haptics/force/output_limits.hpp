@@ -33,8 +33,8 @@ struct OutputLimits {
     double angular_speed = 50.0;  // rad/s
     double jump = 0.03;           // m in one tick; more is a faulty sample
     double angular_jump = 0.5;    // rad in one tick
-    // s without a sample after which the output falls, so that it is zero when `release` seconds have passed
-    // since that sample.
+    // s without a sample after which the output falls. It is zero at the latest when `release` seconds have
+    // passed since the last sample.
     double max_silence = 0.008;
     double recovery_time = 0.1;  // s of valid samples after a fault before the output ramps up
 };

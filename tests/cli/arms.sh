@@ -43,8 +43,8 @@ check 'nobody is pushed without the button' says 'not measured: its button was n
 output=$(answers n "$bin/boltwright" doctor cover-m8 --device $arm --seconds 0.5)
 check 'a terminal asks before the arm pushes' says 'pushes the hand with 2.4 N at most.*May it push\? \[y/N\]' "$output"
 check 'no is no' says 'stiffness not measured: it may not push the hand' "$output"
-# How stiff depends on how late this computer is just now, which only lowers the figure. tests/station/stiffness_trial.cpp
-# checks the figures themselves.
+# The stable stiffness depends on how late this computer is just now; lateness only lowers it. tests/station/stiffness_trial.cpp
+# checks the figures, in simulated time.
 output=$(EMULATED_ARM_BUTTONS=1 doctor --yes)
 check 'with the button held the stiffness is measured' says 'stable on this computer (up to|at any stiffness)' "$output"
 output=$(EMULATED_ARM_DELAY=0.03 EMULATED_ARM_BUTTONS=1 doctor --yes)
