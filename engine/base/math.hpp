@@ -40,19 +40,20 @@ inline double interpolate(std::span<const double> x, std::span<const double> y, 
 // Returns the angle reduced to [-period/2, period/2].
 inline double wrap(double angle, double period) { return std::remainder(angle, period); }
 
-// The pose of a rigid body: the transform from body coordinates to the surrounding frame.
+// The pose of a rigid body: the transform from body coordinates to the surrounding frame. Its operations are
+// always inlined, as those of glm are (cmake/house.cmake says why).
 struct Pose {
     Vec3 position{0.0};                    // m, the body's origin
     Quat orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion
 };
 
-inline Vec3 operator*(const Pose& pose, const Vec3& point) {
+[[gnu::always_inline]] inline Vec3 operator*(const Pose& pose, const Vec3& point) {
     return pose.position + pose.orientation * point;
 }
-inline Pose operator*(const Pose& a, const Pose& b) {
+[[gnu::always_inline]] inline Pose operator*(const Pose& a, const Pose& b) {
     return {a * b.position, a.orientation * b.orientation};
 }
-inline Pose inverse(const Pose& pose) {
+[[gnu::always_inline]] inline Pose inverse(const Pose& pose) {
     const Quat conjugate = glm::conjugate(pose.orientation);
     return {conjugate * -pose.position, conjugate};
 }

@@ -70,6 +70,14 @@ double length_within(double start, double rate, double length, double half) {
     return std::clamp(std::max(a, b), 0.0, length) - std::clamp(std::min(a, b), 0.0, length);
 }
 
+// m from the origin of the solids' frame to their furthest point, or more.
+double reach(std::span<const Convex> solids) {
+    double furthest = 0.0;
+    for (const Convex& solid : solids)
+        furthest = std::max(furthest, glm::length(solid.middle) + solid.radius);
+    return furthest;
+}
+
 }  // namespace
 
 Jaw make_jaw(double opening, double head_angle, double thickness, double depth, double tip) {
@@ -137,6 +145,11 @@ HeadFit jaw_fit(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
     fit.toward_mouth = std::min(side, jaw.tip - jaw.lead_in - ahead);
     fit.toward_throat = std::min(side, jaw.depth + ahead);
     return fit;
+}
+
+double grip_reach(const GripSolids& solids) {
+    constexpr double rounding = 1e-9;  // m, more than the rounding errors of the distances
+    return reach(solids.head) + reach(solids.turned_part) + rounding;
 }
 
 std::size_t solid_contacts(const GripSolids& solids, const Pose& tool, const Pose& turned_part, double band,

@@ -84,6 +84,10 @@ struct GripSolids {
     std::span<const Convex> head, turned_part;
 };
 
+// m between the origins of tool and turned part. If they are further apart than this and the band together,
+// there are no contacts.
+double grip_reach(const GripSolids& solids);
+
 // Writes contacts of the solids up to `band` (m) and returns their number; each pair of solids gets an equal
 // share of `out`, for its nearest ones. Poses are to the assembly; `obstacle` is copied to the contacts.
 // Distances are separations as in convex.hpp: exact if a face or two edges are nearest.

@@ -27,14 +27,25 @@ constexpr double both_skins = 2.5;  // of grip_skin: one on each flank, and a ma
 constexpr double max_offset_across = 0.15, max_offset_to_throat = 0.25;
 constexpr double nearly_level = 0.99;  // cos 8°
 
+// The tool's pose, for tests of many nuts in one tick. Axes of the jaw: x along the slot towards its throat,
+// y across, z normal.
+struct HeadPose {
+    Pose to_tool;  // from the assembly's frame to the tool's
+    Quat to_jaw;   // from the tool's axes to the jaw's
+    Vec3 normal;   // in the assembly's frame
+};
+
+HeadPose head_pose(const Setup& setup, const Pose& wrench) {
+    return {inverse(wrench), glm::angleAxis(-setup.wrench.head_angle, Vec3(0, 0, 1)),
+            wrench.orientation * Vec3(0, 0, 1)};
+}
+
 // Returns true if only the tool's head can touch the nut in this tick and the next ones.
 bool only_head_in_reach(const Setup& setup, const NutGeometry& nut, const Pose& nut_frame,
-                        const Pose& wrench) {
+                        const HeadPose& head) {
     const double opening = collision::width_across_flats(setup.wrench.head);
-    // In the jaw: x along the slot towards its throat, y across, z normal.
-    const Vec3 p = glm::angleAxis(-setup.wrench.head_angle, Vec3(0, 0, 1)) *
-                   (inverse(wrench) * (nut_frame.position + 0.5 * nut.height * nut.axis));
-    const double level = glm::dot(wrench.orientation * Vec3(0, 0, 1), nut.axis);
+    const Vec3 p = head.to_jaw * (head.to_tool * (nut_frame.position + 0.5 * nut.height * nut.axis));
+    const double level = glm::dot(head.normal, nut.axis);
     if (!std::holds_alternative<collision::Jaw>(setup.wrench.head))
         return std::hypot(p.x, p.y) < max_offset_across * opening && level > nearly_level;
     return std::abs(p.y) < max_offset_across * opening && p.x < max_offset_to_throat * opening &&
@@ -54,19 +65,29 @@ bool equal(const Pose& a, const Pose& b) {
     return a.position == b.position && a.orientation == b.orientation;
 }
 
+// Computes the pose of the nut at joint `i` if its angles have changed. Returns true if the pose is the same.
+bool update_nut_pose(const Setup& setup, ToolContact& contact, std::size_t i,
+                     const joint::JointState& joint) {
+    const NutAngles angles{joint.nut.angle, joint.common_turn};
+    if (angles == contact.nut_angles[i]) return true;
+    const Pose nut_frame = nut_pose(setup.nuts[i], angles.nut_angle, angles.common_turn);
+    const bool unchanged = equal(nut_frame, contact.nut_poses[i]);
+    contact.nut_angles[i] = angles;
+    contact.nut_poses[i] = nut_frame;
+    return unchanged;
+}
+
 void update_nut_poses(const Setup& setup, ToolContact& contact, std::span<const joint::JointState> joints,
                       bool held) {
+    const HeadPose head = head_pose(setup, contact.god_object.constrained_tool);
     for (std::size_t i = 0; i < contact.nut_poses.size(); ++i) {
-        const Pose nut_frame = nut_pose(setup.nuts[i], joints[i].nut.angle, joints[i].common_turn);
-        const bool unchanged = equal(nut_frame, contact.nut_poses[i]);
+        const bool unchanged = update_nut_pose(setup, contact, i, joints[i]);
         contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && unchanged;
-        contact.nut_poses[i] = nut_frame;
         if (!contact.nut_bodies[i]) continue;
         collision::Body& body = contact.world.bodies[*contact.nut_bodies[i]];
-        body.pose = nut_frame;
-        const bool enabled =
-            !held || contact.shape_solids[i].empty() ||
-            !only_head_in_reach(setup, setup.nuts[i], nut_frame, contact.god_object.constrained_tool);
+        body.pose = contact.nut_poses[i];
+        const bool enabled = !held || contact.shape_solids[i].empty() ||
+                             !only_head_in_reach(setup, setup.nuts[i], contact.nut_poses[i], head);
         contact.cache.meshes_unchanged =
             contact.cache.meshes_unchanged && enabled == body.enabled && (unchanged || !enabled);
         body.enabled = enabled;
@@ -96,6 +117,8 @@ collision::ContactQueryResult find_grip_contacts(const Setup& setup, const ToolC
     std::array<collision::Contact, collision::max_grip_contacts> contacts;
     for (std::size_t i = 0; i < contact.shapes.size(); ++i) {
         if (contact.shape_solids[i].empty()) continue;
+        if (glm::distance(contact.nut_poses[i].position, pose.position) > contact.grip_reach[i] + band)
+            continue;
         const NutGeometry& nut = setup.nuts[i];
         const bool at_head = static_cast<int>(i) == contact.joint_at_head;
         const Pose nut_frame =
@@ -216,6 +239,8 @@ Result<ToolInContact> make_tool_in_contact(const collision::ToolHead& head,
     }
     BOLT_TRY_ASSIGN(auto solids, collision::head_solids(head));
     tool.head = std::move(solids);
+    for (const auto& solids_of_shape : tool.shape_solids)
+        tool.grip_reach.push_back(collision::grip_reach({tool.head, solids_of_shape}));
     tool.narrow_phase = collision::make_narrow_phase(contact.world, tool.shape);
     return tool;
 }
@@ -227,6 +252,7 @@ void swap_in(ToolContact& contact, std::size_t index) {
     std::swap(contact.narrow_phase, tool.narrow_phase);
     std::swap(contact.head, tool.head);
     std::swap(contact.shape_solids, tool.shape_solids);
+    std::swap(contact.grip_reach, tool.grip_reach);
     contact.parameters.radius = contact.wrench.origin_radius();
     contact.parameters.box = contact.wrench.solid.box;
 }
@@ -257,6 +283,7 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
         contact.nut_bodies.push_back(collision::find_body(contact.world, collision::ObstacleId::nut(i)));
         contact.shapes.push_back(shape_of(setup.nuts[i]));
         contact.nut_poses.push_back(nut_pose(setup.nuts[i], 0.0));
+        contact.nut_angles.emplace_back();
     }
     for (std::size_t k = 0; k < d.tools.size(); ++k) {
         BOLT_TRY_ASSIGN(auto tool, make_tool_in_contact(setup.tools[k].wrench.head, d.tools[k], contact));

@@ -49,22 +49,31 @@ struct ToolInContact {
     std::vector<collision::Convex> head;  // convex solids of the tool's head
     // By joint: convex solids of the nut or of the screw's socket. Empty: the head cannot turn it.
     std::vector<std::vector<collision::Convex>> shape_solids;
+    std::vector<double> grip_reach;  // m by joint, of `head` and `shape_solids`
+};
+
+// The arguments of nut_pose().
+struct NutAngles {
+    double nut_angle = 0.0, common_turn = 0.0;  // rad
+    bool operator==(const NutAngles&) const = default;
 };
 
 struct ToolContact {
     collision::CollisionWorld world;
-    // The next four members belong to the tool in use, as in ToolInContact.
+    // The next five members belong to the tool in use, as in ToolInContact.
     collision::ToolShape wrench;
     collision::NarrowPhaseState narrow_phase;
     std::vector<collision::Convex> head;
     std::vector<std::vector<collision::Convex>> shape_solids;
-    // By tool of the setup. The entry of the tool in use is empty: its data are in the four members above.
+    std::vector<double> grip_reach;
+    // By tool of the setup. The entry of the tool in use is empty: its data are in the five members above.
     std::vector<ToolInContact> tools;
     proxy::GodObjectParameters parameters;
     proxy::GodObjectState god_object;
     std::vector<std::optional<std::size_t>> nut_bodies;  // by joint: index into world.bodies; none: no mesh
     std::vector<collision::TurnedShape> shapes;          // by joint: the hexagon or socket that a tool turns
     std::vector<Pose> nut_poses;                         // by joint, in the assembly's frame
+    std::vector<NutAngles> nut_angles;                   // by joint: the angles that `nut_poses` belong to
     // Joint whose nut the tool's head holds, or has released and is not yet clear of; −1: none.
     int joint_at_head = -1;
     proxy::GodObjectStep last_step;  // result of the last tick

@@ -214,4 +214,25 @@ TEST_CASE("Tool head: contacts change continuously while the head is pushed onto
     }
 }
 
+TEST_CASE("Tool head: beyond the reach of both solids and the band there are no contacts") {
+    Random random(5);
+    const double band = 5e-3;
+    const auto any_direction = [&] {
+        return glm::normalize(Vec3(random.normal(), random.normal(), random.normal()) + Vec3(1e-9, 0, 0));
+    };
+    std::vector<Pair> all = pairs();
+    all.push_back({make_jaw(opening, to_radians(15.0)), nut});
+    for (const Pair& pair : all) {
+        const double reach = grip_reach({pair.head_parts, pair.shape_parts});
+        double furthest = 0.0;  // m between the origins, with contacts
+        for (int i = 0; i < 20'000; ++i) {
+            const double distance = (reach + band) * random.uniform(0.3, 1.3);
+            const Pose tool{distance * any_direction(), rotation(3.0 * random.uniform() * any_direction())};
+            if (!pair.contacts(tool, band).empty()) furthest = std::max(furthest, distance);
+        }
+        CHECK(furthest <= reach + band);
+        CHECK(furthest > 0.6 * (reach + band));  // a wide bound would test nothing
+    }
+}
+
 }  // namespace bolt::collision::tool_heads
