@@ -20,20 +20,23 @@ includes() { grep -rnE "#include +\"($2)/" --include='*.hpp' --include='*.cpp' "
 [ -z "$(includes content 'game|tools|engine/(ecs|gpu|assets|render|platform)')" ] || bad "content includes upward"
 [ -z "$(includes game 'tools')" ] || bad "game includes tools"
 
-while read -r header; do
-    head -40 "$header" | grep -q '^#pragma once' || bad "$header: no #pragma once"
-done < <(find engine haptics content game tools tests -name '*.hpp')
+# Prints the headers, of those named on the input, without #pragma once in their first 40 lines.
+unguarded() {
+    xargs awk 'FNR == 1 { if (file != "" && !found) print file; file = FILENAME; found = 0 }
+               FNR <= 40 && /^#pragma once/ { found = 1 }
+               END { if (file != "" && !found) print file }'
+}
+[ "$(echo "$planted/engine/upward.hpp" | unguarded)" = "$planted/engine/upward.hpp" ] || bad "the check of #pragma once finds nothing"
+headers=$(find engine haptics content game tools tests -name '*.hpp' | unguarded)
+[ -z "$headers" ] || bad "no #pragma once: $headers"
 
 if grep -rnEi '\b(TODO|FIXME|XXX)\b' --include='*.hpp' --include='*.cpp' --include='*.glsl' engine haptics content game tools; then
     bad "unfinished: a TODO, FIXME or XXX remains"
 fi
 # Every text key is used in the code, so that translators translate no unused text.
 unused_texts() {
-    local keys=$1 used_keys key
-    used_keys=$(grep -rhoE '"[a-z_.0-9]+"' --include='*.hpp' --include='*.cpp' engine game tools | sort -u)
-    while read -r key; do
-        grep -qxF "$key" <<<"$used_keys" || echo "$key"
-    done < <(grep -oE '\{"[a-z_.0-9]+"' "$keys" | tr -d '{')
+    comm -23 <(grep -oE '\{"[a-z_.0-9]+"' "$1" | tr -d '{' | sort -u) \
+        <(grep -rhoE '"[a-z_.0-9]+"' --include='*.hpp' --include='*.cpp' engine game tools | sort -u)
 }
 echo '    {"hint.of_nothing", ""},' > "$planted/key_rows.hpp"
 [ -n "$(unused_texts "$planted/key_rows.hpp")" ] || bad "the check of the texts finds nothing"

@@ -1,17 +1,17 @@
 #include "tests/support/screen_picture.hpp"
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <string>
+
+#include "engine/base/file.hpp"
 
 namespace bolt::test {
 
 Result<ScreenPicture> read_screen() {
     const char* file = std::getenv("BOLT_SCREEN");
     if (file == nullptr) return fail(ErrorCode::failed, "there is no screen", "tests/with_screen.sh");
-    std::ifstream stream(file, std::ios::binary);
-    const std::string xwd((std::istreambuf_iterator<char>(stream)), {});
+    constexpr std::size_t most_bytes = std::size_t{64} << 20;  // more than any screen here
+    BOLT_TRY_ASSIGN(const std::string xwd, read_file(file, most_bytes, ErrorCode::failed));
     if (xwd.size() < 100) return fail(ErrorCode::failed, std::string(file) + " is no picture", "one");
     // X11/XWDFile.h: 32-bit numbers, most significant byte first; then a colour table, then the rows.
     const auto number = [&](std::size_t index) {
@@ -27,12 +27,18 @@ Result<ScreenPicture> read_screen() {
     const std::size_t first = number(0) + 12 * number(19), row = number(12);
     if (xwd.size() < first + picture.height * row)
         return fail(ErrorCode::failed, std::string(file) + " is cut short", "all pixels");
-    for (std::size_t y = 0; y < picture.height; ++y)
-        for (std::size_t x = 0; x < picture.width; ++x) {
-            const char* p = xwd.data() + first + y * row + 4 * x;
-            for (const int channel : {2, 1, 0}) picture.rgba.push_back(static_cast<std::uint8_t>(p[channel]));
-            picture.rgba.push_back(255);
+    // Pointers, because this code is hardly optimised and some tests read the screen every few frames.
+    picture.rgba.resize(std::size_t{4} * picture.width * picture.height);
+    std::uint8_t* out = picture.rgba.data();
+    for (std::size_t y = 0; y < picture.height; ++y) {
+        const char* in = xwd.data() + first + y * row;
+        for (std::size_t x = 0; x < picture.width; ++x, in += 4, out += 4) {
+            out[0] = static_cast<std::uint8_t>(in[2]);
+            out[1] = static_cast<std::uint8_t>(in[1]);
+            out[2] = static_cast<std::uint8_t>(in[0]);
+            out[3] = 255;
         }
+    }
     return picture;
 }
 
