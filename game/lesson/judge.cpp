@@ -34,8 +34,7 @@ void take_points(LessonResult& result, Deduction reason) {
 ToolReading tool_reading(const Lesson& lesson, const world::ReadHaptics& world) {
     if (lesson.held_joint < 0 || lesson.grip != servo::Grip::wrench) return {};
     const auto held = static_cast<std::size_t>(lesson.held_joint);
-    const content::Assembly& assembly = *lesson.assembly;
-    const double ratio = content::adaptor_ratio(content::tool_of(assembly, assembly.joints[held]));
+    const double ratio = content::adaptor_ratio(*lesson.tools[held]);
     ToolReading reading{std::abs(world::joint_at(world, held).torque) / ratio};
     const LessonStep* due = lesson.due();
     if (due == nullptr || due->joint != held || due->kind == StepKind::loosen ||
@@ -43,7 +42,7 @@ ToolReading tool_reading(const Lesson& lesson, const world::ReadHaptics& world) 
         return reading;
     const bool by_angle = due->kind == StepKind::turn;
     const content::ToleranceWindow window =
-        by_angle ? angle_window(assembly, *due) : torque_window(lesson, *due);
+        by_angle ? angle_window(*lesson.assembly, *due) : torque_window(lesson, *due);
     const double measured = by_angle ? angle_from_mark(lesson, world, held) : ratio * reading.value;
     if (by_angle) reading.value = to_degrees(measured);
     if (window.high > 0.0 && measured >= window.low)

@@ -141,7 +141,7 @@ void report_tool_choice(Lesson& lesson, std::size_t joint, const world::ReadHapt
     if (fault == ToolFault::none || lesson.reported_tool_fault != ToolFault::none) return;
     lesson.reported_tool_fault = fault;
     const content::AssemblyJoint& turned = lesson.assembly->joints[joint];
-    const double bearable = tool_models::bearable_torque(content::tool_of(*lesson.assembly, turned));
+    const double bearable = tool_models::bearable_torque(*lesson.tools[joint]);
     if (fault == ToolFault::too_weak)
         add_mistake(lesson, tick_of(world), MistakeKind::weak_tool, joint, bearable,
                     fmt::format("{} needs up to {:.0f} N·m, the tool bears {:.0f} N·m", turned.design.id,
@@ -326,6 +326,7 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
     lesson.turns_by_angle = task == Task::tighten && turns_by_angle(assembly);
     lesson.tool_faults = faults_of_choice(assembly, task);
     for (const content::AssemblyJoint& joint : assembly.joints) {
+        lesson.tools.push_back(&content::tool_of(assembly, joint));
         JointTrack track;
         track.result.id = joint.design.id;
         lesson.joints.push_back(std::move(track));

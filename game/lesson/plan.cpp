@@ -25,6 +25,12 @@ StepKind kind_of(content::PassKind kind) {
     return StepKind::tighten;
 }
 
+double set_torque(const content::Assembly& assembly, const LessonStep& step) {
+    if (step.kind != StepKind::tighten && step.kind != StepKind::recheck) return 0.0;
+    const content::WrenchDesign& wrench = content::tool_of(assembly, assembly.joints[step.joint]);
+    return wrench.click_swing > 0.0 ? step.torque / content::adaptor_ratio(wrench) : 0.0;
+}
+
 std::vector<LessonStep> plan_loosening(const content::Assembly& assembly) {
     std::vector<LessonStep> steps;
     int number = 0;
@@ -61,6 +67,7 @@ std::vector<LessonStep> make_plan(const content::Assembly& assembly, Task task) 
                 step.fraction = pass.fraction;
                 step.angle = spec.angle.target * pass.fraction;
             }
+            step.set_torque = set_torque(assembly, step);
             steps.push_back(step);
         }
         ++number;

@@ -30,6 +30,9 @@ struct LessonStep {
     // rad. turn: the angle to reach, counted from the mark (docs/glossary.md). loosen: the angle to turn
     // back; 0: until the nut is free.
     double angle = 0.0;
+    // N·m on the scale of the torque wrench (content::adaptor_ratio); 0 for other tools and for steps that do
+    // not end at a torque.
+    double set_torque = 0.0;
 };
 
 // The passes of a loosening lesson: those of the assembly file. If it has none, one pass that loosens every

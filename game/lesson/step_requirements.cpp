@@ -34,20 +34,11 @@ bool needs_second_wrench(const content::Assembly& assembly) {
 
 bool requires_click(const Lesson& lesson, const LessonStep& step) {
     const content::Assembly& assembly = *lesson.assembly;
-    const content::WrenchDesign& wrench = content::tool_of(assembly, assembly.joints[step.joint]);
+    const content::WrenchDesign& wrench = *lesson.tools[step.joint];
     if (assembly.law != joint::Law::published || wrench.click_swing <= 0.0) return false;
     const double greatest_click = step.torque * (1.0 + wrench.click_accuracy);
     return step.kind == StepKind::tighten &&
            greatest_click < assembly.joints[step.joint].published.law.T_max_Nm;
-}
-
-double wrench_set_torque(const Lesson& lesson) {
-    const LessonStep* step = lesson.due();
-    if (step == nullptr) return 0.0;
-    const content::Assembly& assembly = *lesson.assembly;
-    const content::WrenchDesign& wrench = content::tool_of(assembly, assembly.joints[step->joint]);
-    const bool to_torque = step->kind == StepKind::tighten || step->kind == StepKind::recheck;
-    return to_torque && wrench.click_swing > 0.0 ? step->torque / content::adaptor_ratio(wrench) : 0.0;
 }
 
 }  // namespace bolt::lesson

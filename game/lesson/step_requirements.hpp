@@ -27,8 +27,10 @@ bool needs_second_wrench(const content::Assembly& assembly);  // any of its join
 // False if a wrench within its tolerance might not click at this set torque (sessions before format 6).
 bool requires_click(const Lesson& lesson, const LessonStep& step);
 
-// Set torque of the torque wrench for the due step, N·m on its scale (content::adaptor_ratio); 0 for other
-// tools and for steps that do not end at a torque.
-double wrench_set_torque(const Lesson& lesson);
+// Set torque of the torque wrench for the due step, N·m on its scale; 0: none (LessonStep::set_torque).
+inline double wrench_set_torque(const Lesson& lesson) {
+    const LessonStep* step = lesson.due();
+    return step == nullptr ? 0.0 : step->set_torque;
+}
 
 }  // namespace bolt::lesson

@@ -279,8 +279,10 @@ Status SessionWriter::append(const TickRecord& tick) {
         return file_error(state.file, "was given a tick with a value out of range",
                           "enumerations and indices in their ranges");
     state.ticks.push_back(tick);
-    if (state.ticks.size() < state.chunk_ticks) return {};
-    return state.commit(nullptr);
+    // Not `return {}`, which would first fill the space of an Error with zeros, in each tick.
+    Status written;
+    if (state.ticks.size() >= state.chunk_ticks) written = state.commit(nullptr);
+    return written;
 }
 
 Status SessionWriter::add(const lesson::LessonEvent& event) {

@@ -7,18 +7,13 @@ namespace bolt::world {
 
 namespace {
 
-Pose pose_of_input(const servo::TickInput& input) {
-    const servo::ToolPose pose = servo::tool_pose(input.commanded_tool);
-    return {pose.position, pose.orientation};
-}
-
 void write_hand(WorkingHand& hand, const Snapshot& servo) {
     const bool engaged = servo.output.joint >= 0;
     hand.action = engaged ? HandAction::holding : HandAction::resting;
     hand.wrench = servo.input.grip == servo::Grip::wrench;
     hand.pinches = servo.input.grip == servo::Grip::fingers;
     hand.nut = engaged ? std::optional(static_cast<std::size_t>(servo.output.joint)) : std::nullopt;
-    hand.pose = hand.to = pose_of_input(servo.input);
+    hand.pose = hand.to = servo::commanded_pose(servo.input.commanded_tool).value_or(Pose{});
 }
 
 void write_joints(const WriteHaptics& world, const servo::State& servo) {
@@ -42,19 +37,18 @@ double hexagon_period(const collision::ToolHead& head) {
     return to_radians(ring != nullptr && ring->points == 12 ? 30.0 : 60.0);
 }
 
+// Except ToolState::head_turn, which turn_ratchet_head() writes.
 void write_tool(ToolState& tool, const Snapshot& servo) {
     const servo::Output& output = servo.output;
-    const double head_turn = tool.head_turn;  // turn_ratchet_head() writes it
-    tool = {.joint = output.joint,
-            .grip = servo.state.engagement.grip,
-            .slipped = output.slipped,
-            .obstacle = output.touched,
-            .contacts = output.contacts,
-            .clicked = output.clicked,
-            .ratchet_slack = servo.state.engagement.ratchet_slack,
-            .second_wrench = servo.input.second_wrench,
-            .bent = servo.state.bent,
-            .head_turn = head_turn};
+    tool.joint = output.joint;
+    tool.grip = servo.state.engagement.grip;
+    tool.slipped = output.slipped;
+    tool.obstacle = output.touched;
+    tool.contacts = output.contacts;
+    tool.clicked = output.clicked;
+    tool.ratchet_slack = servo.state.engagement.ratchet_slack;
+    tool.second_wrench = servo.input.second_wrench;
+    tool.bent = servo.state.bent;
 }
 
 }  // namespace

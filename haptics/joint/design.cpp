@@ -29,18 +29,6 @@ HeldPartTorques held_part_torques(const JointDesign& design, double clamp) {
     return {clamp * (levers.lead + levers.thread) + design.prevailing_torque, clamp * levers.bearing};
 }
 
-double sliding_slope(const ScrewThread& thread, double mu_thread, double friction_share) {
-    const double lead = thread.pitch / (pi * thread.d2);
-    const double friction = friction_share * mu_thread / std::cos(thread_half_angle);
-    return (lead + friction) / (1.0 - lead * friction);
-}
-
-double equivalent_stress_ratio(const ScrewThread& thread, double mu_thread, double kappa,
-                               double friction_share) {
-    const double shear = kappa * (thread.d2 / thread.d0()) * sliding_slope(thread, mu_thread, friction_share);
-    return std::sqrt(1.0 + 3.0 * square(shear));
-}
-
 AssemblyPreload assembly_preload(const ScrewThread& thread, const PropertyClass& bolt, double mu_thread,
                                  double mu_bearing, double bearing_mean_diameter, double utilisation) {
     AssemblyPreload preload;

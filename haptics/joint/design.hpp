@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -208,12 +209,19 @@ inline double bearing_mean_diameter(double d_w, double d_h) { return 0.5 * (d_w 
 // friction_share in [−1, 1]: +1 tightening, −1 loosening. The closed form of VDI 2230 is the first-order
 // approximation P/(π d2) + 1.155 μ_G. The exact tangent reproduces table A1 of VDI 2230 to its rounding, the
 // closed form within 0.9 %.
-double sliding_slope(const ScrewThread& thread, double mu_thread, double friction_share = 1.0);
+inline double sliding_slope(const ScrewThread& thread, double mu_thread, double friction_share = 1.0) {
+    const double lead = thread.pitch / (pi * thread.d2);
+    const double friction = friction_share * mu_thread / std::cos(thread_half_angle);
+    return (lead + friction) / (1.0 - lead * friction);
+}
 
 // Ratio of equivalent (von Mises) to tensile stress while the thread torque acts: √(1 + 3 [κ (d2/d0) tan(φ +
 // ρ')]²). κ: PropertyClass::kappa; d2 and d0: mean diameter of the thread and diameter of its stress section.
-double equivalent_stress_ratio(const ScrewThread& thread, double mu_thread, double kappa,
-                               double friction_share = 1.0);
+inline double equivalent_stress_ratio(const ScrewThread& thread, double mu_thread, double kappa,
+                                      double friction_share = 1.0) {
+    const double shear = kappa * (thread.d2 / thread.d0()) * sliding_slope(thread, mu_thread, friction_share);
+    return std::sqrt(1.0 + 3.0 * square(shear));
+}
 
 struct AssemblyPreload {
     double force = 0.0;   // F_M, N

@@ -77,12 +77,13 @@ void copy_outputs(JointState& joint) {
 
 void update_clamps(const GroupParameters& group, std::span<JointState> joints, int moved, const NutTurn& turn,
                    double dt) {
+    TimeStep step(dt);
     for (std::size_t i = 0; i < joints.size(); ++i) {
         MechanisticState& s = joints[i].mechanistic;
         if (!group.interaction.row_begin.empty())
             s.neighbour_closure = neighbour_closure(group.interaction, joints, i);
         const bool turned = static_cast<int>(i) == moved;
-        advance(group.joints[i], s, turned ? turn : NutTurn{s.angle, s.friction_share}, dt);
+        advance(group.joints[i], s, turned ? turn : NutTurn{s.angle, s.friction_share}, step);
         copy_outputs(joints[i]);
     }
 }
@@ -145,37 +146,13 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
 
 namespace {
 
-// Resistances of the turned part if it turns on the thread, or together with the held part.
-struct NutResistances {
-    Resistance on_thread;
-    std::optional<Resistance> together;  // none: the held part cannot turn
-
-    [[nodiscard]] bool turns_together(double speed) const {
-        if (!together || speed == 0.0) return false;
-        return speed > 0.0 ? together->tighten < on_thread.tighten : together->loosen > on_thread.loosen;
-    }
-    // The resistance of the motion that needs less torque.
-    [[nodiscard]] Resistance weaker() const {
-        Resistance r = on_thread;
-        if (turns_together(1.0)) {
-            r.tighten = together->tighten;
-            r.tighten_slope = 0.0;
-        }
-        if (turns_together(-1.0)) {
-            r.loosen = together->loosen;
-            r.loosen_slope = 0.0;
-        }
-        return r;
-    }
-};
-
-NutResistances resistances(const GroupParameters& group, std::size_t joint, const JointState& state,
-                           double held_part_torque) {
-    NutResistances r{resistance(group, joint, state), std::nullopt};
-    if (group.law == Law::mechanistic && group.joints[joint].held_part_can_turn &&
-        std::isfinite(held_part_torque))
-        r.together = resistance_together(group.joints[joint], state.mechanistic, held_part_torque);
-    return r;
+// The resistance of nut and bolt if they turn together; none if the held part cannot turn.
+std::optional<Resistance> resistance_together(const GroupParameters& group, std::size_t joint,
+                                              const JointState& state, double held_part_torque) {
+    if (group.law != Law::mechanistic || !group.joints[joint].held_part_can_turn ||
+        !std::isfinite(held_part_torque))
+        return std::nullopt;
+    return resistance_together(group.joints[joint], state.mechanistic, held_part_torque);
 }
 
 // The thread does not slide while nut and bolt turn together, so its friction only balances the torque.
@@ -185,18 +162,38 @@ double held_friction_share(const Resistance& on_thread, double torque) {
     return friction > 0.0 ? std::clamp((torque - lead) / friction, -1.0, 1.0) : 0.0;
 }
 
+// A step of the driven part whose held part can turn: in each direction, the motion that needs less torque.
+NutStep step_weaker(const Resistance& on_thread, const Resistance& together, double inertia,
+                    JointState& joint, const NutDrive& drive, double dt) {
+    const bool tightens_together = together.tighten < on_thread.tighten;
+    const bool loosens_together = together.loosen > on_thread.loosen;
+    Resistance weaker = on_thread;
+    if (tightens_together) {
+        weaker.tighten = together.tighten;
+        weaker.tighten_slope = 0.0;
+    }
+    if (loosens_together) {
+        weaker.loosen = together.loosen;
+        weaker.loosen_slope = 0.0;
+    }
+    NutStep step = step_nut(weaker, inertia, joint.nut, drive, dt);
+    if (step.nut.speed > 0.0 ? tightens_together : step.nut.speed < 0.0 && loosens_together) {
+        joint.common_turn += step.nut.angle - joint.nut.angle;
+        step.nut.angle = joint.nut.angle;
+        step.friction_share = held_friction_share(on_thread, step.torque);
+    }
+    return step;
+}
+
 // One step of the driven part, on the thread or together with the held part.
 NutStep step_driven(const GroupParameters& group, std::size_t index, JointState& joint, NutDrive drive,
                     double dt) {
     const double inertia = drive_inertia(std::max(drive.stiffness, 1.0), dt);
-    const NutResistances r = resistances(group, index, joint, drive.held_part_torque);
+    const Resistance on_thread = resistance(group, index, joint);
     drive.angle -= joint.common_turn;
-    NutStep step = step_nut(r.weaker(), inertia, joint.nut, drive, dt);
-    if (r.turns_together(step.nut.speed)) {
-        joint.common_turn += step.nut.angle - joint.nut.angle;
-        step.nut.angle = joint.nut.angle;
-        step.friction_share = held_friction_share(r.on_thread, step.torque);
-    }
+    const auto together = resistance_together(group, index, joint, drive.held_part_torque);
+    NutStep step = together ? step_weaker(on_thread, *together, inertia, joint, drive, dt)
+                            : step_nut(on_thread, inertia, joint.nut, drive, dt);
     if (step.nut.angle < 0.0) {  // end of the thread: the nut stops and the drive winds up
         step.nut = {};
         step.torque = wound_torque(drive, 0.0);

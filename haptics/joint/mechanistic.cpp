@@ -44,8 +44,7 @@ PlasticCurve PlasticCurve::make(const ScrewThread& thread, const PropertyClass& 
     return c;
 }
 
-PlasticCurve::LoadSlope PlasticCurve::at(double u) const {
-    if (u <= 0.0) return {elastic_load, std::numeric_limits<double>::infinity()};
+PlasticCurve::LoadSlope PlasticCurve::plastic_at(double u) const {
     if (u < uniform) {
         const double x = power_3_4(u / scale);
         const double hardened = -std::expm1(-x);
@@ -358,21 +357,21 @@ double closure_at_angle(const MechanisticParameters& p, const MechanisticState& 
     return p.levers.lead * angle - p.start_gap - s.plastic - s.stripped - s.embedding - s.neighbour_closure;
 }
 
-void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn& turn, double dt) {
+void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn& turn, TimeStep& step) {
     const double angle = turn.angle, friction_share = turn.friction_share;
     const double turned = std::abs(angle - s.angle) + std::abs(turn.common);
     // Exponentials are computed only where they have an effect: most joints rest unloaded in most ticks.
     if (turned > 0.0)
         s.breakaway *= std::exp(-turned / p.breakaway_angle);
     else if (s.breakaway < 1.0)
-        s.breakaway += (1.0 - s.breakaway) * -std::expm1(-dt / p.healing_time);
+        s.breakaway += (1.0 - s.breakaway) * step.healing(p.healing_time);
     const double clamp_before = s.clamp;
     s.angle = angle;
     s.friction_share = friction_share;
 
     const double final_embedding = p.embedding * std::min(1.0, s.clamp / p.reference_load);
     if (final_embedding > s.embedding)
-        s.embedding += -std::expm1(-dt / p.embedding_time) * (final_embedding - s.embedding);
+        s.embedding += step.embedding(p.embedding_time) * (final_embedding - s.embedding);
 
     if (s.condition == JointCondition::broken) {
         s.clamp = s.stiffness = 0.0;
@@ -388,7 +387,7 @@ void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn&
     capacity.strip = p.strip_load * std::max(0.0, 1.0 - s.stripped / p.strip_length);
     if (s.clamp > capacity.force()) {
         const double closure = closure_at_angle(p, s, angle);
-        flow(p, s, closure, capacity, dt);
+        flow(p, s, closure, capacity, step.dt());
         const double force_change = load.stiffness * (closure_at_angle(p, s, angle) - closure);
         load = s.condition == JointCondition::broken
                    ? SeatSpring::Load{}

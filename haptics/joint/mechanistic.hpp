@@ -16,7 +16,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "engine/base/random.hpp"
 #include "haptics/joint/design.hpp"
@@ -54,7 +56,13 @@ struct PlasticCurve {
         double load = 0.0;   // Y(u), N
         double slope = 0.0;  // dY/du, N/m; +∞ at u = 0
     };
-    [[nodiscard]] LoadSlope at(double elongation) const;
+    [[nodiscard]] LoadSlope at(double elongation) const {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        return elongation <= 0.0 ? LoadSlope{elastic_load, infinity} : plastic_at(elongation);
+    }
+
+  private:
+    [[nodiscard]] LoadSlope plastic_at(double elongation) const;  // elongation > 0
 };
 
 struct MechanisticParameters {
@@ -145,9 +153,38 @@ struct NutTurn {
     double common = 0.0;          // rad by which nut and bolt have turned together in the step
 };
 
-// Advances the joint by `dt` (s) after the nut has turned. Call it with an unchanged angle too, because
+// A time step, and the share 1 − e^(−dt/τ) of the way to its limit that a first-order process goes in it.
+class TimeStep {
+  public:
+    explicit TimeStep(double dt) : dt_(dt) {}
+    [[nodiscard]] double dt() const { return dt_; }  // s
+
+    // For the time constant τ of embedding or of the recovery of breakaway, s. The joints of a group mostly
+    // have the same ones, so the exponentials of the joint before are used again.
+    double embedding(double time) { return share(embedding_, time); }
+    double healing(double time) { return share(healing_, time); }
+
+  private:
+    struct Share {
+        double time = -1.0;  // s; negative: none yet
+        double value = 0.0;
+    };
+    double share(Share& last, double time) const {
+        if (time != last.time) last = {time, -std::expm1(-dt_ / time)};
+        return last.value;
+    }
+
+    double dt_ = 0.0;
+    Share embedding_, healing_;
+};
+
+// Advances the joint by a time step after the nut has turned. Call it with an unchanged angle too, because
 // embedding and yield continue at rest. No allocation; cannot fail.
-void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn& turn, double dt);
+void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn& turn, TimeStep& step);
+inline void advance(const MechanisticParameters& p, MechanisticState& s, const NutTurn& turn, double dt) {
+    TimeStep step(dt);
+    advance(p, s, turn, step);
+}
 
 // The closure x (m, as above) if the nut were at `angle` (rad) and everything else as in `s`.
 double closure_at_angle(const MechanisticParameters& p, const MechanisticState& s, double angle);

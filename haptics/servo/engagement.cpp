@@ -94,19 +94,26 @@ void settle_ratchet(const Wrench& wrench, double rotation, double play, Engageme
     slip();  // the pawl has dropped into a tooth, and the head springs forward
 }
 
-ToolPose tool_pose(const CommandedTool& commanded) {
-    ToolPose tool;
+std::optional<Pose> commanded_pose(const CommandedTool& commanded) {
+    Pose pose;
+    bool valid = true;
     for (int i = 0; i < 3; ++i) {
-        tool.position[i] = static_cast<double>(commanded.position[i]);
-        tool.valid = tool.valid && std::abs(tool.position[i]) < 1e3;  // false for NaN too
+        pose.position[i] = static_cast<double>(commanded.position[i]);
+        valid = valid && std::abs(pose.position[i]) < 1e3;  // false for NaN too
     }
     const Quat q(static_cast<double>(commanded.orientation[0]), static_cast<double>(commanded.orientation[1]),
                  static_cast<double>(commanded.orientation[2]),
                  static_cast<double>(commanded.orientation[3]));
     const double norm = std::sqrt(glm::dot(q, q));
-    tool.valid = tool.valid && norm > 0.5 && norm < 2.0;
-    if (!tool.valid) return {Vec3(0.0), Quat(1, 0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), false};
-    return tool_pose({tool.position, q / norm});
+    if (!(valid && norm > 0.5 && norm < 2.0)) return std::nullopt;
+    pose.orientation = q / norm;
+    return pose;
+}
+
+ToolPose tool_pose(const CommandedTool& commanded) {
+    const std::optional<Pose> pose = commanded_pose(commanded);
+    if (!pose) return {Vec3(0.0), Quat(1, 0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), false};
+    return tool_pose(*pose);
 }
 
 ToolPose tool_pose(const Pose& pose) {

@@ -3,6 +3,7 @@
 // With contact simulation the geometry of the tool's head decides (update_contact_engagement).
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "haptics/servo/io.hpp"
@@ -19,8 +20,10 @@ struct ToolPose {
     bool valid = true;                     // false: the command is not a pose; such a tool engages nothing
 };
 
-// Normalises the quaternion. `valid` is false if the command is not finite, is beyond 1 km or has a
+// The pose with its quaternion normalised; none if the command is not finite, is beyond 1 km or has a
 // quaternion whose length is outside 0.5 … 2.
+std::optional<Pose> commanded_pose(const CommandedTool& commanded);
+// `valid` is false if the command is not a pose.
 ToolPose tool_pose(const CommandedTool& commanded);
 ToolPose tool_pose(const Pose& pose);
 

@@ -45,8 +45,6 @@ NutGeometry nut_geometry(const joint::JointDesign& design) {
 
 }  // namespace
 
-Vec3 loosening_axis(const NutGeometry& nut) { return nut.sense * nut.axis; }
-
 Vec3 direction_at(const NutGeometry& nut, double angle) {
     const double about_axis = -nut.sense * angle;
     return std::cos(about_axis) * nut.e1 + std::sin(about_axis) * nut.e2;

@@ -60,7 +60,7 @@ struct Ratchet {
 };
 
 // The unit vector about which a right-handed rotation loosens the nut.
-Vec3 loosening_axis(const NutGeometry& nut);
+inline Vec3 loosening_axis(const NutGeometry& nut) { return nut.sense * nut.axis; }
 
 // The unit vector across the bolt at `angle` (rad, tightening positive) from e1.
 Vec3 direction_at(const NutGeometry& nut, double angle);

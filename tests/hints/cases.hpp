@@ -109,21 +109,21 @@ inline const Case cases[] = {
      yield},
     {Situation::pull_to_click, "hint.pull_to_click", HintMotion::pull_on,
      [](Bench& b) {
-         b.assembly.wrench.click_swing = 0.07;
+         b.take_torque_wrench();
          b.seat_both();
          b.turn(0, 30.0);
      }},
     {Situation::pull_to_click_by_adaptor, "hint.pull_to_click_by_adaptor", HintMotion::pull_on,
      [](Bench& b) {
-         b.assembly.wrench.click_swing = 0.07;
          b.assembly.wrench.handle_length = 0.3;
          b.assembly.wrench.adaptor_length = 0.06;
+         b.take_torque_wrench();
          b.seat_both();
          b.turn(0, 30.0);
      }},
     {Situation::stop_at_click, "hint.stop_at_click", HintMotion::lift,
      [](Bench& b) {
-         b.assembly.wrench.click_swing = 0.07;
+         b.take_torque_wrench();
          b.seat_both();
          b.turn(0, 35.0);
          b.tick(0, Grip::wrench, 34.0, 0.0, true);

@@ -41,6 +41,11 @@ struct Script {
         state.rounded.resize(2);
         world::add_haptics(components, state);
     }
+    // Begins the lesson again, with a torque wrench.
+    void take_torque_wrench() {
+        assembly.wrench.click_swing = 0.07;
+        lesson = begin(assembly, lesson.mode, lesson.task);
+    }
 
     void tick(int joint, servo::Grip grip, double torque, double speed = 0.0, bool clicked = false) {
         output = {};

@@ -63,13 +63,17 @@ LessonRun play_through(const content::Assembly& assembly, const char* trainee, s
 }  // namespace
 
 TEST_CASE("Torque wrench: set to the step's torque, and to 0 for steps without a torque") {
+    Script plain;
+    plain.seat(0);
+    plain.seat(1);
+    CHECK(plain.lesson.due()->kind == StepKind::tighten);
+    CHECK(wrench_set_torque(plain.lesson) == 0.0);  // a plain wrench has no scale
     Script s;
+    s.take_torque_wrench();
     s.idle();
     CHECK(wrench_set_torque(s.lesson) == 0.0);  // run down
     s.seat(0);
     s.seat(1);
-    CHECK(wrench_set_torque(s.lesson) == 0.0);  // a plain wrench has no scale
-    s.assembly.wrench.click_swing = 0.07;
     CHECK(wrench_set_torque(s.lesson) == 35.0);
     s.pull(0, 35.0);
     s.pull(1, 35.0);
@@ -132,7 +136,7 @@ TEST_CASE("Torque wrench: a click gives one event with its torque") {
 
 TEST_CASE("Torque wrench: with strategy yield a click completes its step, and no later one") {
     Script s(Mode::guided, content::Strategy::yield);
-    s.assembly.wrench.click_swing = 0.07;
+    s.take_torque_wrench();
     s.seat_both();
     for (const int joint : {0, 1}) {
         s.tick(joint, servo::Grip::wrench, 35.0, 0.0, true);
@@ -148,7 +152,7 @@ TEST_CASE("Torque wrench: with strategy yield a click completes its step, and no
 
 TEST_CASE("Torque wrench: pulling on past the click is excess torque and is reported") {
     Script s;
-    s.assembly.wrench.click_swing = 0.07;
+    s.take_torque_wrench();
     s.seat_both();
     for (const int joint : {0, 1}) s.pull(joint, 35.0);
     s.tick(0, servo::Grip::wrench, 70.0, 0.0, true);
