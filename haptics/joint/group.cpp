@@ -88,12 +88,13 @@ void update_clamps(const GroupParameters& group, std::span<JointState> joints, i
     }
 }
 
-void update_published(const PublishedParameters& law, JointState& joint, double angle,
-                      double friction_share) {
+void update_published(const PublishedLaw& published, JointState& joint, double angle, double friction_share) {
+    const auto& [law, boundaries] = published;
     const double degrees = to_degrees(angle);
-    published_advance(law, joint.published, degrees);
+    published_advance(law, boundaries, joint.published, degrees);
     const Direction direction = friction_share < 0.0 ? Direction::loosen : Direction::tighten;
-    const PublishedResponse reading = evaluate_published(law, joint.published, degrees, direction);
+    const PublishedResponse reading =
+        evaluate_published(law, boundaries, joint.published, degrees, direction);
     joint.clamp = reading.clamp;
     joint.stage = reading.stage;
 }
@@ -113,10 +114,11 @@ GroupParameters make_group(std::span<const JointDesign> designs, const FlangePla
     return group;
 }
 
-GroupParameters make_published_group(std::vector<PublishedParameters> joints) {
+GroupParameters make_published_group(const std::vector<PublishedParameters>& joints) {
     GroupParameters group;
     group.law = Law::published;
-    group.published = std::move(joints);
+    for (const PublishedParameters& joint : joints)
+        group.published.push_back({joint, published_boundaries(joint)});
     return group;
 }
 
@@ -128,10 +130,10 @@ std::vector<JointState> initial_state(const GroupParameters& group, std::size_t 
 
 Resistance resistance(const GroupParameters& group, std::size_t joint, const JointState& state) {
     if (group.law == Law::mechanistic) return resistance(group.joints[joint], state.mechanistic);
-    const PublishedParameters& law = group.published[joint];
+    const auto& [law, boundaries] = group.published[joint];
     const double degrees = to_degrees(state.nut.angle);
-    const auto on = evaluate_published(law, state.published, degrees, Direction::tighten);
-    const auto off = evaluate_published(law, state.published, degrees, Direction::loosen);
+    const auto on = evaluate_published(law, boundaries, state.published, degrees, Direction::tighten);
+    const auto off = evaluate_published(law, boundaries, state.published, degrees, Direction::loosen);
     // The paper gives the torques of the stages different signs; the hand feels their magnitude, against the
     // motion.
     Resistance r;
@@ -185,12 +187,11 @@ NutStep step_weaker(const Resistance& on_thread, const Resistance& together, dou
     return step;
 }
 
-// One step of the driven part, on the thread or together with the held part.
-NutStep step_driven(const GroupParameters& group, std::size_t index, JointState& joint, NutDrive drive,
+// One step of the driven part, on the thread or together with the held part. `drive`: relative to the bolt.
+NutStep step_driven(const GroupParameters& group, std::size_t index, JointState& joint, const NutDrive& drive,
                     double dt) {
     const double inertia = drive_inertia(std::max(drive.stiffness, 1.0), dt);
     const Resistance on_thread = resistance(group, index, joint);
-    drive.angle -= joint.common_turn;
     const auto together = resistance_together(group, index, joint, drive.held_part_torque);
     NutStep step = together ? step_weaker(on_thread, *together, inertia, joint, drive, dt)
                             : step_nut(on_thread, inertia, joint.nut, drive, dt);
@@ -199,6 +200,11 @@ NutStep step_driven(const GroupParameters& group, std::size_t index, JointState&
         step.torque = wound_torque(drive, 0.0);
     }
     return step;
+}
+
+NutDrive relative_to_bolt(NutDrive drive, double common_turn) {
+    drive.angle -= common_turn;
+    return drive;
 }
 
 }  // namespace
@@ -216,7 +222,9 @@ ClickStep step_group(const GroupParameters& group, std::span<JointState> joints,
     if (driven >= 0 && static_cast<std::size_t>(driven) < joints.size()) {
         const auto i = static_cast<std::size_t>(driven);
         const double common_turn = joints[i].common_turn;
-        const NutStep step = step_driven(group, i, joints[i], drive, dt);
+        const NutStep step = common_turn == 0.0
+                                 ? step_driven(group, i, joints[i], drive, dt)
+                                 : step_driven(group, i, joints[i], relative_to_bolt(drive, common_turn), dt);
         click = step.click;
         joints[i].nut = step.nut;
         joints[i].torque = step.torque;
@@ -249,7 +257,8 @@ constexpr std::size_t max_samples = 2'000'000;
 
 double signed_torque(const GroupParameters& group, const JointState& joint, Direction direction) {
     if (group.law == Law::mechanistic) return joint.torque;
-    return evaluate_published(group.published[0], joint.published, to_degrees(joint.nut.angle), direction)
+    return evaluate_published(group.published[0].parameters, joint.published, to_degrees(joint.nut.angle),
+                              direction)
         .torque;
 }
 

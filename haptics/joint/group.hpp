@@ -52,11 +52,17 @@ struct InteractionMatrix {
 // `seats`: m, position of each joint.
 InteractionMatrix interaction_matrix(const FlangePlate& plate, std::span<const Vec3> seats);
 
+// A joint under Law::published. The boundaries follow from the law; a tick needs them several times.
+struct PublishedLaw {
+    PublishedParameters parameters;
+    PublishedBoundaries boundaries;
+};
+
 struct GroupParameters {
     Law law = Law::mechanistic;
-    std::vector<MechanisticParameters> joints;   // by joint under Law::mechanistic, otherwise empty
-    std::vector<PublishedParameters> published;  // by joint under Law::published, otherwise empty
-    InteractionMatrix interaction;               // empty under Law::published and without a flange
+    std::vector<MechanisticParameters> joints;  // by joint under Law::mechanistic, otherwise empty
+    std::vector<PublishedLaw> published;        // by joint under Law::published, otherwise empty
+    InteractionMatrix interaction;              // empty under Law::published and without a flange
 };
 
 // The state of a joint. Clamp force, breakaway, stage and condition are those of the law's own state
@@ -82,7 +88,7 @@ struct JointState {
 GroupParameters make_group(std::span<const JointDesign> designs, const FlangePlate* flange,
                            std::uint64_t seed);
 // Parameters under the published law, one element for each joint.
-GroupParameters make_published_group(std::vector<PublishedParameters> joints);
+GroupParameters make_published_group(const std::vector<PublishedParameters>& joints);
 
 // The states of new joints with their nuts at angle 0. `joints`: number of joints in the group.
 std::vector<JointState> initial_state(const GroupParameters& group, std::size_t joints);

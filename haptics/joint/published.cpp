@@ -79,9 +79,8 @@ PublishedBoundaries published_boundaries(const PublishedParameters& p) {
     return b;
 }
 
-PublishedResponse evaluate_published(const PublishedParameters& p, const PublishedState& s, double theta_deg,
-                                     Direction direction) {
-    const PublishedBoundaries b = published_boundaries(p);
+PublishedResponse evaluate_published(const PublishedParameters& p, const PublishedBoundaries& b,
+                                     const PublishedState& s, double theta_deg, Direction direction) {
     const bool virgin = theta_deg >= s.peak_deg;
     // Below the furthest angle the joint follows the elastic line, shifted by the permanent set.
     const double theta = virgin ? theta_deg : theta_deg - s.set_deg;
@@ -114,8 +113,8 @@ PublishedResponse evaluate_published(const PublishedParameters& p, const Publish
     return reading;
 }
 
-void published_advance(const PublishedParameters& p, PublishedState& s, double theta_deg) {
-    const PublishedBoundaries b = published_boundaries(p);
+void published_advance(const PublishedParameters& p, const PublishedBoundaries& b, PublishedState& s,
+                       double theta_deg) {
     if (theta_deg <= std::max(s.peak_deg, b.yield)) return;
     s.peak_deg = theta_deg;
     const double clamp = published_yield_torque(p, theta_deg) / published_lever(p, Direction::tighten);

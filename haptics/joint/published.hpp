@@ -87,11 +87,19 @@ struct PublishedResponse {
         0.0;  // N; in the transition F_c, the force of the touching faces; afterwards F_b, that of the bolt
 };
 
-// The law's response at this angle in this direction. Pure.
-PublishedResponse evaluate_published(const PublishedParameters& p, const PublishedState& s, double theta_deg,
-                                     Direction direction);
+// The law's response at this angle in this direction. Pure. `boundaries`: published_boundaries(p).
+PublishedResponse evaluate_published(const PublishedParameters& p, const PublishedBoundaries& boundaries,
+                                     const PublishedState& s, double theta_deg, Direction direction);
+inline PublishedResponse evaluate_published(const PublishedParameters& p, const PublishedState& s,
+                                            double theta_deg, Direction direction) {
+    return evaluate_published(p, published_boundaries(p), s, theta_deg, direction);
+}
 
 // Updates peak and set after the nut has moved to theta_deg.
-void published_advance(const PublishedParameters& p, PublishedState& s, double theta_deg);
+void published_advance(const PublishedParameters& p, const PublishedBoundaries& boundaries, PublishedState& s,
+                       double theta_deg);
+inline void published_advance(const PublishedParameters& p, PublishedState& s, double theta_deg) {
+    published_advance(p, published_boundaries(p), s, theta_deg);
+}
 
 }  // namespace bolt::joint
