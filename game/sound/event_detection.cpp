@@ -44,7 +44,7 @@ EventDetector::WrenchEnds ends_of(const servo::Setup& setup, const Pose& tool) {
 // Clamp force over the joint's reference load. The published law has no clamp force: torque over its maximum.
 double load_of(const servo::Setup& setup, const world::Joint& joint) {
     if (setup.group.law == joint::Law::published)
-        return std::abs(joint.torque) / setup.group.published[joint.index].T_max_Nm;
+        return std::abs(joint.torque) / setup.group.published[joint.index].parameters.T_max_Nm;
     const double reference = setup.group.joints[joint.index].reference_load;
     return reference > 0.0 ? joint.clamp / reference : 0.0;
 }

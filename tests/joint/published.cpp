@@ -115,17 +115,17 @@ TEST_CASE("Published law: each joint of a group has its own parameters") {
     for (double& rate : stiff.spring_rates_1e6) rate *= 2.0;
     weak.T_max_Nm = 60.0;
     weak.theta_max_deg = 3600.0;
-    const GroupParameters group = make_published_group({p, stiff, weak});
+    const std::vector<PublishedParameters> laws{p, stiff, weak};
+    const GroupParameters group = make_published_group(laws);
     std::vector<JointState> joints = initial_state(group, 3);
     const auto torque = [&](std::size_t i, double before_end) {
-        turn_nut(group, joints, i, to_radians(group.published[i].theta_max_deg - before_end), 1.0, 1e-3);
+        turn_nut(group, joints, i, to_radians(laws[i].theta_max_deg - before_end), 1.0, 1e-3);
         return joints[i].torque;
     };
     for (std::size_t i = 0; i < 3; ++i)
         CHECK(torque(i, 91.0) ==
-              doctest::Approx(
-                  published_yield_torque(group.published[i], group.published[i].theta_max_deg - 90.0) -
-                  published_linear_slope(group.published[i])));
+              doctest::Approx(published_yield_torque(laws[i], laws[i].theta_max_deg - 90.0) -
+                              published_linear_slope(laws[i])));
     CHECK(torque(0, 91.0) - torque(1, 91.0) == doctest::Approx(14.354).epsilon(1e-4));
     CHECK(torque(1, 0.0) == doctest::Approx(72.126));
     CHECK(torque(2, 0.0) == doctest::Approx(60.0));
