@@ -20,6 +20,19 @@ double contact_force(const PublishedParameters& p, double area_slope_mm2) {
     return area_slope_mm2 / compliance / p.kappa * 1e3;
 }
 
+// Always inlined, so that several of them in one function share their cosine.
+[[gnu::always_inline]] inline double lever(const PublishedParameters& p, Direction direction) {
+    const double lead = p.pitch_mm / (2.0 * pi);
+    return (sign_of(direction) * lead + p.mu2 * p.r_t_mm / (2.0 * std::cos(p.beta)) + p.mu1 * p.r_b_mm) *
+           1e-3;
+}
+
+[[gnu::always_inline]] inline double degrees_per_newton(const PublishedParameters& p) {
+    double sum = 0.0;
+    for (const double k : p.spring_rates_1e6) sum += 1.0 / (k * 1e6);
+    return to_degrees(2.0 * pi / p.pitch_mm * sum);
+}
+
 double linear_width_deg(const PublishedParameters& p) {
     const double yield_start = published_yield_torque(p, p.theta_max_deg - p.yield_width_deg);
     return yield_start / published_linear_slope(p);
@@ -44,17 +57,9 @@ double published_bearing_torque(const PublishedParameters& p, double area_slope_
     return -pi * pressure * p.mu1 * integral * Nmm;
 }
 
-double published_lever(const PublishedParameters& p, Direction direction) {
-    const double lead = p.pitch_mm / (2.0 * pi);
-    return (sign_of(direction) * lead + p.mu2 * p.r_t_mm / (2.0 * std::cos(p.beta)) + p.mu1 * p.r_b_mm) *
-           1e-3;
-}
+double published_lever(const PublishedParameters& p, Direction direction) { return lever(p, direction); }
 
-double published_degrees_per_newton(const PublishedParameters& p) {
-    double sum = 0.0;
-    for (const double k : p.spring_rates_1e6) sum += 1.0 / (k * 1e6);
-    return to_degrees(2.0 * pi / p.pitch_mm * sum);
-}
+double published_degrees_per_newton(const PublishedParameters& p) { return degrees_per_newton(p); }
 
 double published_linear_slope(const PublishedParameters& p) {
     return published_lever(p, Direction::tighten) / published_degrees_per_newton(p);
@@ -89,15 +94,14 @@ PublishedResponse evaluate_published(const PublishedParameters& p, const Publish
     if (virgin && theta >= b.yield) {
         reading.stage = Stage::yield;
         const double torque = published_yield_torque(p, theta);
-        reading.clamp = torque / published_lever(p, Direction::tighten);
-        reading.torque =
-            direction == Direction::tighten ? torque : -reading.clamp * published_lever(p, direction);
+        reading.clamp = torque / lever(p, Direction::tighten);
+        reading.torque = direction == Direction::tighten ? torque : -reading.clamp * lever(p, direction);
         return reading;
     }
     if (theta >= b.linearity) {
         reading.stage = Stage::linearity;
-        reading.clamp = (theta - b.linearity) / published_degrees_per_newton(p);
-        reading.torque = sign_of(direction) * reading.clamp * published_lever(p, direction);
+        reading.clamp = (theta - b.linearity) / degrees_per_newton(p);
+        reading.torque = sign_of(direction) * reading.clamp * lever(p, direction);
         return reading;
     }
     if (theta >= b.transition) {
@@ -117,8 +121,8 @@ void published_advance(const PublishedParameters& p, const PublishedBoundaries& 
                        double theta_deg) {
     if (theta_deg <= std::max(s.peak_deg, b.yield)) return;
     s.peak_deg = theta_deg;
-    const double clamp = published_yield_torque(p, theta_deg) / published_lever(p, Direction::tighten);
-    s.set_deg = theta_deg - (b.linearity + clamp * published_degrees_per_newton(p));
+    const double clamp = published_yield_torque(p, theta_deg) / lever(p, Direction::tighten);
+    s.set_deg = theta_deg - (b.linearity + clamp * degrees_per_newton(p));
 }
 
 }  // namespace bolt::joint
