@@ -61,7 +61,7 @@ struct Lesson {
     std::vector<LessonStep> steps;
     std::size_t current = 0;  // index of the due step
     std::vector<JointTrack> joints;
-    std::vector<const content::WrenchDesign*> tools;  // by joint
+    std::vector<const content::WrenchDesign*> tools;  // by joint, in `assembly`
     std::vector<ToolFault> tool_faults;               // by joint; replays of old sessions have none
     ToolFault reported_tool_fault =
         ToolFault::none;  // reported once a lesson: the trainee chooses the tool only once, before it begins

@@ -37,7 +37,7 @@ double hexagon_period(const collision::ToolHead& head) {
     return to_radians(ring != nullptr && ring->points == 12 ? 30.0 : 60.0);
 }
 
-// Except ToolState::head_turn, which turn_ratchet_head() writes.
+// Writes all members but ToolState::head_turn, which turn_ratchet_head() writes.
 void write_tool(ToolState& tool, const Snapshot& servo) {
     const servo::Output& output = servo.output;
     tool.joint = output.joint;

@@ -153,7 +153,7 @@ struct NutTurn {
     double common = 0.0;          // rad by which nut and bolt have turned together in the step
 };
 
-// A time step, and the share 1 − e^(−dt/τ) of the way to its limit that a first-order process goes in it.
+// A time step, and the share 1 − e^(−dt/τ) of the way to its limit that a first-order process covers in it.
 class TimeStep {
   public:
     explicit TimeStep(double dt) : dt_(dt) {}

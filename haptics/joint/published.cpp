@@ -20,7 +20,7 @@ double contact_force(const PublishedParameters& p, double area_slope_mm2) {
     return area_slope_mm2 / compliance / p.kappa * 1e3;
 }
 
-// Always inlined, so that several of them in one function share their cosine.
+// Always inlined, so that two calls in one function compute their common cosine once.
 [[gnu::always_inline]] inline double lever(const PublishedParameters& p, Direction direction) {
     const double lead = p.pitch_mm / (2.0 * pi);
     return (sign_of(direction) * lead + p.mu2 * p.r_t_mm / (2.0 * std::cos(p.beta)) + p.mu1 * p.r_b_mm) *
