@@ -110,9 +110,7 @@ struct TraineeState {
     [[nodiscard]] bool holds_intended_nut() const {
         return servo_state->engagement.joint == static_cast<int>(plan.joint);
     }
-    [[nodiscard]] Vec3 random_offset(double deviation) {
-        return Vec3(random.normal(), random.normal(), random.normal()) * deviation;
-    }
+    [[nodiscard]] Vec3 random_offset(double deviation) { return normal_vector(random) * deviation; }
 
     void enter(Phase next, double seconds = 0.0) {
         phase = next;

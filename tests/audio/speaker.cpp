@@ -21,7 +21,7 @@
 using namespace bolt;
 using namespace bolt::audio;
 
-#if defined(__SANITIZE_THREAD__)
+#if defined(BOLT_SANITIZES_THREAD)
 // OpenAL is built without the sanitizer, which therefore cannot see its thread synchronisation.
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() { return "race:libopenal.so\n"; }

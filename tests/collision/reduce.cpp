@@ -18,6 +18,12 @@ using namespace contact_test;
 
 namespace {
 
+// A vector of a random length up to `longest`.
+Vec3 random_vector(Random& random, double longest) {
+    const Vec3 direction = random_direction(random);
+    return random.uniform(0.0, longest) * direction;
+}
+
 // Random contacts on four faces that are slightly curved.
 std::vector<Contact> some_contacts(Random& random, std::size_t count, double size) {
     std::vector<Contact> all;
@@ -25,9 +31,11 @@ std::vector<Contact> some_contacts(Random& random, std::size_t count, double siz
     for (Vec3& face : faces) face = random_direction(random);
     for (std::uint32_t i = 0; i < count; ++i) {
         Contact c;
-        c.on_tool = size * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-        c.normal =
-            glm::normalize(faces[random.bits() % 4] + random.uniform(0.0, 0.6) * random_direction(random));
+        const double z = random.uniform(-1, 1);
+        const double y = random.uniform(-1, 1);
+        c.on_tool = size * Vec3(random.uniform(-1, 1), y, z);
+        const Vec3 bend = random_vector(random, 0.6);
+        c.normal = glm::normalize(faces[random.bits() % 4] + bend);
         c.distance = random.uniform(0.0, 0.6) * mm;
         c.obstacle = ObstacleId::nut(random.bits() % 2);
         c.feature = i;
@@ -73,8 +81,8 @@ TEST_CASE("Contact reduction: a motion allowed by the kept contacts stays within
         for (int i = 0; i < 20; ++i) {
             // A motion nearly straight towards one contact, as far as all kept contacts allow.
             const Vec3 at = -all[random.bits() % all.size()].normal;
-            Twist motion{at + random.uniform(0.0, 0.2) * random_direction(random),
-                         random.uniform(0.0, 1.0) * random_direction(random)};
+            const Vec3 aside = random_vector(random, 0.2);
+            Twist motion{at + aside, random_vector(random, 1.0)};
             double share = merge_stride / travel(motion, 0.3);
             for (const Contact& c : kept)
                 if (normal_motion(c, motion) < 0.0)

@@ -86,7 +86,9 @@ TEST_CASE("Schema: every property has a title and a description, and every objec
         CHECK(at->contains("title"));
         CHECK((at->contains("description") || at->contains("properties")));
     });
-    for (const auto& [name, definition] : assembly_schema().json()["definitions"].items()) {
+    for (const auto& entry : assembly_schema().json()["definitions"].items()) {
+        const std::string& name = entry.key();
+        const auto& definition = entry.value();
         CAPTURE(name);
         if (!definition.contains("properties")) continue;
         CHECK(definition.contains("additionalProperties"));
@@ -187,7 +189,9 @@ TEST_CASE("Schema: each value of a wrong type gives exactly one error at its pos
     std::vector<std::string> place;
     each_object(document, place, [&](const std::vector<std::string>& at, const json& schema) {
         if (!schema.contains("properties")) return;
-        for (const auto& [name, member] : document.at(pointer(at)).items()) {
+        for (const auto& entry : document.at(pointer(at)).items()) {
+            const std::string& name = entry.key();
+            const auto& member = entry.value();
             json broken = document;
             broken.at(pointer(at))[name] = member.is_boolean() ? json("yes") : json(true);
             const auto errors = errors_of(broken);

@@ -258,11 +258,13 @@ TEST_CASE("Plug-in: closing it lets an exchange that has begun return") {
 
 TEST_CASE("Plug-in: one that damages its process or the connection is a lost device") {
     const Bench bench;
-    for (const auto& [fault, text] : std::initializer_list<std::pair<const char*, const char*>>{
+    for (const auto& row : std::initializer_list<std::pair<const char*, const char*>>{
              {"nonsense",
               "the plug-in faulty_arm: its process has sent an invalid reply (the plug-in may have "
               "overwritten memory)"},
              {"closed connection", "the plug-in faulty_arm has closed its connection in exchange"}}) {
+        const auto& fault = row.first;
+        const auto& text = row.second;
         CAPTURE(fault);
         bench.show("");
         const auto opened = bench.open();

@@ -114,7 +114,7 @@ TEST_CASE("Plug-in: a library without the entry, another version, a short and an
     const auto no_entry = count_plugin_arms(other);
     REQUIRE_FALSE(no_entry);
     CHECK(no_entry.error().what.find("has no bw_arm_entry") != std::string::npos);
-    for (const auto& [fault, text] : std::initializer_list<std::pair<const char*, const char*>>{
+    for (const auto& row : std::initializer_list<std::pair<const char*, const char*>>{
              {"old",
               "the plug-in faulty_arm: bw_arm_entry(1) returns no functions; expected a plug-in made with "
               "this version of boltwright_arm.h"},
@@ -122,6 +122,8 @@ TEST_CASE("Plug-in: a library without the entry, another version, a short and an
              {"empty",
               "the plug-in faulty_arm: its bw_arm_v1 lacks a function; expected all eight of "
               "boltwright_arm.h"}}) {
+        const auto& fault = row.first;
+        const auto& text = row.second;
         CAPTURE(fault);
         CHECK(message(bench.open_with(fault)) == text);
     }
@@ -129,7 +131,7 @@ TEST_CASE("Plug-in: a library without the entry, another version, a short and an
 
 TEST_CASE("Plug-in: reports that are not finite, negative or contradictory are refused") {
     const Bench bench;
-    for (const auto& [fault, text] : std::initializer_list<std::pair<const char*, const char*>>{
+    for (const auto& row : std::initializer_list<std::pair<const char*, const char*>>{
              {"infinite force", "its largest force is inf N; expected a finite number that is not negative"},
              {"negative torque",
               "its largest torque is -1 N·m; expected a finite number that is not negative"},
@@ -141,6 +143,8 @@ TEST_CASE("Plug-in: reports that are not finite, negative or contradictory are r
              {"no reach", "its reach along y is 0 m; expected a finite number above 0"},
              {"buttons", "it has 33 buttons; expected 0 to 32"},
              {"odd", "calibrate returns 99; expected a result as boltwright_arm.h describes it"}}) {
+        const auto& fault = row.first;
+        const auto& text = row.second;
         CAPTURE(fault);
         const std::string refusal = message(bench.open_with(fault));
         CAPTURE(refusal);

@@ -40,7 +40,7 @@ struct Box {
     }
 };
 
-bool all_free(const Vec3&, const Vec3&) { return true; }
+constexpr auto all_free = [](const Vec3&, const Vec3&) { return true; };
 
 // A wall between the hand (x < 0) and the nut (x > 0); the free path leads over it.
 const Box wall{Vec3(-0.05, -1.0, -1.0), Vec3(0.05, 0.25, 1.0)};

@@ -37,9 +37,7 @@ Scene random_scene(std::uint64_t seed) {
     Random random(seed, 5);
     Scene s;
     s.arm = test::random_arm(random);
-    const auto direction = [&] {
-        return glm::normalize(Vec3(random.normal(), random.normal(), random.normal() + 1e-3));
-    };
+    const auto direction = [&] { return glm::normalize(normal_vector(random) + Vec3(0.0, 0.0, 1e-3)); };
     s.normals[0] = direction();
     s.walls = random.chance(0.5) ? 2 : 1;
     const Vec3 across = direction();

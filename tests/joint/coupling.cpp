@@ -42,7 +42,9 @@ TEST_CASE("Hand and nut: friction acts in tightening below the lead torque, and 
     const std::pair<double, double> torques[] = {{0.0, -20.0 / 90.0},   {10.0, -10.0 / 90.0},
                                                  {20.0, 0.0},           {50.0, 30.0 / 80.0},
                                                  {-30.0, -50.0 / 90.0}, {99.0, 79.0 / 80.0}};
-    for (const auto& [torque, share] : torques) {
+    for (const auto& row : torques) {
+        const auto& torque = row.first;
+        const auto& share = row.second;
         CAPTURE(torque);
         const NutStep step = step_nut(r, inertia, {}, spring(torque / 2000.0, 0.0), 1e-3);
         CHECK(step.nut.speed == 0.0);

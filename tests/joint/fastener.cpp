@@ -24,7 +24,9 @@ TEST_CASE("Fasteners: stress areas agree with ISO 898-1 to its rounding") {
         {"M22", 303},     {"M24", 353},     {"M27", 459},   {"M30", 561},       {"M33", 694},
         {"M36", 817},     {"M39", 976},     {"M8x1", 39.2}, {"M10x1.25", 61.2}, {"M12x1.5", 88.1},
         {"M16x1.5", 167}, {"M20x1.5", 272}, {"M24x2", 384}};
-    for (const auto& [name, area] : published) {
+    for (const auto& row : published) {
+        const auto& name = row.first;
+        const auto& area = row.second;
         CAPTURE(name);
         CHECK(parse_thread(name).value().thread.A_s * 1e6 == doctest::Approx(area).epsilon(6e-3));
     }

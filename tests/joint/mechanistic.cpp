@@ -302,7 +302,10 @@ TEST_CASE(
                                                                   {"dry", Lubrication::dry, 0.16},
                                                                   {"mos2", Lubrication::mos2, 0.08},
                                                                   {"asis", Lubrication::as_received, 0.085}};
-    for (const auto& [name, lubrication, mu] : kinds) {
+    for (const auto& kind : kinds) {
+        const auto& name = std::get<0>(kind);
+        const auto& lubrication = std::get<1>(kind);
+        const auto& mu = std::get<2>(kind);
         CAPTURE(name);
         JointDesign design = test::m16_flange_joint(mu);
         design.thread = parse_thread("M8").value();

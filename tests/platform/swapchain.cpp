@@ -117,7 +117,9 @@ TEST_CASE("Swapchain: pictures of another size are scaled to the window") {
 TEST_CASE("Swapchain: new sizes, larger, smaller and back, are presented") {
     test::ShowCase show("sizes");
     show.show_surely(red);
-    for (const auto& [width, height] : {std::pair{500U, 400U}, {100U, 90U}, {320U, 240U}}) {
+    for (const auto& size : {std::pair{500U, 400U}, {100U, 90U}, {320U, 240U}}) {
+        const auto& width = size.first;
+        const auto& height = size.second;
         show.window().resize({width, height});
         CHECK(test::eventually([&] {
             (void)test::need(show.show(blue));

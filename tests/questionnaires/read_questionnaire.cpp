@@ -126,8 +126,8 @@ TEST_CASE("Questionnaires: the file of these tests has every member of the schem
     for (const nlohmann::json& object : objects) {
         if (!object.contains("properties")) continue;
         CHECK(object["additionalProperties"] == false);
-        for (const auto& [key, property] : object["properties"].items())
-            CHECK_MESSAGE(has(everything, "\"" + key + "\":"), key);
+        for (const auto& property : object["properties"].items())
+            CHECK_MESSAGE(has(everything, "\"" + property.key() + "\":"), property.key());
     }
 }
 

@@ -284,7 +284,8 @@ TEST_CASE("Session file: the error for a folder that is not writable gives the r
         CAPTURE(path);
         errno = 0;
         REQUIRE(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600) < 0);
-        CHECK(reason_at(path) == std::string("its folder is not writable: ") + std::strerror(errno));
+        const std::string expected = std::string("its folder is not writable: ") + std::strerror(errno);
+        CHECK(reason_at(path) == expected);
     }
     const Folder folder;
     put_bytes(folder / "file", "");

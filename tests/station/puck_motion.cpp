@@ -54,12 +54,14 @@ TEST_CASE("Puck: the tool moves at the puck's rate while that is valid, and stop
 
 TEST_CASE("Wheel: clockwise as the user sees it tightens, at a left-hand thread it loosens, for any axis") {
     using joint::ThreadDirection;
-    for (const auto& [axis, thread] : {std::pair{Vec3(0, 0, -1), ThreadDirection::right},
-                                       {Vec3(0, 0, 1), ThreadDirection::right},
-                                       {Vec3(0, 1, 0), ThreadDirection::right},
-                                       {Vec3(0, -1, 0), ThreadDirection::right},
-                                       {Vec3(0, 0, -1), ThreadDirection::left},
-                                       {Vec3(0, 1, 0), ThreadDirection::left}}) {
+    for (const auto& row : {std::pair{Vec3(0, 0, -1), ThreadDirection::right},
+                            {Vec3(0, 0, 1), ThreadDirection::right},
+                            {Vec3(0, 1, 0), ThreadDirection::right},
+                            {Vec3(0, -1, 0), ThreadDirection::right},
+                            {Vec3(0, 0, -1), ThreadDirection::left},
+                            {Vec3(0, 1, 0), ThreadDirection::left}}) {
+        const auto& axis = row.first;
+        const auto& thread = row.second;
         CAPTURE(axis.y);
         CAPTURE(axis.z);
         DeviceLayout layout;

@@ -74,7 +74,9 @@ void each_property(const json& schema, const json& node, const json::json_pointe
         each_property(schema, resolved(node["items"]), at / std::size_t{0}, visit);
     if (!node.contains("properties")) return;
     CHECK(node["additionalProperties"] == false);
-    for (const auto& [name, property] : node["properties"].items()) {
+    for (const auto& entry : node["properties"].items()) {
+        const std::string& name = entry.key();
+        const auto& property = entry.value();
         const json& target = resolved(property);
         CHECK_MESSAGE((property.contains("title") || target.contains("title")), name);
         CHECK_MESSAGE((property.contains("description") || target.contains("description")), name);
@@ -321,7 +323,9 @@ TEST_CASE("Station file: the schema has exactly the members and bounds of the re
                                : node;
         if (value.is_array() && !value.empty() && value[0].is_object()) check(value[0], rule["items"]);
         if (!value.is_object()) return;
-        for (const auto& [name, member] : value.items()) {
+        for (const auto& entry : value.items()) {
+            const std::string& name = entry.key();
+            const auto& member = entry.value();
             CAPTURE(name);
             REQUIRE(rule["properties"].contains(name));
             check(member, rule["properties"][name]);
@@ -334,7 +338,9 @@ TEST_CASE("Station file: the schema has exactly the members and bounds of the re
             required(value[0], at / std::size_t{0});
         if (!value.is_object()) return;
         const bool registers = at.to_string() == "/registrations/0";
-        for (const auto& [name, member] : value.items()) {
+        for (const auto& entry : value.items()) {
+            const std::string& name = entry.key();
+            const auto& member = entry.value();
             json without = all;
             without.at(at).erase(name);
             const bool needed =

@@ -83,7 +83,7 @@ void operator delete(void* memory) noexcept {
 }
 void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !defined(BOLT_SANITIZES_ADDRESS) && !defined(BOLT_SANITIZES_THREAD)
 
 extern "C" {
 void* __libc_malloc(std::size_t);

@@ -16,7 +16,7 @@ struct Forbidden {
 };
 
 // Sanitizers replace the C library's functions themselves; then only operator new and delete are counted.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(BOLT_SANITIZES_ADDRESS) || defined(BOLT_SANITIZES_THREAD)
 inline constexpr bool sees_the_c_library = false;
 #else
 inline constexpr bool sees_the_c_library = true;

@@ -4,7 +4,7 @@
 
 namespace bolt::test {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(BOLT_SANITIZES_ADDRESS) || defined(BOLT_SANITIZES_THREAD)
 inline constexpr bool sanitized = true;
 #else
 inline constexpr bool sanitized = false;

@@ -41,7 +41,7 @@ void set_limit(decltype(RLIMIT_CPU) resource, rlim_t value) {
                             GuardChannel& channel) {
     set_limit(RLIMIT_CPU, limits.processor_s);
     set_limit(RLIMIT_CORE, 0);
-#ifndef __SANITIZE_ADDRESS__  // its shadow memory takes terabytes of address space
+#ifndef BOLT_SANITIZES_ADDRESS  // its shadow memory takes terabytes of address space
     if (limits.memory_mib > 0) set_limit(RLIMIT_AS, limits.memory_mib << 20U);
 #endif
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU})

@@ -342,15 +342,15 @@ int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double 
     if (!check_handle(id)) return -1;
     if (!arm.initialized) return refuse(error_not_ready);
     Vector force{fx, fy, fz}, torque{tx, ty, tz};
-    const bool saturated =
-        shorten(force, arm.max_force) | shorten(torque, arm.active_wrist ? arm.max_torque : 0.0);
+    const bool force_saturated = shorten(force, arm.max_force);
+    const bool torque_saturated = shorten(torque, arm.active_wrist ? arm.max_torque : 0.0);
     if (arm.delay > 0.0)
         arm.delayed_forces.emplace_back(arm.time + arm.delay, force);
     else
         arm.force = force;
     arm.torque = torque;
     arm.compensation = arm.compensates ? weight_of(arm.weight + arm.known_mounted) : 0.0;
-    return saturated ? motor_saturated : 0;
+    return force_saturated || torque_saturated ? motor_saturated : 0;
 }
 int dhdErrorGetLast(void) { return last_error; }
 const char* dhdErrorGetLastStr(void) {

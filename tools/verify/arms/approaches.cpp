@@ -59,7 +59,7 @@ ReachTask draw_reach_task(TightenedAssembly& tightened, Random& random) {
                      above = random.uniform(lowest_start, highest_start);
         const Vec3 to = std::cos(above) * (std::cos(around) * nut.e1 + std::sin(around) * nut.e2) +
                         std::sin(above) * nut.axis;
-        const Quat turned = rotation(tilt_error * Vec3(random.normal(), random.normal(), random.normal()));
+        const Quat turned = rotation(tilt_error * normal_vector(random));
         task.start = {task.nut + random.uniform(nearest_start, farthest_start) * to,
                       glm::normalize(turned * task.orientation)};
         if (is_free(contact, task.start)) break;
@@ -131,8 +131,8 @@ Approach run_approach(TightenedAssembly& tightened, const ArmFacts& arm, std::ui
     Reach reach(rig, task);
     for (int i = 0; i < attempts && !reach.reached(); ++i) {
         // Drawn in every attempt, so that with and without guiding the attempts have the same errors.
-        const Vec3 error = aim_error * Vec3(random.normal(), random.normal(), random.normal());
-        const Quat turned = rotation(tilt_error * Vec3(random.normal(), random.normal(), random.normal()));
+        const Vec3 error = aim_error * normal_vector(random);
+        const Quat turned = rotation(tilt_error * normal_vector(random));
         if (i > 0)
             reach.move({rig.output().constrained_tool.position + raise * task.axis,
                         rig.output().constrained_tool.orientation});

@@ -249,8 +249,9 @@ Result<PenetrationRun> run_flicks(const collision::ToolShape& tool,
         double front = 0.0;  // m, extent of the tool towards the rib
         for (const glm::vec3& v : tool.solid.mesh.vertices) front = std::max(front, (turn * Vec3(v)).x);
         const Vec3 start(-front - 1 * mm - random.uniform(0.0, 2 * mm), 0.0, 0.0);
-        const Vec3 velocity =
-            2.0 * glm::normalize(Vec3(1.0, random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)));
+        const double z = random.uniform(-1.0, 1.0);
+        const double y = random.uniform(-1.0, 1.0);
+        const Vec3 velocity = 2.0 * glm::normalize(Vec3(1.0, y, z));
         const Vec3 spin = i % 2 == 0 ? Vec3(0.0) : random.uniform(0.0, 10.0) * random_direction(random);
         proxy::GodObjectState state = proxy::start_god_object({start, turn});
         for (int k = 0; k < 80; ++k) {
