@@ -111,7 +111,9 @@ TEST_CASE("Golden: every version of a driver has the same pictures, and the curr
         if (file.is_regular_file())
             names[file.path().parent_path().filename()].insert(file.path().filename());
     REQUIRE(names.size() >= 2);
-    for (const auto& [folder, in_folder] : names) {
+    for (const auto& entry : names) {
+        const auto& folder = entry.first;
+        const auto& in_folder = entry.second;
         CAPTURE(folder);
         CHECK(in_folder.contains("driver.txt"));
         CHECK(in_folder == names.begin()->second);

@@ -32,7 +32,7 @@ struct Bench {
         Result<CollisionWorld> made = make_world({&still, 1});
         REQUIRE(made);
         world = std::move(*made);
-        Result<ToolShape> shape = make_tool({&wrench, 1}, {.samples = 2000});
+        Result<ToolShape> shape = make_tool({&wrench, 1}, {.samples = {.on_faces = 2000}});
         REQUIRE(shape);
         tool = std::move(*shape);
         near = make_narrow_phase(world, tool);

@@ -61,9 +61,11 @@ TEST_CASE("Room: workpiece and panel stand in front of the user, and stay when t
 }
 
 TEST_CASE("Room: the workpiece is within reach of the user's arm, and at the height for seated eyes") {
-    for (const auto& [reach, seat] : {std::pair{0.46, std::optional<double>()},
-                                      {0.69, std::optional<double>()},
-                                      {0.69, std::optional(1.0)}}) {
+    for (const auto& user : {std::pair{0.46, std::optional<double>()},
+                             {0.69, std::optional<double>()},
+                             {0.69, std::optional(1.0)}}) {
+        const auto& reach = user.first;
+        const auto& seat = user.second;
         CAPTURE(reach);
         const test::Folder folder;
         HeadlessTrainer driver(with_settings(tracked_hand("first-nut"), folder,

@@ -14,9 +14,9 @@ using namespace bolt::statistics;
 
 namespace {
 
-double mean_of(std::span<const double> values) {
+constexpr auto mean_of = [](std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
+};
 
 // Differences 1 … n whose positive ranks have the sum `positive`.
 std::vector<double> differences_with(std::size_t n, std::size_t positive) {

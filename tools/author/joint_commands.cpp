@@ -144,9 +144,11 @@ std::string curve_figures(const content::AssemblyJoint& joint, double start_torq
         add("yield_stage", "deg", angle(*yields));
     }
     if (!spec.has_angle) return text;
-    for (const auto& [name, turn] :
+    for (const auto& bound :
          {std::pair{"smallest_angle", spec.angle.low}, std::pair{"target_angle", spec.angle.target},
           std::pair{"largest_angle", spec.angle.high}}) {
+        const auto& name = bound.first;
+        const double turn = bound.second;
         add(name, "deg", to_degrees(turn));
         const auto found = std::find_if(run.begin(), run.end(), [&](const joint::CurveSample& sample) {
             return sample.angle >= start->angle + turn;
