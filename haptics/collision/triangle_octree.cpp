@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <iterator>
+#include <utility>
+
+#include "engine/base/parallel.hpp"
 
 namespace bolt::collision {
 namespace {
@@ -18,20 +22,33 @@ constexpr double octree_rounding = 1e-6;
 constexpr double convexity_tolerance = 0.4 * plane_tolerance;
 constexpr std::size_t max_convexity_test = 128;
 
-class OctreeBuilder {
-    using Float4 [[gnu::vector_size(16)]] = float;
+using Float4 [[gnu::vector_size(16)]] = float;
 
-  public:
-    OctreeBuilder(const Solid& solid, TriangleOctree& octree) : solid_(solid), octree_(octree) {
-        bounds_.reserve(solid.corners.size());
-        for (std::size_t t = 0; t < solid.corners.size(); ++t) {
-            const auto& c = solid.corners[t];
-            const glm::vec3 low = glm::min(glm::min(c[0], c[1]), c[2]);
-            const glm::vec3 high = glm::max(glm::max(c[0], c[1]), c[2]);
-            bounds_.push_back({Float4{low.x, low.y, low.z}, Float4{high.x, high.y, high.z},
-                               solid.mesh.face_normals[t], c[0]});
-        }
+// Box and plane of a triangle.
+struct TriangleBounds {
+    Float4 low, high;
+    glm::vec3 normal, corner;
+};
+
+std::vector<TriangleBounds> triangle_bounds(const Solid& solid) {
+    std::vector<TriangleBounds> bounds;
+    bounds.reserve(solid.corners.size());
+    for (std::size_t t = 0; t < solid.corners.size(); ++t) {
+        const auto& c = solid.corners[t];
+        const glm::vec3 low = glm::min(glm::min(c[0], c[1]), c[2]);
+        const glm::vec3 high = glm::max(glm::max(c[0], c[1]), c[2]);
+        bounds.push_back(
+            {Float4{low.x, low.y, low.z}, Float4{high.x, high.y, high.z}, solid.mesh.face_normals[t], c[0]});
     }
+    return bounds;
+}
+
+// Fills octrees of a single root cell: node 0.
+class CellBuilder {
+  public:
+    // `bounds`: by triangle.
+    CellBuilder(const Solid& solid, std::span<const TriangleBounds> bounds, TriangleOctree& octree)
+        : solid_(solid), bounds_(bounds), octree_(octree) {}
 
     // Fills a node and its children. `candidates`: triangles that may be within reach of the cell. `within`:
     // m, upper bound of the distance from the cell's middle to the surface.
@@ -73,12 +90,6 @@ class OctreeBuilder {
     }
 
   private:
-    // Box and plane of a triangle.
-    struct TriangleBounds {
-        Float4 low, high;
-        glm::vec3 normal, corner;
-    };
-
     // Appends the triangles that may be within reach of the cell, judged by their boxes and planes.
     void list_within_reach(std::span<const std::uint32_t> candidates, const Vec3& middle, double half,
                            std::vector<std::uint32_t>& listed) const {
@@ -186,10 +197,68 @@ class OctreeBuilder {
     }
 
     const Solid& solid_;
+    std::span<const TriangleBounds> bounds_;
     TriangleOctree& octree_;
-    std::vector<TriangleBounds> bounds_;                         // by triangle
     std::array<std::vector<std::uint32_t>, levels + 1> listed_;  // of the cell being filled at each level
 };
+
+// By root cell: the triangles that may be within reach of it.
+std::vector<std::vector<std::uint32_t>> triangles_by_root_cell(const Solid& solid,
+                                                               const TriangleOctree& octree) {
+    const auto [nx, ny, nz] = octree.root_counts;
+    std::vector<std::vector<std::uint32_t>> triangles(static_cast<std::size_t>(nx * ny * nz));
+    for (std::uint32_t t = 0; t < solid.corners.size(); ++t) {
+        const auto& c = solid.corners[t];
+        const Vec3 low(glm::min(glm::min(c[0], c[1]), c[2]));
+        const Vec3 high(glm::max(glm::max(c[0], c[1]), c[2]));
+        const glm::ivec3 from((low - listing_distance - octree_rounding - octree.low) / octree.root_size);
+        const glm::ivec3 to((high + listing_distance + octree_rounding - octree.low) / octree.root_size);
+        for (int z = std::max(0, from.z); z <= std::min(nz - 1, to.z); ++z)
+            for (int y = std::max(0, from.y); y <= std::min(ny - 1, to.y); ++y)
+                for (int x = std::max(0, from.x); x <= std::min(nx - 1, to.x); ++x)
+                    triangles[static_cast<std::size_t>((z * ny + y) * nx + x)].push_back(t);
+    }
+    return triangles;
+}
+
+// Replaces root cell `root` of the octree by the only root cell of `cell`.
+void append(TriangleOctree& octree, std::size_t root, const TriangleOctree& cell) {
+    // Neither the root node nor the leaf that is not used is appended.
+    const auto first_node = static_cast<std::int32_t>(octree.nodes.size()) - 1;
+    const auto first_leaf = static_cast<std::int32_t>(octree.leaves.size()) - 1;
+    const auto moved = [&](OctreeNode node) {
+        if (node.next != 0) node.next += node.next > 0 ? first_node : -first_leaf;
+        return node;
+    };
+    octree.nodes[root] = moved(cell.nodes[0]);
+    std::transform(cell.nodes.begin() + 1, cell.nodes.end(), std::back_inserter(octree.nodes), moved);
+    const auto first_triangle = static_cast<std::uint32_t>(octree.triangles.size());
+    const auto first_box = static_cast<std::uint32_t>(octree.boxes.size());
+    std::transform(cell.leaves.begin() + 1, cell.leaves.end(), std::back_inserter(octree.leaves),
+                   [&](OctreeLeaf leaf) {
+                       leaf.begin += first_triangle, leaf.end += first_triangle, leaf.boxes += first_box;
+                       return leaf;
+                   });
+    octree.triangles.insert(octree.triangles.end(), cell.triangles.begin(), cell.triangles.end());
+    octree.boxes.insert(octree.boxes.end(), cell.boxes.begin(), cell.boxes.end());
+}
+
+// Joins octrees of one root cell each, in the order of `TriangleOctree::nodes`, and empties them.
+void append_all(TriangleOctree& octree, std::span<TriangleOctree> cells) {
+    const auto total = [&](auto member) {
+        std::size_t sum = 0;
+        for (const TriangleOctree& cell : cells) sum += (cell.*member).size();
+        return sum;
+    };
+    octree.nodes.reserve(total(&TriangleOctree::nodes));
+    octree.leaves.reserve(total(&TriangleOctree::leaves));
+    octree.triangles.reserve(total(&TriangleOctree::triangles));
+    octree.boxes.reserve(total(&TriangleOctree::boxes));
+    octree.nodes.resize(cells.size(), {0.0F, 0});
+    octree.leaves.emplace_back();
+    for (std::size_t root = 0; root < cells.size(); ++root)
+        append(octree, root, std::exchange(cells[root], {}));
+}
 
 }  // namespace
 
@@ -206,27 +275,20 @@ TriangleOctree make_triangle_octree(const Solid& solid, double cell) {
     for (int k = 0; k < 3; ++k)
         octree.root_counts[static_cast<std::size_t>(k)] = static_cast<int>(std::ceil(size[k])) + 2;
     const auto [nx, ny, nz] = octree.root_counts;
-    std::vector<std::vector<std::uint32_t>> candidates(static_cast<std::size_t>(nx * ny * nz));
-    for (std::uint32_t t = 0; t < solid.corners.size(); ++t) {
-        const auto& c = solid.corners[t];
-        const Vec3 low(glm::min(glm::min(c[0], c[1]), c[2]));
-        const Vec3 high(glm::max(glm::max(c[0], c[1]), c[2]));
-        const glm::ivec3 from((low - listing_distance - octree_rounding - octree.low) / octree.root_size);
-        const glm::ivec3 to((high + listing_distance + octree_rounding - octree.low) / octree.root_size);
-        for (int z = std::max(0, from.z); z <= std::min(nz - 1, to.z); ++z)
-            for (int y = std::max(0, from.y); y <= std::min(ny - 1, to.y); ++y)
-                for (int x = std::max(0, from.x); x <= std::min(nx - 1, to.x); ++x)
-                    candidates[static_cast<std::size_t>((z * ny + y) * nx + x)].push_back(t);
-    }
-    octree.nodes.resize(candidates.size(), {0.0F, 0});
-    octree.leaves.emplace_back();
-    OctreeBuilder builder(solid, octree);
-    std::size_t node = 0;
-    for (int z = 0; z < nz; ++z)
-        for (int y = 0; y < ny; ++y)
-            for (int x = 0; x < nx; ++x, ++node)
-                builder.fill(node, candidates[node], octree.low + octree.root_size * (Vec3(x, y, z) + 0.5),
-                             octree.root_size, 0, infinite_distance);
+    const std::vector<TriangleBounds> bounds = triangle_bounds(solid);
+    const std::vector<std::vector<std::uint32_t>> candidates = triangles_by_root_cell(solid, octree);
+    std::vector<TriangleOctree> cells(candidates.size());
+    for_each_in_parallel(cells.size(), [&](std::size_t i) {
+        const auto index = static_cast<int>(i);
+        const Vec3 at(index % nx, index / nx % ny, index / nx / ny);
+        cells[i].rounding = octree.rounding;
+        cells[i].nodes.resize(1, {0.0F, 0});
+        cells[i].leaves.emplace_back();
+        CellBuilder(solid, bounds, cells[i])
+            .fill(0, candidates[i], octree.low + octree.root_size * (at + 0.5), octree.root_size, 0,
+                  infinite_distance);
+    });
+    append_all(octree, cells);
     return octree;
 }
 

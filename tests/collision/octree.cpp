@@ -52,6 +52,27 @@ TEST_CASE("Octree: outside the octree, or without one, the bounds are infinite")
     CHECK(query({}, Vec3(0.0)).lower < -1e9);
 }
 
+TEST_CASE("Octree: the order in which threads fill root cells changes nothing") {
+    const ContactMesh mesh = casing().mesh();
+    const Solid solid = make_solid({&mesh, 1}).value();
+    const TriangleOctree first = make_triangle_octree(solid, 0.25e-3);
+    REQUIRE(first.root_counts[0] * first.root_counts[1] * first.root_counts[2] > 100);
+    for (int repeat = 0; repeat < 3; ++repeat) {
+        const TriangleOctree again = make_triangle_octree(solid, 0.25e-3);
+        CHECK(again.triangles == first.triangles);
+        CHECK(again.boxes == first.boxes);
+        CHECK(std::equal(again.nodes.begin(), again.nodes.end(), first.nodes.begin(), first.nodes.end(),
+                         [](const OctreeNode& a, const OctreeNode& b) {
+                             return a.distance == b.distance && a.next == b.next;
+                         }));
+        CHECK(std::equal(again.leaves.begin(), again.leaves.end(), first.leaves.begin(), first.leaves.end(),
+                         [](const OctreeLeaf& a, const OctreeLeaf& b) {
+                             return a.begin == b.begin && a.end == b.end && a.boxes == b.boxes &&
+                                    a.height == b.height && a.convex == b.convex && a.front == b.front;
+                         }));
+    }
+}
+
 TEST_CASE("Octree: near the surface a query over a leaf's list equals a full search") {
     Random random(22);
     int plain = 0;
