@@ -274,7 +274,7 @@ TriangleOctree make_triangle_octree(const Solid& solid, double cell) {
     octree.rounding = 1e-6 * (1.0 + glm::length(solid.box.high - solid.box.low) + 8.0 * octree.root_size);
     for (int k = 0; k < 3; ++k)
         octree.root_counts[static_cast<std::size_t>(k)] = static_cast<int>(std::ceil(size[k])) + 2;
-    const auto [nx, ny, nz] = octree.root_counts;
+    const int nx = octree.root_counts[0], ny = octree.root_counts[1];
     const std::vector<TriangleBounds> bounds = triangle_bounds(solid);
     const std::vector<std::vector<std::uint32_t>> candidates = triangles_by_root_cell(solid, octree);
     std::vector<TriangleOctree> cells(candidates.size());
