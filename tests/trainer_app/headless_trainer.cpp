@@ -9,6 +9,10 @@ namespace bolt::test {
 
 using namespace trainer;
 
+// The resolution of lessons in frames whose picture nobody reads, as in view::WindowFrame. Most of the time
+// passes in shading their pixels.
+constexpr float unseen_resolution = 0.35F;
+
 HeadlessTrainer::HeadlessTrainer(AppOptions options, Display display, std::optional<StudyRun> study)
     : folder_(options.out), display_(display) {
     if (folder_.empty()) folder_ = std::filesystem::path(BOLT_TRAINER_OUT) / options.choice.assembly;
@@ -50,11 +54,14 @@ bool HeadlessTrainer::is_due(const std::vector<platform::InputEvent>& events) {
 }
 
 Status HeadlessTrainer::run_frame(const std::vector<platform::InputEvent>& events, double seconds) {
-    const view::WindowFrame window{
+    view::WindowFrame window{
         events, display_.size, display_.scale, seconds, immersive ? &*immersive : nullptr, resolution};
     BOLT_TRY(app_->update(window));
-    drawn_ = draws && is_due(events);
-    return drawn_ ? draw(window) : Status{};
+    if (app_->screen() == trainer::ShownScreen::lesson && !immersive)
+        window.resolution = std::min(resolution, unseen_resolution);
+    const bool is_drawn = draws && is_due(events);
+    drawn_ = is_drawn && window.resolution == resolution;
+    return is_drawn ? draw(window) : Status{};
 }
 
 Status HeadlessTrainer::draw(const view::WindowFrame& window) {
