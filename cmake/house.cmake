@@ -120,6 +120,7 @@ if(NOT BOLT_CCACHE)
         target_compile_options(house_options INTERFACE -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
     endif()
 endif()
+
 # house_optimisation(NAME LEVEL): LEVEL is HOT, COLD, TEST or empty. Tests are compiled like COLD targets if TEST has no flags.
 function(house_optimisation name level)
     if(level STREQUAL "TEST" AND NOT BOLT_FLAGS_TEST)
@@ -155,8 +156,8 @@ endmacro()
 # little. SEPARATE: no unity build.
 function(house_library name)
     cmake_parse_arguments(ARG "HOT;COLD;SEPARATE" "" "SOURCES;LINK;PRIVATE" ${ARGN})
-    house_level(level)
     if(ARG_SOURCES)
+        house_level(level)
         add_library(${name} STATIC ${ARG_SOURCES})
         target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE house_options ${ARG_PRIVATE})
         target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
