@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "content/format/folders.hpp"
 #include "content/format/json_document.hpp"
@@ -211,7 +210,7 @@ int run_simulate(const StudyArguments& options) {
     simulation.participants = options.participants > 0 ? options.participants : study->design.participants;
     simulation.seed = options.seed;
     simulation.effects = *effects;
-    simulation.threads = std::max(1U, std::thread::hardware_concurrency());
+    simulation.threads = 0;
     simulation.play = play_simulated;
     catch_interruption();
     const auto progress = [&](const std::string& participant, const study::Step& step) {

@@ -4,8 +4,8 @@
 
 #include <atomic>
 #include <mutex>
-#include <thread>
 
+#include "engine/base/parallel.hpp"
 #include "engine/base/random.hpp"
 #include "game/study/measures.hpp"
 #include "game/study/study_lesson.hpp"
@@ -135,18 +135,12 @@ Status simulate(const content::Study& study, const fs::path& folder, const Simul
     }
     Simulation simulation{study, folder, options, progress};
     BOLT_TRY_ASSIGN(auto persons, enrol_persons(simulation));
-    std::atomic<std::size_t> next{0};
     std::vector<Status> results(persons.size());
-    const auto work = [&] {
-        for (std::size_t i = next++; i < persons.size(); i = next++) {
-            results[i] = do_all_steps(simulation, persons[i]);
-            if (!results[i]) simulation.stopped = true;
-        }
+    const auto play = [&](std::size_t i) {
+        results[i] = do_all_steps(simulation, persons[i]);
+        if (!results[i]) simulation.stopped = true;
     };
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 1; i < options.threads; ++i) threads.emplace_back(work);
-    work();
-    threads.clear();
+    for_each_in_parallel(persons.size(), play, options.threads);
     for (Status& result : results) BOLT_TRY(std::move(result));
     if (simulation.stopped) return fail(ErrorCode::failed, "the simulation was stopped", {});
     return {};

@@ -30,7 +30,7 @@ struct SimulationOptions {
     std::uint64_t seed = 1;
     // By condition: shift of the answers in standard deviations, as PowerOptions::effects.
     std::vector<double> effects;
-    std::size_t threads = 1;  // lessons at once
+    std::size_t threads = 1;  // lessons at once; 0: one per processor
     // Plays a lesson to its end; called from several threads. The caller supplies it, because this library
     // does not link game/trainees.
     std::function<Result<session::LessonOutcome>(const SimulatedLesson&)> play;

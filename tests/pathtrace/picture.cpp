@@ -194,7 +194,7 @@ TEST_CASE("Path tracer: the image depends on the seed, not on the number of thre
     const Environment environment(studio_environment(64));
     const PinholeCamera camera{.eye = {0.0F, 2.0F, 5.0F}, .width = 40, .height = 30};
     const auto one = render(scene, environment, camera, {.samples = 4, .threads = 1});
-    for (const int threads : {2, 5}) {
+    for (const std::size_t threads : {2U, 5U}) {
         const auto many = render(scene, environment, camera, {.samples = 4, .threads = threads});
         REQUIRE(many.size() == one.size());
         CHECK(std::memcmp(many.data(), one.data(), one.size() * sizeof(glm::vec3)) == 0);

@@ -1,11 +1,11 @@
 #include "tools/verify/pathtrace/render.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cfloat>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <thread>
+
+#include "engine/base/parallel.hpp"
 
 #include "tools/verify/pathtrace/sampler.hpp"
 
@@ -155,18 +155,6 @@ glm::vec3 Tracer::trace_path(glm::vec3 origin, glm::vec3 direction, SobolSampler
     return sum;
 }
 
-void for_each_row(int threads, int rows, const auto& row) {
-    std::atomic<int> next{0};
-    const auto work = [&] {
-        for (int y = next++; y < rows; y = next++) row(y);
-    };
-    std::vector<std::jthread> pool;
-    const int count =
-        threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    for (int i = 1; i < count; ++i) pool.emplace_back(work);
-    work();
-}
-
 }  // namespace
 
 std::vector<glm::vec3> render(const TracedScene& scene, const Environment& environment,
@@ -174,7 +162,8 @@ std::vector<glm::vec3> render(const TracedScene& scene, const Environment& envir
     const Tracer tracer{scene, environment, settings};
     std::vector<glm::vec3> image(static_cast<std::size_t>(camera.width) *
                                  static_cast<std::size_t>(camera.height));
-    for_each_row(settings.threads, camera.height, [&](int y) {
+    const auto trace_row = [&](std::size_t row) {
+        const int y = static_cast<int>(row);
         for (int x = 0; x < camera.width; ++x) {
             const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) +
                                       static_cast<std::size_t>(x);
@@ -187,7 +176,8 @@ std::vector<glm::vec3> render(const TracedScene& scene, const Environment& envir
             }
             image[pixel] = glm::vec3(sum / static_cast<double>(settings.samples));
         }
-    });
+    };
+    for_each_in_parallel(static_cast<std::size_t>(camera.height), trace_row, settings.threads);
     return image;
 }
 

@@ -21,7 +21,7 @@ struct PathTraceSettings {
     int samples = 32;
     int bounces = 8;
     std::uint32_t seed = 0;
-    int threads = 0;     // 0: one per processor
+    std::size_t threads = 0;  // 0: one per processor
     float clamp = 0.0F;  // maximum radiance of a contribution after the first bounce; 0: unlimited (unbiased)
     std::optional<glm::vec3> background = {};  // radiance behind the model; none: the environment
 };
