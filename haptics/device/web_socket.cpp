@@ -90,7 +90,7 @@ struct WebSocket::Connection {
 
     SocketAddress address;
     asio::io_context io{1};
-    beast::websocket::stream<beast::tcp_stream> stream{io};
+    beast::websocket::stream<beast::tcp_stream, false> stream{io};  // without compression
     beast::flat_buffer buffer;
     bool reading = false;  // a read is in progress, possibly since an earlier call
     std::optional<ErrorOfBoost> read;

@@ -37,6 +37,7 @@ using ErrorOfBoost = boost::system::error_code;
 using Json = nlohmann::json;
 using Request = http::request<http::empty_body>;
 using Tcp = asio::ip::tcp;
+using SocketStream = websocket::stream<Tcp::socket, false>;  // without compression
 
 constexpr double longest_advance = 0.1;  // s; limits the step after the computer was suspended
 constexpr int event_port_offset = 19;
@@ -128,7 +129,7 @@ struct EmulatedHaply::Service {
         beast::flat_buffer buffer;
         Request request;
         http::read(socket, buffer, request, error);
-        websocket::stream<Tcp::socket> stream(std::move(socket));
+        SocketStream stream(std::move(socket));
         if (!error && websocket::is_upgrade(request)) {
             stream.accept(request, error);
             if (!error && acceptor == 0) serve_states(stream);
@@ -153,7 +154,7 @@ struct EmulatedHaply::Service {
         http::write(socket, response, error);
     }
 
-    void serve_states(websocket::stream<Tcp::socket>& stream) {
+    void serve_states(SocketStream& stream) {
         ErrorOfBoost error;
         const std::string inventory = with_model([](HaplyArmModel& m) { return m.inventory(); });
         stream.write(asio::buffer(inventory), error);
@@ -170,7 +171,7 @@ struct EmulatedHaply::Service {
         }
     }
 
-    void serve_events(websocket::stream<Tcp::socket>& stream, const std::stop_token& stop) {
+    void serve_events(SocketStream& stream, const std::stop_token& stop) {
         ErrorOfBoost error;
         std::size_t sent = with_model([](HaplyArmModel& m) { return m.events.size(); });
         while (!error && !stop.stop_requested()) {
