@@ -1,4 +1,5 @@
-# Build settings of all targets: warnings, sanitizers and reproducible floating point.
+# Build settings of all targets: warnings, sanitizers and reproducible floating point. Names that begin with house_ are this project's
+# own functions and rules.
 
 # The sources of a target are compiled as one file, which takes a third less CPU time (boltwright: 435 s instead of 692 s). So a name
 # in an unnamed namespace must be unique in its target. The debug preset compiles each file by itself, and rebuilds faster.
@@ -50,8 +51,7 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     endif()
 endif()
 target_include_directories(house_options INTERFACE ${CMAKE_SOURCE_DIR})
-# Of an inline function that is not inlined, the linker keeps one copy for the whole program, which may be that of a COLD target. The
-# product of quaternion and vector then made a servo tick 0.3 µs longer (docs/performance.md). So all functions of glm are inlined.
+# The linker keeps one copy of an inline function that is not inlined, which may be that of a COLD target. The product of quaternion and vector then made a servo tick 0.3 µs longer (docs/performance.md). So all functions of glm are inlined.
 target_compile_definitions(house_options INTERFACE GLM_FORCE_INLINE)
 if(BOLT_SANITIZE)
     target_compile_options(house_options INTERFACE -fsanitize=${BOLT_SANITIZE} -fno-sanitize-recover=all
@@ -76,7 +76,7 @@ if(BOLT_SANITIZE)
         target_compile_options(house_options INTERFACE -fno-sanitize=null,object-size,alignment)
     endif()
     if(CMAKE_BUILD_TYPE STREQUAL "Debug")
-        # HOT libraries are optimised even in debug builds, because tests spend most of their time in them.
+        # Tests spend most of their time in HOT libraries.
         set(BOLT_FLAGS_HOT -O2)
     endif()
     target_link_options(house_options INTERFACE -fsanitize=${BOLT_SANITIZE})
@@ -164,8 +164,8 @@ function(house_without_sanitizers file)
 endfunction()
 
 # house_library(NAME SOURCES a.cpp ... [LINK public...] [PRIVATE private...] [HOT|COLD] [FUZZED] [SEPARATE])
-# HOT: optimised even in debug builds, because tests spend most of their time in it. COLD: compiled with -Og, because it computes
-# little. FUZZED: not COLD where the fuzzers are built, because they spend their time in it. SEPARATE: no unity build.
+# HOT: compiled with -O2 under sanitizers, because tests spend most of their time in it. COLD: little optimised, because it computes
+# little (gcc: -Og, clang under sanitizers: -O0). FUZZED: not COLD where the fuzzers are built, because they spend their time in it. SEPARATE: no unity build.
 function(house_library name)
     cmake_parse_arguments(ARG "HOT;COLD;FUZZED;SEPARATE" "" "SOURCES;LINK;PRIVATE" ${ARGN})
     if(ARG_SOURCES)

@@ -19,8 +19,8 @@ LAYERS = {
     "engine": {"engine", "shaders"},
     "haptics": {"haptics", "engine/base"},
     "content": {"content", "haptics", "engine/base"},
-    "game": {"game", "content", "haptics", "engine", "shaders"},
-    "tools": {"tools", "game", "content", "haptics", "engine", "shaders"},
+    "game": {"game", "content", "haptics", "engine"},
+    "tools": {"tools", "game", "content", "haptics", "engine"},
 }
 # Simulated trainees use the trainer as people do: only programs may need them.
 USERS_ONLY = {"game/trainees": {"game/cli", "tools"}}

@@ -360,14 +360,14 @@ bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world) {
 }
 
 void observe(Lesson& lesson, const world::ReadHaptics& world) {
-    const world::ToolState& contact = world.only<world::ToolState>();
+    const world::ToolState& tool = world.only<world::ToolState>();
     if (tick_of(world) == 1) begin_step(lesson, world);
-    const bool other_grip = lesson.held_joint >= 0 && contact.grip != lesson.grip;
-    if (lesson.held_joint >= 0 && (contact.joint != lesson.held_joint || other_grip)) release(lesson, world);
-    if (contact.joint >= 0 && lesson.held_joint < 0) engage(lesson, contact.joint, contact.grip, world);
+    const bool other_grip = lesson.held_joint >= 0 && tool.grip != lesson.grip;
+    if (lesson.held_joint >= 0 && (tool.joint != lesson.held_joint || other_grip)) release(lesson, world);
+    if (tool.joint >= 0 && lesson.held_joint < 0) engage(lesson, tool.joint, tool.grip, world);
     if (lesson.held_joint >= 0) observe_work(lesson, static_cast<std::size_t>(lesson.held_joint), world);
-    if (contact.slipped >= 0) {
-        const auto joint = static_cast<std::size_t>(contact.slipped);
+    if (tool.slipped >= 0) {
+        const auto joint = static_cast<std::size_t>(tool.slipped);
         const double rounded = joint_at(world, joint).rounded;
         ++lesson.joints[joint].slip_count;
         add_mistake(lesson, tick_of(world), MistakeKind::slipped, joint, rounded,

@@ -109,7 +109,7 @@ enum class EventKind : std::uint8_t {
     pass_begin,  // number of the pass, from 0
     step_begin,  // target torque, N·m
     step_end,    // peak torque, N·m
-    engage,      // 0
+    engage,      // unused: 0
     release,     // peak torque of the step, N·m
     stage,       // joint::Stage
     click,       // torque at the click, N·m

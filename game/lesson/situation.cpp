@@ -22,7 +22,7 @@ constexpr double wrong_torque = 1.0;     // N·m; more than the wrench's elastic
 constexpr double wrong_share = 0.2;      // share of the step's torque
 constexpr double worked_torque = 0.5;    // N·m
 
-bool out_of_room(const ObservedLesson& s) {
+bool no_swing_left(const ObservedLesson& s) {
     const world::WorkingHand& hand = s.world.only<world::WorkingHand>();
     return hand.action == world::HandAction::holding && hand.free_swing < no_free_swing;
 }
@@ -52,7 +52,7 @@ Situation running_down(const ObservedLesson& s, const world::Joint& joint, bool 
     if (by_wrench && fingers) return Situation::put_wrench_away;
     if (!by_wrench && !fingers) return Situation::wrench_needed;
     if (joint.speed < -fingers_turning) return Situation::other_way_on;
-    if (out_of_room(s)) return fingers ? Situation::twist_back : Situation::set_back;
+    if (no_swing_left(s)) return fingers ? Situation::twist_back : Situation::set_back;
     return fingers ? Situation::run_down : Situation::run_down_by_wrench;
 }
 
@@ -78,7 +78,7 @@ Situation tightening(const ObservedLesson& s, const LessonStep& due, const world
         return to_yield && track.yielded ? Situation::stop_at_yield : Situation::stop;
     }
     if (turns_off(due, joint)) return Situation::other_way_on;
-    if (out_of_room(s)) return Situation::set_back;
+    if (no_swing_left(s)) return Situation::set_back;
     if (checks) return Situation::check;
     if (const double set = wrench_set_torque(s.lesson); set > 0.0)
         return set < due.torque ? Situation::pull_to_click_by_adaptor : Situation::pull_to_click;
@@ -96,7 +96,7 @@ Situation turning(const ObservedLesson& s, const LessonStep& due, const world::J
         return turned > window.high ? Situation::stop_too_far : Situation::stop_at_angle;
     }
     if (turns_off(due, joint)) return Situation::other_way_on;
-    if (out_of_room(s)) return Situation::set_back;
+    if (no_swing_left(s)) return Situation::set_back;
     return turned > last_part * window.low ? Situation::ease_to_angle : Situation::turn_on;
 }
 
@@ -108,7 +108,7 @@ Situation loosening(const ObservedLesson& s, const LessonStep& due, const world:
     if (joint.torque > wrong_torque && joint.speed > backward_speed) return Situation::other_way_off;
     if (joint.torque > wrong_torque + wrong_share * s.lesson.assembly->joints[due.joint].spec.torque.target)
         return Situation::other_way_off;
-    if (out_of_room(s)) return Situation::set_back;
+    if (no_swing_left(s)) return Situation::set_back;
     if (turned <= broken_loose) return Situation::break_loose;
     return due.angle > 0.0 ? Situation::turn_back : Situation::unscrew;
 }

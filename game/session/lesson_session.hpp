@@ -150,8 +150,9 @@ class LessonSession {
     Status repeat(const world::WriteHaptics& world, const servo::TickInput& input,
                   const servo::Output& output);
     // All checkpoints that should have been saved since the beginning; the number never falls. It is the
-    // number saved so far, plus one while that of the present step is missing. tick() saves it by itself; a
-    // caller of repeat() must send the station a station::SaveCheckpoint whenever this number rises.
+    // number saved so far, plus one while that of the present step is not saved yet. tick() saves it by
+    // itself; a caller of repeat() must send the station a station::SaveCheckpoint whenever this number
+    // rises.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.expected_checkpoints - session_setup_.state.checkpoint_count;
     }

@@ -216,7 +216,7 @@ class App : public view::WindowContent {
     ShownScreen screen_ = ShownScreen::menu;
     Menu menu_;
     std::optional<SettingsScreen> settings_;  // while it is shown
-    std::optional<StudyScreen> study_;        // with AppOptions::study
+    std::optional<StudyScreen> study_;        // while it leads a participant through a study
     bool interrupted_ = false;                // the program ends
     LessonDisplay display_;                   // that shows the study; the window if its plan names none
     std::optional<LessonDisplay> wanted_display_;

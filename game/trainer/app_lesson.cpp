@@ -254,7 +254,7 @@ Status App::end_lesson() {
     if (!options_.on_end) return {};
     const Status written = options_.on_end(active.session->assembly(), context_->options, *outcome_, folder_);
     if (written || !study_) return written;
-    log(written.error().message());  // the report can be made again; the study goes on
+    log(written.error().message());  // the report can be made again; the study continues
     return {};
 }
 

@@ -185,7 +185,7 @@ void pull(HelpedHand& hand, const servo::Setup& setup, const servo::State& state
     const double least = hand.stroke_begin - (hand.loosens ? hand.free_swing : preferred_stroke);
     const double most = hand.stroke_begin + (hand.loosens ? preferred_stroke : hand.free_swing);
     const double to = std::clamp(hand.handle_angle + step, least, most);
-    if (to != hand.handle_angle + step) hand.turn = 0.0;  // no room left: discard the rest of the drag
+    if (to != hand.handle_angle + step) hand.turn = 0.0;  // no swing left: discard the rest of the drag
     hand.handle_angle = to;
 }
 

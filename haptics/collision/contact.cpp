@@ -62,9 +62,9 @@ class Reducer {
         });
     }
 
-    // Selects the contacts to keep at this merge distance. Returns false if they do not fit `room`;
+    // Selects the contacts to keep at this merge distance. Returns false if they do not fit `capacity`;
     // `complete_within` is then reduced to the distance of the first that did not fit.
-    bool select(double merge, std::size_t room, double& complete_within) {
+    bool select(double merge, std::size_t capacity, double& complete_within) {
         ++iteration_;
         kept_ = {all_.kept, 0};
         std::size_t next = 0;
@@ -82,11 +82,11 @@ class Reducer {
             if (next == all_.count) return true;
             RankedContact& one = all_.order[next++];
             if (is_merged(one, merge)) continue;
-            if (kept_.count == room) {
+            if (kept_.count == capacity) {
                 complete_within = std::min(complete_within, one.distance);
                 return false;
             }
-            const Contact& contact = all_.near[one.index];
+            const Contact& contact = all_.found[one.index];
             kept_.contacts[kept_.count++] = {contact.on_tool, contact.normal, contact.distance,
                                              contact.obstacle, one.index};
             all_.kept_in[one.index] = iteration_;
@@ -94,18 +94,18 @@ class Reducer {
     }
 
     std::size_t write(std::span<Contact> out) const {
-        for (std::size_t i = 0; i < kept_.count; ++i) out[i] = all_.near[kept_.contacts[i].index];
+        for (std::size_t i = 0; i < kept_.count; ++i) out[i] = all_.found[kept_.contacts[i].index];
         return kept_.count;
     }
 
   private:
     RankedContact ranked(std::uint32_t i) {
         all_.kept_in[i] = 0;
-        return {all_.near[i].distance, i, unmerged};
+        return {all_.found[i].distance, i, unmerged};
     }
     [[nodiscard]] bool precedes(const RankedContact& a, const RankedContact& b) const {
         return a.distance != b.distance ? a.distance < b.distance
-                                        : nearer(all_.near[a.index], all_.near[b.index]);
+                                        : nearer(all_.found[a.index], all_.found[b.index]);
     }
 
     // True if the contact that this one merged with at a smaller merge distance is kept again.
@@ -123,7 +123,7 @@ class Reducer {
 
     bool is_merged(RankedContact& one, double merge) const {
         if (is_merged_again(one)) return true;
-        const KeptContact* merged = kept_.find_merge(all_.near[one.index], merge);
+        const KeptContact* merged = kept_.find_merge(all_.found[one.index], merge);
         if (merged != nullptr) one.merged_with = merged->index;
         return merged != nullptr;
     }
@@ -133,11 +133,11 @@ class Reducer {
         deferred.resolved = true;
         Contact contact;
         if (!resolve_(deferred, contact)) return;
-        if (all_.count == all_.near.size()) {
+        if (all_.count == all_.found.size()) {
             all_.complete_within = std::min(all_.complete_within, contact.distance);
             return;
         }
-        all_.near[all_.count] = contact;
+        all_.found[all_.count] = contact;
         const RankedContact one = ranked(static_cast<std::uint32_t>(all_.count));
         const auto begin = all_.order.begin();
         const auto end = begin + static_cast<std::ptrdiff_t>(all_.count);

@@ -160,9 +160,9 @@ struct KeptContact {
 
 // reduce_contacts() selects contacts in iterations, each with a larger merge distance than the last.
 struct ReductionInput {
-    std::span<Contact> near;  // `count` contacts, then free room for resolved ones
+    std::span<Contact> found;  // `count` contacts, then space for resolved ones
     std::size_t count = 0;
-    // These three are as large as `near`.
+    // These three are as large as `found`.
     std::span<RankedContact> order;
     std::span<KeptContact> kept;
     std::span<std::uint8_t> kept_in;  // for each contact: the last iteration that kept it, from 1; 0: none

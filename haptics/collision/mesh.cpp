@@ -159,7 +159,7 @@ VertexCorners corners_by_vertex(const ContactMesh& mesh) {
 }
 
 bool is_creased(const glm::vec3& a, const glm::vec3& b) {
-    static const double least = std::cos(crease);
+    static const double least = std::cos(crease_angle);
     return glm::dot(Vec3(a), Vec3(b)) < least;
 }
 

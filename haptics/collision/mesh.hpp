@@ -48,7 +48,7 @@ struct ContactMesh {
 
     // By corner of each triangle: the unit normal of the round surface that the facets approximate. It is the
     // mean, weighted by angle and area, of the normals of those faces around the vertex that are connected
-    // to this one across edges blunter than `crease`.
+    // to this one across edges blunter than `crease_angle`.
     std::vector<std::array<glm::vec3, 3>> smooth_normals;
     // By triangle, one bit per Region (closest.hpp): set for corners at which a crease ends and for edges
     // that are creases, where no smooth surface is defined.
@@ -64,10 +64,10 @@ struct ContactMesh {
 
 inline constexpr double edge_rise = 30e-6;  // m; an edge that stands out further is sharp
 // rad; edges sharper than this get sample points along them, because a round face may touch such an edge
-// anywhere.
+// anywhere. Up to `crease_angle` they still belong to a round surface.
 inline constexpr double sampled_edge_angle = 20.0 * pi / 180.0;
 // rad; facets that meet at a smaller angle than this approximate a round surface.
-inline constexpr double crease = 30.0 * pi / 180.0;
+inline constexpr double crease_angle = 30.0 * pi / 180.0;
 // m; between neighbouring samples a round surface rises by at most this.
 inline constexpr double round_rise = 60e-6;
 // 1/m; a lower curvature adds no samples.

@@ -16,9 +16,10 @@
 
 namespace bolt::collision {
 
-// Bounds are stored so that a motion need not be subtracted from each of them: stored value = bound +
-// PairCache::moved when the bound was computed (for `turn`: PairCache::turned). The bound now = stored value
-// − PairCache::moved now. All bounds are conservative.
+// Bounds are stored so that a motion need not be subtracted from each of them. `lower` stores the bound plus
+// the accumulated displacement of the sample or cluster when the bound was computed (PairCache::moved +
+// PairCache::turned × distance from the tool's origin), and `turn` the bound plus PairCache::turned. What is
+// stored less the present accumulated motion is the bound that holds now. All bounds are conservative.
 struct DistanceBound {
     // m. The bound of a point is its signed distance. The bound of a piece of an edge is how far it may move
     // before another edge can come near (EdgeQueryResult::clear_distance).

@@ -73,7 +73,7 @@ SurfacePatch sample_patch(const ContactMesh& mesh, std::uint32_t triangle, const
 // The patch of an edge sample: a crease, or the adjacent face if the edge is blunt.
 SurfacePatch edge_patch(const ContactMesh& mesh, std::uint32_t triangle, const Vec3& at, const Vec3& along,
                         double angle, const Quat& turn) {
-    if (angle > crease) return {std::nullopt, 0.0, turn * along};
+    if (angle > crease_angle) return {std::nullopt, 0.0, turn * along};
     return patch_on(mesh, triangle, at, 6, turn);
 }
 

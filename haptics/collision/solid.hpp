@@ -72,7 +72,7 @@ struct PointQueryResult {
 
 // m; a surface that rises at most this far above a plane gets no plane of its own.
 inline constexpr double plane_tolerance = 20e-6;
-inline constexpr std::size_t max_planes = 8;  // for which a query of the narrow phase has room
+inline constexpr std::size_t max_planes = 8;  // that a query of the narrow phase returns
 
 // The signed distance of `point` to the surface within `radius` (may be infinite), and the separating planes
 // within `band` ≤ radius, nearest first. A point further than `radius` from the surface counts as outside.

@@ -12,7 +12,8 @@ namespace bolt::proxy {
 namespace {
 
 constexpr double negligible_motion = 1e-7;  // m; a shorter motion counts as none
-// m; the tick ends after a complete motion shorter than this. The remaining motion waits for the next tick.
+// m; a motion that nothing stopped and that is shorter than this ends the tick. Sliding that new contacts
+// would permit waits for the next one.
 constexpr double min_motion_to_continue = 50e-6;
 // m; a further motion shorter than this waits for the next tick. It would change the force by less than 0.5 %
 // of the greatest.
@@ -22,7 +23,7 @@ constexpr double min_further_motion = 25e-6;
 constexpr double imperceptible_energy = 1e-3;
 constexpr double query_margin = 50e-6;       // m, margin of the query's band beyond the skin
 constexpr double min_clearance_share = 0.2;  // of the skin; a motion that ends nearer is rejected
-// m, deepest penetration at which the finder first detects a feature.
+// m; a feature may overlap by up to this before the finder first reports it.
 constexpr double finder_tolerance = 250e-6;
 // m; a greater violation (ConstrainedMotion) means that constraints contradict each other.
 constexpr double contradiction = 1e-6;

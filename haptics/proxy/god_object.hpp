@@ -5,9 +5,9 @@
 // disappears causes no step in the force.
 //
 // Ruspini, Kolarov and Khatib, SIGGRAPH 1997 (the proxy); Ortega, Redon and Coquillart, IEEE TVCG 13(3), 2007
-// (six degrees of freedom, least constraint). Of all poses that contacts permit, the constrained tool takes
-// the one with the least energy of the coupling's spring. There spring and contacts balance, so the force of
-// the spring equals that of the contacts.
+// (six degrees of freedom, least constraint). The constrained tool takes the pose with the
+// least energy of the coupling's spring among those that contacts permit. There spring and contacts balance,
+// so the force of the spring equals that of the contacts.
 #pragma once
 
 #include <limits>

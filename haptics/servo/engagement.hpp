@@ -97,7 +97,7 @@ void settle_ratchet(const Wrench& wrench, double rotation, double play, Engageme
 // (haptics/joint/nut.hpp).
 //
 // The joint law alone, with its implicit step, acts about the bolt's axis; contacts act in the other five
-// directions. Two measures keep the contacts out of the rotation about the bolt. First, once the play is used
+// directions. So contacts must not turn the nut; two measures ensure this. First, once the play is used
 // up, contact queries place the hexagon not at the nut's angle but at that of the tool's head, so that the
 // two cannot press on each other about the bolt. Second, the moment of the contacts about the bolt is not
 // rendered. If contacts drove the nut instead, its torque would depend on the position error of the

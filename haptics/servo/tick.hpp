@@ -4,7 +4,7 @@
 //   1 commanded pose → constrained pose of the tool         tool_contact.hpp
 //   2 engagement of a nut                                   engagement.hpp
 //   3 nut and joint: angle, stage, torque                   joint/group.hpp
-//   4 force of the nut on the hand, or the guiding force    force/guide.hpp
+//   4 forces on the hand: of the nut, and the guiding force  force/guide.hpp
 //   5 output stage: watchdog, passivity, limits             force/output_stage.hpp
 #pragma once
 

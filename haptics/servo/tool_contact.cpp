@@ -334,8 +334,9 @@ std::vector<collision::SurfacePoint> turned_part_samples(const ToolContact& cont
     if (joint >= contact.nut_bodies.size() || !contact.nut_bodies[joint]) return {};
     const std::size_t shape = contact.world.bodies[*contact.nut_bodies[joint]].shape;
     auto samples = collision::sample_outer_surface(contact.world.shapes[shape].solid, count);
-    constexpr double slack = 1e-4;  // m, of a bearing face that is not exactly at 0
-    std::erase_if(samples, [](const collision::SurfacePoint& sample) { return sample.at.z < -slack; });
+    constexpr double face_tolerance = 1e-4;  // m, of a bearing face that is not exactly at 0
+    std::erase_if(samples,
+                  [](const collision::SurfacePoint& sample) { return sample.at.z < -face_tolerance; });
     return samples;
 }
 

@@ -24,15 +24,15 @@ constexpr double pivot_rate = 1.0;  // rad/s, largest rate at which the wrench t
 constexpr double max_lag = 0.3e-3, max_lag_angle = 5e-3;
 
 // The distance of a jaw at `tool` from the axis of this nut's bolt, m, if it is near the nut at any position
-// of the nut on its thread; otherwise infinity. `slack`: factor on the distances.
-double distance_if_near(const servo::NutGeometry& nut, const Pose& tool, double slack) {
+// of the nut on its thread; otherwise infinity. `range_factor`: factor on the distances.
+double distance_if_near(const servo::NutGeometry& nut, const Pose& tool, double range_factor) {
     const Vec3 from_seat = tool.position - nut.seat;
     const double height = glm::dot(from_seat, nut.axis);
     const double aside = glm::length(from_seat - height * nut.axis);
     const double alignment = std::abs(glm::dot(tool.orientation * Vec3(0.0, 0.0, 1.0), nut.axis));
-    const bool near = height > -slack * pivot_below &&
-                      height < nut.start_gap + nut.height + slack * pivot_above &&
-                      aside < slack * pivot_radius && alignment > pivot_alignment / slack;
+    const bool near = height > -range_factor * pivot_below &&
+                      height < nut.start_gap + nut.height + range_factor * pivot_above &&
+                      aside < range_factor * pivot_radius && alignment > pivot_alignment / range_factor;
     return near ? aside : std::numeric_limits<double>::infinity();
 }
 

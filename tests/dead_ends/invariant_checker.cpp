@@ -123,13 +123,14 @@ void InvariantChecker::tick(const servo::Output& output) {
     check_checkpoints(output);
 }
 
-void InvariantChecker::frame(const servo::Output& output, bool wrench_in_hand, double room, bool hint_key) {
+void InvariantChecker::frame(const servo::Output& output, bool wrench_in_hand, double free_swing,
+                             bool hint_key) {
     check_joints();
     if (++frames_ % 32 == 0) check_verdicts();
     const lesson::Lesson& lesson = session_.lesson();
     const servo::State& state = session_.state();
     const lesson::ObservedLesson scene{lesson, session_.setup(),
-                                       world_.write(state, output, wrench_in_hand, room)};
+                                       world_.write(state, output, wrench_in_hand, free_swing)};
     const lesson::Situation now = lesson::situation(scene);
     if (previous_ && *previous_ != now) ++coverage_.left.at(index(*previous_));
     if (!previous_ || *previous_ != now) ++coverage_.reached.at(index(now));

@@ -29,8 +29,9 @@ class InvariantChecker {
         : session_(session), coverage_(coverage), world_(session.state().joints.size()) {}
 
     void tick(const servo::Output& output);
-    // Call every 16 ticks. `room`: world::WorkingHand::room. `hint_key`: the trainee requests a hint.
-    void frame(const servo::Output& output, bool wrench_in_hand, double room, bool hint_key);
+    // Call every 16 ticks. `free_swing`: world::WorkingHand::free_swing. `hint_key`: the trainee requests a
+    // hint.
+    void frame(const servo::Output& output, bool wrench_in_hand, double free_swing, bool hint_key);
     void report(const std::string& what);
 
     [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }

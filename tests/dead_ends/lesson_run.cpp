@@ -21,7 +21,7 @@ LessonRun::LessonRun(session::LessonSession& lesson_session, InvariantChecker& i
     last.commanded_tool = servo::to_commanded_tool(player.hand.pose);
 }
 
-bool LessonRun::tick(servo::TickInput input, bool wrench_in_hand, double room, bool hint_key) {
+bool LessonRun::tick(servo::TickInput input, bool wrench_in_hand, double free_swing, bool hint_key) {
     input.set_torque = static_cast<float>(set_torque_scale * lesson::wrench_set_torque(session.lesson()));
     const auto stepped = session.tick(world, input);
     if (!stepped) {
@@ -31,7 +31,7 @@ bool LessonRun::tick(servo::TickInput input, bool wrench_in_hand, double room, b
     output = *stepped;
     last = input;
     checker.tick(output);
-    if (session.state().tick % frame_ticks == 0) checker.frame(output, wrench_in_hand, room, hint_key);
+    if (session.state().tick % frame_ticks == 0) checker.frame(output, wrench_in_hand, free_swing, hint_key);
     return true;
 }
 

@@ -27,7 +27,7 @@ struct LessonRun {
     // As in the trainer: false while a mistake in the last step can still be undone.
     [[nodiscard]] bool over() const { return !trainer::continues(undo, session); }
     // One tick; returns false if the session cannot continue.
-    bool tick(servo::TickInput input, bool wrench_in_hand, double room, bool hint_key = false);
+    bool tick(servo::TickInput input, bool wrench_in_hand, double free_swing, bool hint_key = false);
     // A frame at the mouse: handles commands and undo like the trainer's systems.
     void frame(trainer::MouseCommand command, std::optional<std::size_t> undo_steps = std::nullopt,
                bool hint_key = false);

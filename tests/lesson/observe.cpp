@@ -72,8 +72,8 @@ TEST_CASE("Lesson: with strategy yield a full step needs yield or a torque above
 }
 
 TEST_CASE(
-    "Lesson: work out of turn is an order error once a visit, work on a done joint a re-hit, a touch "
-    "neither") {
+    "Lesson: work out of turn is reported once a hold, work on a done joint as done already, a touch not at "
+    "all") {
     Script s;
     s.seat_both();
     s.tick(1, servo::Grip::wrench, 0.2);
@@ -131,27 +131,27 @@ TEST_CASE(
     CHECK(s.lesson.joints[1].result.out_of_turn == 1);
 }
 
-TEST_CASE("Lesson: turning a nut back from its seat is reported once a visit, and play is not") {
+TEST_CASE("Lesson: turning a nut back from its seat is reported once a hold, and play is not") {
     const auto reported = [](const Script& s, MistakeKind kind) {
         return std::count_if(s.lesson.events.begin(), s.lesson.events.end(),
                              [&](const LessonEvent& event) { return event.mistake == kind; });
     };
-    // A visit that turns the nut on by some degrees, then back.
-    const auto visit = [](Script& s, double on, double back, servo::Grip grip = servo::Grip::wrench) {
+    // A hold that turns the nut on by some degrees, then back.
+    const auto hold = [](Script& s, double on, double back, servo::Grip grip = servo::Grip::wrench) {
         for (int i = 0; i < 100; ++i) s.tick(0, grip, 5.0, to_radians(10.0 * on));
         for (int i = 0; i < 100; ++i) s.tick(0, grip, -5.0, to_radians(-10.0 * back));
         s.idle();
     };
     Script s;
     s.seat_both();
-    visit(s, 20.0, 4.0);
+    hold(s, 20.0, 4.0);
     CHECK(reported(s, MistakeKind::loosened) == 0);
-    visit(s, 0.0, 20.0);
+    hold(s, 0.0, 20.0);
     CHECK(reported(s, MistakeKind::loosened) == 1);
-    visit(s, 20.0, 30.0);
+    hold(s, 20.0, 30.0);
     CHECK(reported(s, MistakeKind::loosened) == 2);
     s.state.joints[0].stage = joint::Stage::navigation;  // off its seat, and still turning
-    visit(s, 0.0, 40.0);
+    hold(s, 0.0, 40.0);
     CHECK(reported(s, MistakeKind::loosened) == 2);
     CHECK(s.lesson.joints[0].wrong_way_count == 2);
 
@@ -159,7 +159,7 @@ TEST_CASE("Lesson: turning a nut back from its seat is reported once a visit, an
         Script slackened;
         slackened.seat_both();
         slackened.pull(0, 90.0);
-        visit(slackened, 0.0, 20.0);
+        hold(slackened, 0.0, 20.0);
         CHECK(reported(slackened, MistakeKind::over_torque) == 1);
         CHECK(reported(slackened, MistakeKind::loosened) == 0);
     }
@@ -167,9 +167,9 @@ TEST_CASE("Lesson: turning a nut back from its seat is reported once a visit, an
         Script off;
         off.state.joints[0].stage = joint::Stage::linearity;
         off.lesson = begin(off.assembly, Mode::guided, Task::loosen);
-        visit(off, -30.0, 0.0);
+        hold(off, -30.0, 0.0);
         CHECK(reported(off, MistakeKind::tightened) == 0);
-        visit(off, 20.0, 0.0);
+        hold(off, 20.0, 0.0);
         CHECK(reported(off, MistakeKind::tightened) == 1);
         CHECK(reported(off, MistakeKind::loosened) == 0);
     }
@@ -280,7 +280,7 @@ TEST_CASE("Lesson: a broken bolt keeps its torque and is reported, and the lesso
     CHECK(kinds == std::vector{MistakeKind::over_torque, MistakeKind::broken});
 }
 
-TEST_CASE("Lesson: changing from fingers to wrench without a release is a new visit") {
+TEST_CASE("Lesson: changing from fingers to wrench without a release is a new hold") {
     Script s;
     s.idle();
     s.tick(0, servo::Grip::fingers, 0.1, 1.0);

@@ -111,7 +111,7 @@ TEST_CASE("Undo: mistakes stay counted, and an event reports the undo") {
     CHECK(undo.value == 3.0);
     CHECK(undo.text == "back to step 1 of 6");
     CHECK(s.lesson.held_joint == -1);
-    // The hand is still on the nut, which counts as a new visit.
+    // The hand is still on the nut, which counts as a new hold.
     s.tick(1, servo::Grip::wrench, 5.0);
     CHECK(s.lesson.joints[1].result.out_of_turn == 2);
 }

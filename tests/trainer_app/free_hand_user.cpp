@@ -133,7 +133,7 @@ void FreeHandUser::drag_by(const Vec3& error) {
         across -= above * up;
         notches = above / notch_on_bolt * (glm::dot(up, view) < 0.0 ? -1.0 : 1.0);
     }
-    // Towards the eye is away from the work: first the wheel, then the drag.
+    // To come nearer to the eye, first lift with the wheel, then drag sideways.
     if (!beside_bolt() && hand_of(lesson()).wrench && notches < -1.0) across = Vec3(0.0);
     const auto from = project(screen, at), to = project(screen, at + across);
     frame(from && to ? share * (*to - *from) : glm::dvec2(0.0), share * notches);
@@ -249,7 +249,7 @@ motion::HandleAngle FreeHandUser::choose_side() const {
     return sides[misses_ % sides.size()].second;
 }
 
-// Straight up, turned there, across, and down: along the lowest such way on which the wrench touches nothing.
+// The lowest path on which the wrench touches nothing: up, turn, across, down.
 std::vector<Pose> FreeHandUser::way_to(const Pose& over) const {
     const Vec3 up = axis();
     const Pose from = hand();
@@ -320,7 +320,8 @@ bool FreeHandUser::lower(const Pose& seated) {
     return false;
 }
 
-// A jaw that holds the nut by its edge would slip off: further down with the wheel, until it stops.
+// Pushes the jaw down with the wheel until the overlap no longer grows, because a jaw that holds the nut by
+// its edge would slip off.
 void FreeHandUser::push_down() {
     hold(true);
     double most = 0.0, moved = now();
@@ -369,7 +370,8 @@ void FreeHandUser::pull() {
     wait(0.5);
 }
 
-// Off the nut with the wheel, as a drag would swing the wrench; then on, clear of it.
+// Lifts the wrench off the nut with the mouse wheel, because a drag would swing it, and continues until it is
+// clear.
 void FreeHandUser::lift() {
     if (!going()) return;
     hold(true);

@@ -40,8 +40,7 @@ HeadlessTrainer::~HeadlessTrainer() {
     for (const std::string& message : gpu_.instance().log().messages) FAIL_CHECK(message);
 }
 
-// Input but for movements of the pointer and the wheel is shown and answered in its frame and the two after
-// it.
+// The frame of an input and the next two are drawn, unless the input only moves the pointer or the wheel.
 bool HeadlessTrainer::is_due(const std::vector<platform::InputEvent>& events) {
     constexpr int answers = 3;  // frames
     const bool moves_only = std::all_of(events.begin(), events.end(), [](const platform::InputEvent& event) {

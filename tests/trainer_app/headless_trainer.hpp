@@ -58,7 +58,7 @@ class HeadlessTrainer : public TrainerDriver {
     std::optional<view::ImmersiveFrame> immersive;
     float resolution = 1.0F;  // as in view::WindowFrame
     bool draws = true;        // false: the next frames are not drawn, which is faster
-    // While a lesson runs without input, one of this many frames is drawn: drawing takes most of the time.
+    // While a lesson runs without input, one frame in `draw_interval` is drawn, because drawing takes long.
     int draw_interval = 20;
     // A picture of a view of the last immersive frame.
     [[nodiscard]] render::Picture room_picture(std::uint32_t view);

@@ -1,4 +1,4 @@
-// The simulated arm under forces, against closed forms.
+// The hand of a simulated trainee under forces, against closed forms.
 #include "game/trainees/human_model.hpp"
 
 #include <doctest/doctest.h>
