@@ -45,11 +45,11 @@ StudyLesson read_lesson(JsonReader& json, const JsonNode& own, const StudyLesson
         for (const JsonNode& device : json.items(devices))
             lesson.devices.push_back(json.text(device).value_or(""));
     }
-    lesson.guide = boolean(json, own, "guide", lesson.guide);
+    lesson.guiding_force = boolean(json, own, "guide", lesson.guiding_force);
     lesson.view_help = boolean(json, own, "view_help", lesson.view_help);
     if (const auto scale = json.number(json.member(own, "force_scale"))) lesson.force_scale = scale;
     const JsonNode guide = json.member(own, "guide");
-    if (guide && lesson.guide && lesson.mode != "guided")
+    if (guide && lesson.guiding_force && lesson.mode != "guided")
         json.report(guide.pointer, fmt::format("there is no guiding force in mode {}", lesson.mode),
                     R"("mode": "guided" with it)");
     return lesson;

@@ -54,9 +54,9 @@ struct StudyLesson {
     std::string display;
     std::string displays;  // of walls: the display file
     std::string glove;     // "none", "auto" or a serial port; empty: that of the command line
-    // `guide`: a force leads the hand to the nut in guided mode. `view_help`: the program finds a view of the
-    // nut.
-    bool guide = true, view_help = true;
+    // `guiding_force`: a force leads the hand to the nut in guided mode. `view_help`: the program finds a
+    // view of the nut.
+    bool guiding_force = true, view_help = true;
     std::optional<double> force_scale;  // none: that of the participant's settings
     bool operator==(const StudyLesson&) const = default;
 };

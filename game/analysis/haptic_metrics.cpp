@@ -53,7 +53,7 @@ HapticMetricsBuilder::HapticMetricsBuilder(const session::Header& header,
     : dt_(header.dt), seats_(std::move(seats)) {
     metrics_.has_contacts_and_faults = header.servo_rate.has_value();
     metrics_.has_contact_models = !header.contact_models.value_or("").empty();
-    metrics_.guided = header.guide.value_or(header.mode == lesson::Mode::guided);
+    metrics_.guided = header.guiding_force.value_or(header.mode == lesson::Mode::guided);
     metrics_.device_limits = header.device_limits;
     if (header.servo_rate) metrics_.servo_text = session::servo_text(*header.servo_rate);
     for (const lesson::LessonEvent& event : events)
@@ -232,7 +232,8 @@ std::string describe(const ForceJump& jump, const std::vector<lesson::JointResul
             break;
         case ToolActivity::touching:
         case ToolActivity::free:
-            text = jump.tick.guide >= 0 ? fmt::format("led to {}", joint(jump.tick.guide)) : "in the air";
+            text = jump.tick.guided_joint >= 0 ? fmt::format("led to {}", joint(jump.tick.guided_joint))
+                                               : "in the air";
             break;
     }
     if (jump.since_contact_begin <= recent && touches)

@@ -221,7 +221,7 @@ Result<trainees::TrainOptions> train_options(const TrainArguments& options,
     train.lesson.obstacles = options.no_obstacles ? session::ObstacleUse::none
                              : options.obstacles  ? session::ObstacleUse::required
                                                   : session::ObstacleUse::if_any;
-    train.lesson.guide = !options.no_guide;
+    train.lesson.guiding_force = !options.no_guide;
     if (options.view_help) train.view_help = view::make_view_helper();
     Result<trainees::TraineeProfile> trainee = trainees::find_profile(options.trainee_profile);
     if (!trainee) return fail(trainee.error());

@@ -36,7 +36,7 @@ servo::TickInput working_input(const servo::Setup& setup, const servo::State& st
     input.commanded_tool = servo::to_commanded_tool({at, q});
     input.grip = servo::Grip::wrench;
     input.dead_man = true;
-    input.guide = 0;
+    input.guided_joint = 0;
     return input;
 }
 

@@ -35,7 +35,7 @@ std::string summary_json(const content::Assembly& assembly, const LessonOptions&
     json["law"] = joint::name(options.law);
     json["mode"] = lesson::name(options.mode);
     json["task"] = lesson::name(options.task);
-    json["guide"] = options.guide && options.mode == lesson::Mode::guided;
+    json["guide"] = options.guiding_force && options.mode == lesson::Mode::guided;
     json["obstacles"] = outcome.obstacles;
     json["operator"] = options.trainee_profile;  // the key of session files too
     json["trainee"] = options.trainee;
@@ -129,7 +129,7 @@ void append_row(std::string& text, double time, const TickRecord& tick, Names& n
     const auto& [p, q] = tick.commanded_tool;
     fmt::format_to(out, "{:.6f},{},{},{},{},{},{},{},{},{},", time, p[0], p[1], p[2], q[0], q[1], q[2], q[3],
                    name(static_cast<servo::Grip>(tick.grip)), tick.flags & flag_dead_man);
-    text.append(names.joints[tick.guide]).append(",").append(names.joints[tick.joint]);
+    text.append(names.joints[tick.guided_joint]).append(",").append(names.joints[tick.joint]);
     fmt::format_to(out, ",{},{},{},{},{},{},{},{},{},{},{},",
                    joint::name(static_cast<joint::Stage>(tick.stage)), tick.wrench_torque,
                    static_cast<float>(to_degrees(static_cast<double>(tick.nut_angle))), tick.clamp,

@@ -161,7 +161,7 @@ HeaderTexts texts_of(const Header& header) {
         {key::program, header.program},
         {key::tool, header.tool},
     };
-    if (header.guide) texts[key::guide] = switch_text(*header.guide);
+    if (header.guiding_force) texts[key::guide] = switch_text(*header.guiding_force);
     if (header.contact_models)
         texts[key::obstacles] = header.contact_models->empty() ? no_obstacles : *header.contact_models;
     if (header.device_limits) texts[key::device] = limits_text(*header.device_limits);
@@ -193,7 +193,7 @@ Result<Header> header_of(const HeaderTexts& texts, const std::string& file) {
         return dt && ticks_per_commit(*dt) ? dt : std::nullopt;
     });
     parser.required(key::program, header.program);
-    parser.optional(key::guide, header.guide, "on or off", parse_switch);
+    parser.optional(key::guide, header.guiding_force, "on or off", parse_switch);
     parser.optional(
         key::obstacles, header.contact_models, "none, or the contact models",
         [](const std::string& text) { return std::optional(text == "none" ? std::string() : text); });

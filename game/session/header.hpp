@@ -63,7 +63,7 @@ struct Header {
     std::string program;  // name and version of the writing program
 
     // Further inputs of the ticks; none in format 1, which lacks them.
-    std::optional<bool> guide;                  // the guiding force towards the due joint
+    std::optional<bool> guiding_force;          // the guiding force towards the due joint
     std::optional<std::string> contact_models;  // their files with size and checksum; empty: no obstacles
     std::optional<force::OutputLimits> device_limits;
     std::optional<double> servo_rate;  // Hz, of the servo's thread; 0: virtual time

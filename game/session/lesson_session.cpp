@@ -95,7 +95,7 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
 Header make_header(const SessionSetup& start, const LessonOptions& options) {
     const content::Assembly& assembly = start.assembly;
     Header header;
-    header.guide = options.guide && options.mode == lesson::Mode::guided;
+    header.guiding_force = options.guiding_force && options.mode == lesson::Mode::guided;
     header.view_help = options.view_help;
     header.contact_models = start.contact_models;
     header.obstacle_names = start.obstacle_names;
@@ -256,7 +256,7 @@ Result<std::unique_ptr<LessonSession>> LessonSession::begin(SessionSetup start, 
 
     lesson::Lesson& lesson = s.tracker_.lesson;
     lesson = lesson::begin(s.session_setup_.assembly, options.mode, options.task);
-    lesson.guides = lesson.guides && options.guide;
+    lesson.guides = lesson.guides && options.guiding_force;
     world::World initial;
     world::add_haptics(initial, s.session_setup_.state);
     for (std::size_t i = 0; i < lesson.joints.size(); ++i)

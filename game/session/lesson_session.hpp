@@ -54,7 +54,7 @@ struct LessonOptions {
     double dt = 0.001;
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).
     ObstacleUse obstacles = ObstacleUse::none;
-    bool guide = true;               // in guided mode a force guides the hand to the nut
+    bool guiding_force = true;       // in guided mode a force guides the hand to the nut
     std::string trainee_profile;     // "person", or the simulated trainee's profile: "expert", …
     std::string trainee;             // a person's code, or the text of --trainee (Header::trainee)
     std::optional<hand::Side> hand;  // the working hand; none: unknown

@@ -42,7 +42,7 @@ TickRecord make_record(const servo::TickInput& input, const servo::Output& outpu
     record.flags = static_cast<std::uint8_t>(
         (input.dead_man ? flag_dead_man : 0) | (input.fresh ? 0 : flag_no_sample) |
         (input.stop ? flag_stop : 0) | (input.reset ? flag_reset : 0) | std::min<int>(input.missed, 15) << 4);
-    record.guide = input.guide;
+    record.guided_joint = input.guided_joint;
     for (int i = 0; i < 3; ++i) {
         record.force[i] = static_cast<float>(output.force[i]);
         record.torque[i] = static_cast<float>(output.torque[i]);
@@ -71,7 +71,7 @@ servo::TickInput input_of(const TickRecord& record) {
     input.stop = (record.flags & flag_stop) != 0;
     input.reset = (record.flags & flag_reset) != 0;
     input.missed = static_cast<std::uint8_t>(record.flags >> 4);
-    input.guide = record.guide;
+    input.guided_joint = record.guided_joint;
     input.checkpoint_action = record.checkpoint_action;
     input.set_torque = record.set_torque;
     input.tool = record.tool;
@@ -89,7 +89,7 @@ bool same_output(const TickRecord& a, const TickRecord& b) {
 
 bool is_valid(const TickRecord& record) {
     constexpr auto last_grip = static_cast<std::uint8_t>(servo::Grip::wrench);
-    return record.grip <= last_grip && record.stage < joint::stage_count && record.guide >= -1 &&
+    return record.grip <= last_grip && record.stage < joint::stage_count && record.guided_joint >= -1 &&
            record.joint >= -1 && record.second_wrench >= -1 && file_number(record.touched) &&
            record.fault < force::fault_kinds &&
            (record.checkpoint_action <= servo::max_checkpoints ||
@@ -127,7 +127,7 @@ void for_each_column(std::byte chunk_version, Visit visit) {
         visit([i](auto& tick) -> auto& { return tick.commanded_tool.orientation[i]; });
     visit([](auto& tick) -> auto& { return tick.grip; });
     visit([](auto& tick) -> auto& { return tick.flags; });
-    visit([](auto& tick) -> auto& { return tick.guide; });
+    visit([](auto& tick) -> auto& { return tick.guided_joint; });
     for (int i = 0; i < 3; ++i) visit([i](auto& tick) -> auto& { return tick.force[i]; });
     for (int i = 0; i < 3; ++i) visit([i](auto& tick) -> auto& { return tick.torque[i]; });
     visit([](auto& tick) -> auto& { return tick.joint; });

@@ -15,9 +15,10 @@ namespace bolt::session {
 
 struct TickRecord {
     servo::CommandedTool commanded_tool;
-    std::uint8_t grip = 0;    // servo::Grip
-    std::uint8_t flags = 0;   // see below
-    std::int16_t guide = -1;  // joint that the guiding force leads to, TickInput::guide; −1: none
+    std::uint8_t grip = 0;   // servo::Grip
+    std::uint8_t flags = 0;  // see below
+    std::int16_t guided_joint =
+        -1;  // joint that the guiding force leads to, TickInput::guided_joint; −1: none
     float force[3] = {0.0F, 0.0F, 0.0F};   // N
     float torque[3] = {0.0F, 0.0F, 0.0F};  // N·m
     std::int16_t joint = -1;               // engaged joint, Output::joint; −1: none

@@ -46,7 +46,7 @@ Result<content::Assembly> assembly_of(const Header& header) {
 lesson::Lesson restore_lesson(const SessionReader& session, const SessionSetup& start) {
     const Header& header = session.header();
     lesson::Lesson lesson = lesson::begin(start.assembly, header.mode, header.task);
-    lesson.guides = header.guide.value_or(false);
+    lesson.guides = header.guiding_force.value_or(false);
     if (!header.rules.judges_tool_choice) lesson.tool_faults.clear();
     return lesson;
 }

@@ -331,7 +331,7 @@ Status choose_devices(const StationRequest& request, PlannedStation& planned) {
 // m. The scale of an arm is fitted to it (force::fitted_scale()), so that every tool of the lesson can swing.
 double longest_handle(const servo::Setup& setup) {
     double longest = setup.wrench.handle_length;
-    for (const servo::LessonTool& tool : setup.tools) longest = std::max(longest, tool.wrench.handle_length);
+    for (const servo::ToolSetup& tool : setup.tools) longest = std::max(longest, tool.wrench.handle_length);
     return longest;
 }
 

@@ -137,7 +137,7 @@ session::LessonOptions lesson_options(const content::StudyLesson& lesson, joint:
     options.task = lesson::task_names.find(lesson.task).value_or(lesson::Task::tighten);
     options.law = joint::law_named(lesson.law).value_or(assembly_law);
     options.obstacles = session::ObstacleUse::if_any;
-    options.guide = lesson.guide;
+    options.guiding_force = lesson.guiding_force;
     return options;
 }
 

@@ -180,7 +180,7 @@ IntendedPose advance(TraineeState& t, const servo::Setup& setup, const servo::St
 
     IntendedPose intended;
     const lesson::LessonStep* due = lesson.due();
-    if (due != nullptr && lesson.guides) intended.guide = static_cast<std::int16_t>(due->joint);
+    if (due != nullptr && lesson.guides) intended.guided_joint = static_cast<std::int16_t>(due->joint);
     // A hand that holds a nut does not yield to forces; a free hand does. While the wrench is being lowered
     // the jaw may already be on the nut, but the hand does not hold it yet.
     const bool holds_nut = state.engagement.joint >= 0 && t.phase != Phase::lower;
@@ -228,7 +228,7 @@ servo::TickInput SimulatedTrainee::act(const servo::Setup& setup, const servo::S
     }
     servo::TickInput input;
     input.dead_man = true;
-    input.guide = intended.guide;
+    input.guided_joint = intended.guided_joint;
     input.grip = intended.grip;
     input.tool = intended.tool_index;
     input.second_wrench = t.second_wrench;

@@ -22,7 +22,7 @@ struct TraineeState;  // behaviour.hpp
 struct IntendedPose {
     Pose tool;  // in the assembly's frame
     servo::Grip grip = servo::Grip::none;
-    std::int16_t guide = -1;          // joint that the guiding force leads to; −1: none
+    std::int16_t guided_joint = -1;   // joint that the guiding force leads to; −1: none
     std::uint8_t tool_index = 0;      // tool that the hand takes next (servo::TickInput::tool)
     std::int16_t second_wrench = -1;  // joint whose held part the second wrench is on; −1: none
     bool holds_nut = false;           // the hand turns a nut, or waits on it, and does not give way to forces

@@ -275,7 +275,7 @@ void step_ticks(scene::SceneWorld& world, LessonFrame& frame) {
          active.clock.pending -= setup.dt) {
         servo::TickInput input = step_hand(active.helped_hand, setup, session.state());
         if (const lesson::LessonStep* due = session.lesson().due(); due != nullptr && session.lesson().guides)
-            input.guide = static_cast<std::int16_t>(due->joint);
+            input.guided_joint = static_cast<std::int16_t>(due->joint);
         input.second_wrench = active.second_wrench;
         const auto undo = steps_to_undo(active.undo, session.lesson());
         if (undo && active.helped_hand.action == HandAction::resting && !active.helped_hand.nut)

@@ -98,7 +98,7 @@ Result<LessonRequest> App::study_request() {
     if (shown_in_headset() && (lesson.hand == "tracked" || choice.equipment.hand_unassigned()))
         choice.equipment.hand = HandMode::tracked;
     request.settings.force_scale = lesson.force_scale.value_or(request.settings.force_scale);
-    request.options.guide = settings.guide;
+    request.options.guiding_force = settings.guiding_force;
     request.options.obstacles = settings.obstacles;
     request.options.seed =
         study::lesson_seed(participation.study(), participation.progress().place, participation.due()->id);

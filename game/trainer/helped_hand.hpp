@@ -83,8 +83,8 @@ void apply_command(HelpedHand& hand, const MouseCommand& command, const servo::S
 Pose wrench_pose_on_nut(const Pose& rest, const servo::Setup& setup, const servo::State& state,
                         std::size_t joint, bool loosens);
 
-// Advances the hand by one tick and returns the servo's input, except `guide` and `second_wrench`, which the
-// caller sets, and the members that LessonSession::tick() sets.
+// Advances the hand by one tick and returns the servo's input, except `guided_joint` and `second_wrench`,
+// which the caller sets, and the members that LessonSession::tick() sets.
 servo::TickInput step_hand(HelpedHand& hand, const servo::Setup& setup, const servo::State& state);
 
 }  // namespace bolt::trainer

@@ -218,7 +218,7 @@ Status send_actions(StationClient& client, const session::LessonSession& session
     controls.view = actions.view;
     const lesson::LessonStep* due = session.lesson().due();
     const bool guides_to_due = due != nullptr && session.lesson().guides;
-    controls.guide = guides_to_due ? static_cast<std::int16_t>(due->joint) : std::int16_t{-1};
+    controls.guided_joint = guides_to_due ? static_cast<std::int16_t>(due->joint) : std::int16_t{-1};
     // A nut attracts the tool only while the hand is closed.
     const auto attracting_nut =
         guides_to_due

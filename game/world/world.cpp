@@ -64,7 +64,7 @@ void write_haptics(const WriteHaptics& world, const Snapshot& servo) {
     write_joints(world, servo.state);
     world.only<ConstrainedTool>().pose = output.constrained_tool;
     write_tool(world.only<ToolState>(), servo);
-    world.only<GuidingForce>() = {servo.input.guide, servo.state.guiding_command.force,
+    world.only<GuidingForce>() = {servo.input.guided_joint, servo.state.guiding_command.force,
                                   servo.state.guiding_command.torque};
     world.only<DeviceForce>() = {output.force, output.torque, output.fault};
     write_hand(world.only<WorkingHand>(), servo);

@@ -39,8 +39,9 @@ inline constexpr std::uint8_t max_checkpoints = 8, save_checkpoint = 255;
 struct TickInput {
     CommandedTool commanded_tool;
     Grip grip = Grip::none;
-    bool dead_man = false;    // the dead-man switch is held; otherwise the output is zero
-    std::int16_t guide = -1;  // index of the joint that the guiding force leads to; −1: no guiding force
+    bool dead_man = false;  // the dead-man switch is held; otherwise the output is zero
+    std::int16_t guided_joint =
+        -1;  // index of the joint that the guiding force leads to; −1: no guiding force
 
     bool fresh = true;   // a device sample arrived since the last tick; the watchdog stops a silent device
     bool stop = false;   // emergency stop pressed; latches until `reset`

@@ -103,7 +103,7 @@ Wrench make_wrench(const SetupDescription& d, const ToolDescription& tool, std::
 void add_tool(const SetupDescription& d, const ToolDescription& tool, Setup& setup) {
     const std::size_t number = setup.tools.size();
     double across_flats = 0.0;
-    LessonTool added;
+    ToolSetup added;
     for (const NutGeometry& nut : setup.nuts) {
         added.grip_heights.push_back(collision::grip_height(tool.head, shape_of(nut)));
         if (nut.tool == number) across_flats = std::max(across_flats, nut.across_flats);
@@ -130,12 +130,12 @@ void use_tool(Setup& setup, std::size_t tool) {
 
 void disable_tool_yield(Setup& setup) {
     setup.wrench.yield_torque = 0.0;
-    for (LessonTool& tool : setup.tools) tool.wrench.yield_torque = 0.0;
+    for (ToolSetup& tool : setup.tools) tool.wrench.yield_torque = 0.0;
 }
 
 void set_ratchets(Setup& setup, bool loosen) {
     setup.wrench.ratchet.loosens = loosen;
-    for (LessonTool& tool : setup.tools) tool.wrench.ratchet.loosens = loosen;
+    for (ToolSetup& tool : setup.tools) tool.wrench.ratchet.loosens = loosen;
 }
 
 Setup make_setup(const SetupDescription& d) {

@@ -102,7 +102,7 @@ double half_play(const Wrench& wrench, double across_flats, double rounded);
 bool reversible(const Wrench& wrench);
 
 // A tool of the lesson.
-struct LessonTool {
+struct ToolSetup {
     Wrench wrench;
     std::vector<double> grip_heights;  // by joint, m: NutGeometry::grip_height with this tool
     force::TorqueRendering torque_rendering;
@@ -115,7 +115,7 @@ struct Setup {
     double dt = 0.001;  // s, duration of a tick
     joint::GroupParameters group;
     std::vector<NutGeometry> nuts;  // by joint
-    std::vector<LessonTool> tools;
+    std::vector<ToolSetup> tools;
     std::size_t tool = 0;  // index in `tools`
     Wrench wrench;
     double finger_stiffness = 5.0;   // N·m/rad

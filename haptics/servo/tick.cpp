@@ -307,7 +307,7 @@ void change_tool(Setup& setup, State& state, const TickInput& input) {
 
 Output tick(const Setup& setup, State& state, const TickInput& input) {
     return tick(setup, state, input, [&](const Vec3& from, const Vec3& to) {
-        return !state.tool_contact || !occluded(*state.tool_contact, from, to, input.guide);
+        return !state.tool_contact || !occluded(*state.tool_contact, from, to, input.guided_joint);
     });
 }
 
@@ -330,7 +330,7 @@ Output tick(const Setup& setup, State& state, const TickInput& input, force::IsS
 
     const bool guides = engaged < 0 && tool.valid && input.dead_man;
     const force::ForceRequest guiding =
-        guiding_request(setup, state, tool, grip, guides ? input.guide : -1, free);
+        guiding_request(setup, state, tool, grip, guides ? input.guided_joint : -1, free);
     if (held_by_spring_before && engaged != engaged_before) state.release_fade = {state.hold_target, 1.0};
     if (!tool.valid || !input.dead_man) state.release_fade.share = 0.0;
     const force::ForceRequest released = release_request(setup, state.release_fade, tool);

@@ -338,7 +338,7 @@ servo::TickInput read_inputs(const DeviceLayout& layout, const servo::Setup& set
     input.set_torque = controls.set_torque;
 
     input.dead_man = controls.dead_man;
-    input.guide = controls.guide;
+    input.guided_joint = controls.guided_joint;
     input.tool = controls.tool;
     input.second_wrench = controls.second_wrench;
     input.stop = controls.stop;

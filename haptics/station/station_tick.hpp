@@ -70,7 +70,7 @@ struct StationControls {
     // the dead-man switch.
     double dead_man_timeout = std::numeric_limits<double>::infinity();
     bool clutch = false, stop = false, reset = false;  // pressed in the application, as devices' buttons
-    std::int16_t guide = -1;                           // joint that the guiding force leads to; −1: none
+    std::int16_t guided_joint = -1;                    // joint that the guiding force leads to; −1: none
     float set_torque = 0.0F;                           // N·m, of a click-type torque wrench
     std::uint8_t tool = 0;            // index in Setup::tools of the tool that the hand gets next
     std::int16_t second_wrench = -1;  // joint whose held part the second wrench is on; −1: none

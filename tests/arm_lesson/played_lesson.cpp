@@ -39,7 +39,7 @@ PlayedLesson::PlayedLesson(HeldArm& arm, const content::Assembly& assembly, sess
     station_ = std::move(*own);
     trainee_.emplace(*trainees::find_profile("expert"), options.seed, station_.setup);
     station::StationOptions planned;
-    for (const servo::LessonTool& tool : station_.setup.tools)
+    for (const servo::ToolSetup& tool : station_.setup.tools)
         planned.handle_length = std::max(planned.handle_length, tool.wrench.handle_length);
     planned.home = trainee_->hand();
     auto layout = station::make_layout(planned, *supervisor_->status().description, {});
@@ -126,7 +126,7 @@ void PlayedLesson::tick() {
     now_ += dt;
     while (arm_.timer.now() < now_) serve();
     controls_.grip = intention_.grip;
-    controls_.guide = intention_.guide;
+    controls_.guided_joint = intention_.guided_joint;
     controls_.tool = intention_.tool_index;
     controls_.second_wrench = intention_.second_wrench;
     controls_.set_torque = static_cast<float>(lesson::wrench_set_torque(session_->lesson()));

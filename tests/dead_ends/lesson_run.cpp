@@ -44,7 +44,7 @@ void LessonRun::frame(trainer::MouseCommand command, std::optional<std::size_t> 
         const Vec3 before = hand.pose.position;
         servo::TickInput input = trainer::step_hand(hand, session.setup(), session.state());
         if (const lesson::LessonStep* due = session.lesson().due(); due != nullptr && session.lesson().guides)
-            input.guide = static_cast<std::int16_t>(due->joint);
+            input.guided_joint = static_cast<std::int16_t>(due->joint);
         const auto steps = trainer::steps_to_undo(undo, session.lesson());
         if (steps && hand.action == trainer::HandAction::resting && !hand.nut) session.request_undo(*steps);
         double room = std::numeric_limits<double>::infinity();

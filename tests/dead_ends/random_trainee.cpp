@@ -161,7 +161,7 @@ void act_randomly_at_device(LessonRun& run, std::uint64_t seed, double span, boo
         input.reset = action.reset;
         input.fresh = action.fresh;
         input.missed = static_cast<std::uint8_t>(random.chance(0.01) ? any(random, 16) : 0);
-        input.guide = static_cast<std::int16_t>(any(random, session.setup().nuts.size() + 1)) - 1;
+        input.guided_joint = static_cast<std::int16_t>(any(random, session.setup().nuts.size() + 1)) - 1;
         if (random.chance(5e-4)) run.session.request_undo(any(random, 10));
         run.tick(input, action.grip == servo::Grip::wrench, std::numeric_limits<double>::infinity(),
                  random.chance(1e-3));

@@ -28,7 +28,7 @@ TEST_CASE("Bent tool: a tool bends at a fifth above its test torque, but not in 
     older.rules.tools_yield = session::ToolYield::no_law;
     const auto rigid = session::prepare_session(assembly, older);
     CHECK(rigid.value().setup.wrench.yield_torque == 0.0);
-    for (const servo::LessonTool& tool : rigid.value().setup.tools) CHECK(tool.wrench.yield_torque == 0.0);
+    for (const servo::ToolSetup& tool : rigid.value().setup.tools) CHECK(tool.wrench.yield_torque == 0.0);
     // The published law has the torques of an M16 bolt for every size.
     session::LessonOptions published;
     published.law = joint::Law::published;

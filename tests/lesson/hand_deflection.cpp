@@ -114,7 +114,7 @@ std::uint64_t motion_hash(double force, bool guides) {
     std::uint64_t hash = 14695981039346656037ULL;
     while (lesson.due() != nullptr && state.tick < 30'000) {
         const servo::TickInput input = hand.act(setup, state, lesson);
-        CHECK(input.guide == (guides ? static_cast<int>(lesson.due()->joint) : -1));
+        CHECK(input.guided_joint == (guides ? static_cast<int>(lesson.due()->joint) : -1));
         const auto* bytes = reinterpret_cast<const unsigned char*>(&input.commanded_tool);
         for (std::size_t i = 0; i < sizeof input.commanded_tool; ++i)
             hash = (hash ^ bytes[i]) * 1099511628211ULL;

@@ -26,7 +26,7 @@ session::Header header_of(bool guide = true) {
     session::Header header;
     header.dt = 0.001;
     header.mode = lesson::Mode::guided;
-    header.guide = guide;
+    header.guiding_force = guide;
     header.contact_models = "casing.glb";
     header.device_limits = force::OutputLimits{};
     header.servo_rate = 0.0;

@@ -86,7 +86,7 @@ TEST_CASE("Engagement: NaN, infinity and invalid quaternions engage nothing and 
         TickInput input;
         input.dead_man = true;
         input.grip = Grip::wrench;
-        input.guide = static_cast<std::int16_t>(i % 5 - 2);
+        input.guided_joint = static_cast<std::int16_t>(i % 5 - 2);
         for (float& x : input.commanded_tool.position) x = i % 2 == 0 ? nan : INFINITY;
         for (float& x : input.commanded_tool.orientation) x = i % 3 == 0 ? nan : i % 3 == 1 ? 0.0F : 1e30F;
         const Output output = tick(setup, state, input);

@@ -163,7 +163,7 @@ TEST_CASE("Servo: an empty hand is guided to the nut's centre with k over the di
         const NutGeometry& nut = held.setup.nuts[static_cast<std::size_t>(guide)];
         const Vec3 away = 0.1 * nut.axis + 0.01 * nut.e2;
         TickInput input = test::holding(Grip::none, test::tool_at(nut, nut_centre(nut, 0.0) + away, 0.0));
-        input.guide = guide;
+        input.guided_joint = guide;
         Output output;
         for (int i = 0; i < 250; ++i)
             output = tick(held.setup, held.state, input);  // the guiding force ramps up

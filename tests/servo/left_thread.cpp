@@ -98,7 +98,7 @@ class Hand {
         TickInput input =
             test::holding(case_.grip, test::tool_at(nut, nut_centre(nut, nut_angle) + off + tremor,
                                                     handle_ + 1e-4 * random_.normal(), case_.flipped));
-        input.guide = 0;
+        input.guided_joint = 0;
         input.set_torque = 60.0F;
         return input;
     }

@@ -24,7 +24,7 @@ TickInput scripted(const Setup& setup, const State& state, int i) {
     const double pull = i < 1500 ? 0.0 : std::min(i - 1500, 2000) / 2000.0 * to_radians(40.0);
     const Vec3 at = nut_centre(nut, state.joints[0].nut.angle) + nut.axis * height;
     TickInput input = test::holding(Grip::wrench, test::tool_at(nut, at, fits + pull));
-    input.guide = 0;
+    input.guided_joint = 0;
     return input;
 }
 

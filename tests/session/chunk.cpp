@@ -103,7 +103,7 @@ TEST_CASE("Chunk: values outside their enumeration are refused") {
     SUBCASE("grip") { ticks[1].grip = 3; }
     SUBCASE("stage") { ticks[1].stage = 4; }
     SUBCASE("joint") { ticks[1].joint = -2; }
-    SUBCASE("guide") { ticks[1].guide = -2; }
+    SUBCASE("guide") { ticks[1].guided_joint = -2; }
     SUBCASE("touched") { ticks[1].touched = collision::ObstacleId::fixed(max_fixed); }
     SUBCASE("fault") { ticks[1].fault = force::fault_kinds; }
     ChunkDecoder decoder;

@@ -37,7 +37,7 @@ std::vector<TickRecord> finite_ticks(std::size_t count) {
         for (float& value : tick.torque) value = any();
         tick.wrench_torque = any(), tick.nut_angle = any(), tick.clamp = any();
         tick.joint = static_cast<std::int16_t>(static_cast<int>(random.bits() % 4) - 1);
-        tick.guide = static_cast<std::int16_t>(static_cast<int>(random.bits() % 4) - 1);
+        tick.guided_joint = static_cast<std::int16_t>(static_cast<int>(random.bits() % 4) - 1);
         tick.touched = obstacle_of_number(static_cast<std::int16_t>(static_cast<int>(random.bits() % 4) - 1));
     }
     return ticks;
@@ -126,7 +126,7 @@ TEST_CASE("CSV export: an exported session reads back to the same ticks") {
         const char* const grips[] = {"none", "fingers", "wrench"};
         CHECK(row[8] == grips[tick.grip]);
         CHECK(row[9] == ((tick.flags & flag_dead_man) != 0 ? "1" : "0"));
-        CHECK(row[10] == joints[tick.guide + 1]);
+        CHECK(row[10] == joints[tick.guided_joint + 1]);
         CHECK(row[11] == joints[tick.joint + 1]);
         const char* const obstacles[] = {"", "housing", "a \"lid\", 盖", "#2"};
         CHECK(row[22] == std::to_string(tick.contacts));

@@ -18,7 +18,7 @@ TEST_CASE("Tick record: converting to a record and back returns the input") {
         input.stop = random.chance(0.5);
         input.reset = random.chance(0.5);
         input.missed = static_cast<std::uint8_t>(random.bits() % 16);
-        input.guide = static_cast<std::int16_t>(static_cast<int>(random.bits() % 20) - 1);
+        input.guided_joint = static_cast<std::int16_t>(static_cast<int>(random.bits() % 20) - 1);
         const TickRecord record = make_record(input, {});
         CHECK(is_valid(record));
         CHECK(session::test::same(make_record(input_of(record), {}), record));
@@ -28,7 +28,7 @@ TEST_CASE("Tick record: converting to a record and back returns the input") {
         CHECK(input_of(record).stop == input.stop);
         CHECK(input_of(record).reset == input.reset);
         CHECK(input_of(record).missed == input.missed);
-        CHECK(input_of(record).guide == input.guide);
+        CHECK(input_of(record).guided_joint == input.guided_joint);
     }
 }
 

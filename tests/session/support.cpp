@@ -21,7 +21,7 @@ TickRecord random_tick(Random& random) {
     for (float& value : tick.torque) value = any();
     tick.grip = static_cast<std::uint8_t>(random.bits() % 3);
     tick.flags = static_cast<std::uint8_t>(random.bits() % 256);
-    tick.guide = static_cast<std::int16_t>(static_cast<int>(random.bits() % 32769) - 1);
+    tick.guided_joint = static_cast<std::int16_t>(static_cast<int>(random.bits() % 32769) - 1);
     tick.joint = static_cast<std::int16_t>(static_cast<int>(random.bits() % 32769) - 1);
     tick.stage = static_cast<std::uint8_t>(random.bits() % joint::stage_count);
     tick.wrench_torque = any();
@@ -56,10 +56,10 @@ bool same(const TickRecord& a, const TickRecord& b) {
               equal(a.force[i], b.force[i]) && equal(a.torque[i], b.torque[i]);
     for (int i = 0; i < 4; ++i)
         all = all && equal(a.commanded_tool.orientation[i], b.commanded_tool.orientation[i]);
-    return all && a.grip == b.grip && a.flags == b.flags && a.guide == b.guide && a.joint == b.joint &&
-           a.stage == b.stage && a.contacts == b.contacts && a.touched == b.touched && a.fault == b.fault &&
-           a.checkpoint_action == b.checkpoint_action && equal(a.set_torque, b.set_torque) &&
-           a.tool == b.tool;
+    return all && a.grip == b.grip && a.flags == b.flags && a.guided_joint == b.guided_joint &&
+           a.joint == b.joint && a.stage == b.stage && a.contacts == b.contacts && a.touched == b.touched &&
+           a.fault == b.fault && a.checkpoint_action == b.checkpoint_action &&
+           equal(a.set_torque, b.set_torque) && a.tool == b.tool;
 }
 
 bool same(std::span<const TickRecord> a, std::span<const TickRecord> b) {
@@ -74,7 +74,8 @@ bool same(const Header& a, const Header& b) {
            a.assembly_text == b.assembly_text && a.variant == b.variant && a.law == b.law &&
            a.mode == b.mode && a.task == b.task && a.trainee_profile == b.trainee_profile &&
            a.seed == b.seed && std::bit_cast<std::uint64_t>(a.dt) == std::bit_cast<std::uint64_t>(b.dt) &&
-           a.program == b.program && a.guide == b.guide && a.contact_models == b.contact_models &&
+           a.program == b.program && a.guiding_force == b.guiding_force &&
+           a.contact_models == b.contact_models &&
            a.device_limits.has_value() == b.device_limits.has_value() &&
            (!a.device_limits || limits_text(*a.device_limits) == limits_text(*b.device_limits)) &&
            a.servo_rate == b.servo_rate && a.tool == b.tool && a.view_help == b.view_help &&
@@ -127,7 +128,7 @@ Header sample_header(double dt) {
     header.seed = 0xFFFF'FFFF'FFFF'FFFEULL;
     header.dt = dt;
     header.program = "boltwright 0.1.0";
-    header.guide = true;
+    header.guiding_force = true;
     header.contact_models = "cover.contact.glb 12 bytes, fnv1a 00000000075bcd15";
     header.device_limits = force::OutputLimits{};
     header.servo_rate = 4000.0;

@@ -96,7 +96,7 @@ TEST_CASE(
 
 TEST_CASE("An arm without torque: the hand holds the end of the tool in use") {
     Rig rig(small_arm());
-    servo::LessonTool longer = rig.setup.tools[0];
+    servo::ToolSetup longer = rig.setup.tools[0];
     longer.wrench.handle_length = 0.35;
     rig.setup.tools.push_back(longer);
     rig.ticks(100);

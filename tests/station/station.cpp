@@ -83,7 +83,7 @@ TEST_CASE("Station: a puck moves the tool, and every tick can be recorded in ord
     CHECK(station->setup().limits.force == 0.0);
     StationControls controls;
     controls.dead_man = true;
-    controls.guide = 1;
+    controls.guided_joint = 1;
     station->set_controls(controls);
     std::uint64_t number = 0, ticks = 0;
     bool in_order = true;
@@ -96,7 +96,7 @@ TEST_CASE("Station: a puck moves the tool, and every tick can be recorded in ord
             height = tick.input.commanded_tool.position[1];
         }
         return height > 0.4F && station->latest_tick().input.dead_man &&
-               station->latest_tick().input.guide == 1;
+               station->latest_tick().input.guided_joint == 1;
     }));
     CHECK(in_order);
     CHECK(station->lost_ticks() == 0);

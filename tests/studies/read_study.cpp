@@ -105,7 +105,7 @@ TEST_CASE("Studies: every member is read") {
     CHECK(b.hand == "free");
     CHECK(b.devices == std::vector<std::string>{"simulated-arm"});
     CHECK(b.force_scale == 0.5);
-    CHECK((b.view_help && !b.guide && study.conditions[0].lesson.guide));
+    CHECK((b.view_help && !b.guiding_force && study.conditions[0].lesson.guiding_force));
     CHECK_FALSE(study.conditions[2].lesson.view_help);
     CHECK(study.training->duration == 600.0);
     CHECK(study.training->lesson.mode == "practice");

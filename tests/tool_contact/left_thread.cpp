@@ -85,7 +85,7 @@ struct Pair {
         TickInput input;
         input.dead_man = true;
         input.grip = Grip::wrench;
-        input.guide = 0;
+        input.guided_joint = 0;
         input.set_torque = 15.0F;
         input.commanded_tool = to_commanded_tool(hand);
         TickInput image = input;

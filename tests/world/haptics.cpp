@@ -87,12 +87,12 @@ TEST_CASE("World: the guiding force is reported until a nut is held") {
     Bench bench;
     bench.input.commanded_tool =
         servo::to_commanded_tool({bench.setup.nuts[0].seat + Vec3(0.02, 0.03, 0.0), Quat(1, 0, 0, 0)});
-    bench.input.guide = 0;
+    bench.input.guided_joint = 0;
     for (int i = 0; i < 300; ++i) bench.tick();
     const world::GuidingForce& guide = bench.world.only<world::GuidingForce>();
     CHECK(guide.joint == 0);
     CHECK(glm::length(guide.force) > 0.0);
-    bench.input.guide = -1;
+    bench.input.guided_joint = -1;
     for (int i = 0; i < 3000; ++i) bench.tick();
     CHECK(guide.joint == -1);
     CHECK(glm::length(guide.force) < 1e-9);

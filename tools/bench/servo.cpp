@@ -43,7 +43,7 @@ constexpr double max_speed = 0.5, max_turn_speed = 3.0;  // m/s, rad/s: limits o
 struct MotionTarget {
     Pose to;
     double seconds = 0.0;
-    std::int16_t guide = -1;
+    std::int16_t guided_joint = -1;
 };
 
 Vec3 any_direction(Random& random) {
@@ -88,7 +88,7 @@ class MotionPlanner {
             const Vec3 up(now.position.x, high_, now.position.z),
                 over(first.position.x, high_, first.position.z);
             motions.push_back({{up, now.orientation}, 0.3});
-            motions.push_back({{over, first.orientation}, 0.5, task.front().guide});
+            motions.push_back({{over, first.orientation}, 0.5, task.front().guided_joint});
         }
         motions.insert(motions.end(), task.begin(), task.end());
         return motions;
@@ -250,7 +250,7 @@ std::vector<servo::TickInput> make_path(ServoFixture& servo, const DeviceModel& 
                 servo::TickInput input;
                 input.dead_man = true;
                 input.grip = servo::Grip::wrench;
-                input.guide = leg.guide;
+                input.guided_joint = leg.guided_joint;
                 input.commanded_tool = command_of(
                     trainees::step_deflection(impedance, arm, target, {output.force, output.torque},
                                               output.joint >= 0, dt),

@@ -82,7 +82,7 @@ ArmRig::ArmRig(TightenedAssembly& tightened_assembly, const RigOptions& options)
     inputs.mover.connection_number = 1;
     inputs.controls.dead_man = true;
     inputs.controls.grip = servo::Grip::wrench;
-    inputs.controls.guide = static_cast<std::int16_t>(options.guided_joint);
+    inputs.controls.guided_joint = static_cast<std::int16_t>(options.guided_joint);
     arm.parameters = parameters_of(facts, options.hand);
     for (int i = 0; i < 3; ++i) tick();  // the station takes the arm and the wrench
     arm.energy_to_hand = 0.0;
