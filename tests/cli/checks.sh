@@ -18,7 +18,13 @@ sanitized() { grep -q __asan_init "$bin/boltwright"; }
 check() {  # check 'property' command...
     local what=$1
     shift
-    if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $what"; fi
+    if "$@"; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: $what"
+        [[ ! -s log ]] || tail -5 log  # the output of the program that ran last in the background
+    fi
 }
 expect() {  # expect EXIT_CODE 'pattern of its output' command...
     local code=$1 pattern=$2 output status
